@@ -1,0 +1,24 @@
+"""Policies: a few weights in, smooth joint references out (eq. 3-4 of the paper). numpy only.
+
+kernels = GaussianKernels(kernels=16, variance=0.01)
+front = Group(leader=(0, 1, 2), followers=(Follower(joints=(3, 4, 5), signs=(1, 1, 1)),))
+hind = Group(leader=(6, 7, 8), followers=(Follower(joints=(9, 10, 11), signs=(1, 1, 1)),))
+policy = Policy(kernels, (front, hind), horizon=0.3, timestep=0.002)      # 2 x 3 x 16 = 96 weights
+reference = policy.reference(policy.hold(posture)[None])
+"""
+
+from levade.policies.groups import Follower, Group, independent_joints
+from levade.policies.kernels import GaussianKernels
+from levade.policies.policy import Policy, refine
+from levade.policies.smoothness import smoothness, smoothness_factor
+
+__all__ = [
+    "Follower",
+    "GaussianKernels",
+    "Group",
+    "Policy",
+    "independent_joints",
+    "refine",
+    "smoothness",
+    "smoothness_factor",
+]

@@ -1,0 +1,70 @@
+"""Which joints share a policy: "the same policy for the front and hind leg pairs" (the paper's rearing), as data."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from levade.errors import LevadeError
+from levade.trajectory import Array
+
+
+@dataclass(frozen=True)
+class Follower:
+    """A leg that copies the leader of its group.
+
+    joints: indices in the robot's joint order, in the order of the leader's joints.
+    signs: +1 or -1 per joint: angle of the follower = sign * angle of the leader.
+    """
+
+    joints: tuple[int, ...]
+    signs: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Group:
+    """Legs that move as one: the leader's joints have kernels and weights of their own, the followers' are mirrored.
+
+    leader: joint indices in the robot's joint order.
+    """
+
+    leader: tuple[int, ...]
+    followers: tuple[Follower, ...] = ()
+
+
+def independent_joints(joints: int) -> tuple[Group, ...]:
+    """Every joint on its own (the paper's posture recovery), in the robot's joint order."""
+    return (Group(leader=tuple(range(joints))),)
+
+
+def expansion(groups: Sequence[Group]) -> tuple[NDArray[np.intp], Array]:
+    """How the independent joints spread over all joints: ``all = sign * independent[index]``.
+
+    Independent joints are numbered group by group, in the order of each leader's joints.
+    Returns index (joints,) and sign (joints,). Raises LevadeError unless every joint belongs to exactly one leg.
+    """
+    owner: dict[int, tuple[int, float]] = {}
+    first = 0
+    for number, group in enumerate(groups):
+        legs = [(group.leader, (1.0,) * len(group.leader)), *((f.joints, f.signs) for f in group.followers)]
+        for leg, signs in legs:
+            if not len(leg) == len(signs) == len(group.leader):
+                raise LevadeError(
+                    f"group {number}: a leg has {len(leg)} joints and {len(signs)} signs, its leader"
+                    f" {len(group.leader)} joints; give one joint and one sign for each of the leader's"
+                )
+            for offset, (joint, sign) in enumerate(zip(leg, signs, strict=True)):
+                if sign not in (1, -1):
+                    raise LevadeError(f"group {number}: the sign of joint {joint} is {sign}; mirror signs are 1 or -1")
+                if joint in owner:
+                    raise LevadeError(f"group {number}: joint {joint} is already in a group; each joint goes in one")
+                owner[joint] = (first + offset, float(sign))
+        first += len(group.leader)
+    if not owner or sorted(owner) != list(range(len(owner))):
+        missing = sorted(set(range(max(owner, default=0) + 1)) - set(owner))
+        raise LevadeError(f"groups: joints {missing} are in no group; the groups together cover every joint, from 0 on")
+    index = np.array([owner[joint][0] for joint in range(len(owner))], dtype=np.intp)
+    return index, np.array([owner[joint][1] for joint in range(len(owner))])

@@ -1,0 +1,198 @@
+"""From weights to joint references (eq. 3), and back: weights that hold a posture, move between two, or copy a motion.
+
+Rows follow `levade.trajectory`: row k is the reference in force during step k, taken at ``(k + 1) * timestep``, the
+end of that step, so that the last row of the motion proper is the policy at the horizon T itself. In the hold the
+reference stays at its value at T and its velocity is zero.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from levade.errors import LevadeError
+from levade.policies.groups import Group, expansion
+from levade.policies.kernels import GaussianKernels
+from levade.trajectory import Array, JointReference
+
+# Singular values of the basis below this share of the largest are left out of a fit: with kernels that overlap almost
+# entirely they ask for huge weights of opposite sign to follow details that no kernel can show.
+FIT_CUTOFF = 1e-4
+LINE_CUTOFF = 1e-2
+
+
+@dataclass(frozen=True)
+class Policy:
+    """One kernel policy per independent joint, spread over the joints of the robot by the groups.
+
+    Weights are (n, size): per trial, independent joint by independent joint (`independent_joints` of them, group by
+    group in the order of each leader's joints), the ``kernels.kernels`` weights of that joint. A weight is a desired
+    angle of the leader's joint [rad], the paper's w_i.
+
+    horizon: T [s], rounded to a whole number of steps (at least one). timestep: [s]. hold_steps: rows after T.
+    Raises LevadeError if the groups do not cover every joint once, or a duration is not positive.
+    """
+
+    kernels: GaussianKernels
+    groups: tuple[Group, ...]
+    horizon: float
+    timestep: float
+    hold_steps: int = 0
+
+    def __post_init__(self) -> None:
+        for name, value in (("horizon", self.horizon), ("timestep", self.timestep)):
+            if not (math.isfinite(value) and value > 0):
+                raise LevadeError(f"{name}: {value} s is not a duration; give a positive number of seconds")
+        if self.hold_steps < 0:
+            raise LevadeError(f"hold_steps: {self.hold_steps} is negative; 0 for no hold")
+        expansion(self.groups)
+
+    @property
+    def horizon_steps(self) -> int:
+        return max(1, round(self.horizon / self.timestep))
+
+    @property
+    def joints(self) -> int:
+        """Joints of the robot."""
+        return len(self._expansion[0])
+
+    @property
+    def independent_joints(self) -> int:
+        """Joints that have weights of their own."""
+        return sum(len(group.leader) for group in self.groups)
+
+    @property
+    def size(self) -> int:
+        """d, the number of weights of one trial."""
+        return self.independent_joints * self.kernels.kernels
+
+    @cached_property
+    def basis(self) -> tuple[Array, Array]:
+        """Phi (horizon_steps, kernels) [-] and its time derivative [1/s], at the end of each step up to the horizon."""
+        steps = self.horizon_steps
+        return self.kernels.basis(np.arange(1, steps + 1, dtype=np.float64) * self.timestep, steps * self.timestep)
+
+    @cached_property
+    def _expansion(self) -> tuple[NDArray[np.intp], Array]:
+        return expansion(self.groups)
+
+    @cached_property
+    def _leaders(self) -> NDArray[np.intp]:
+        """(independent_joints,) the robot's joint behind each."""
+        return np.array([joint for group in self.groups for joint in group.leader], dtype=np.intp)
+
+    def reference(self, weights: Array, *, hold_steps: int | None = None) -> JointReference:
+        """What the weights ask of the joints (eq. 3).
+
+        weights: (n, size) [rad]. hold_steps: rows after the horizon, those of the policy unless given.
+        Returns position [rad] and velocity [rad/s], (n, horizon_steps + hold_steps, joints), C-contiguous.
+        A trial's bits depend on its own weights alone, not on the batch it is in; equal weights of a joint give exactly
+        that angle and exactly zero velocity; followers mirror their leader exactly.
+        Raises LevadeError if the weights have another shape or are not finite.
+        """
+        weights = self._checked(weights)
+        n, rows = weights.shape[0], self.horizon_steps
+        steps = rows + (self.hold_steps if hold_steps is None else hold_steps)
+        index, sign = self._expansion
+        w = weights.reshape(n, self.independent_joints, self.kernels.kernels)
+        # sum_i w_i Phi_i = w_1 + sum_i (w_i - w_1) Phi_i, as Phi sums to one: exact where all weights are equal
+        start = w[:, :, 0]
+        deviation = np.ascontiguousarray((w - start[:, :, None])[:, index].transpose(0, 2, 1))
+        phi, phi_rate = self.basis
+        position = np.empty((n, steps, self.joints))
+        velocity = np.empty((n, steps, self.joints))
+        # a stacked matmul is one product of the same shape per trial, whatever n: no bit depends on the batch
+        np.matmul(phi, deviation, out=position[:, :rows])
+        position[:, :rows] += start[:, None, index]
+        np.matmul(phi_rate, deviation, out=velocity[:, :rows])
+        # two columns of one product may differ in the last bit even where their weights agree, so followers are copied
+        for joint, leader in enumerate(self._leaders[index]):
+            if joint != leader:
+                np.multiply(position[:, :rows, leader], sign[joint], out=position[:, :rows, joint])
+                np.multiply(velocity[:, :rows, leader], sign[joint], out=velocity[:, :rows, joint])
+        position[:, rows:] = position[:, rows - 1 : rows]
+        velocity[:, rows:] = 0.0
+        return JointReference(position, velocity, self.timestep, rows)
+
+    def hold(self, posture: ArrayLike) -> Array:
+        """Weights that keep a posture (the paper's start for rearing).
+
+        posture: (joints,) [rad]. Returns (size,) [rad]. Where legs share a policy the posture need not be mirrored:
+        each independent joint takes the mean of the leader's angle and its followers', mirrored back.
+        """
+        return np.repeat(self.project(self._posture(posture)), self.kernels.kernels)
+
+    def interpolate(self, start: ArrayLike, goal: ArrayLike) -> Array:
+        """Weights of the straight line from one posture to another (the paper's start for posture recovery).
+
+        start, goal: (joints,) [rad], at t = 0 and t = T, taken onto the groups as `hold` does.
+        Returns (size,) [rad]: a least-squares fit to the line over the steps that keeps the weights near it too, see
+        `fit`. With 16 kernels of variance 0.01, normalised, the reference strays from the line by less than 0.5 %
+        of the way, and the outermost weights overshoot it by a sixth of the way. Wider kernels overshoot more: by
+        the whole way for 0.01 s^2 at T = 0.3 s.
+        """
+        first, last = self._posture(start), self._posture(goal)
+        share = np.arange(1, self.horizon_steps + 1) / self.horizon_steps
+        return self.fit((first + share[:, None] * (last - first))[None], cutoff=LINE_CUTOFF)[0]
+
+    def fit(self, position: Array, *, cutoff: float = FIT_CUTOFF) -> Array:
+        """Weights whose reference is nearest to given joint motions, in the least-squares sense over the steps.
+
+        position: (n, horizon_steps, joints) [rad], rows at the end of each step. Returns (n, size) [rad].
+        cutoff: directions of the basis weaker than this share of its strongest are not used; larger is tamer, less
+        exact. Of all weights that do about equally well, those nearest to the motion sampled at the kernel means are
+        returned: kernels that overlap widely would otherwise ask for weights far outside the motion.
+        """
+        position = np.asarray(position, dtype=np.float64)
+        if position.ndim != 3 or position.shape[1:] != (self.horizon_steps, self.joints):
+            raise LevadeError(f"position: expected (n, {self.horizon_steps}, {self.joints}), got {position.shape}")
+        leader = self.project(position).transpose(0, 2, 1)
+        rows = np.clip(np.round(self.kernels.means * self.horizon_steps).astype(int) - 1, 0, None)
+        sampled = leader[:, :, rows]
+        deviation = sampled - sampled[:, :, :1]
+        missed = leader - sampled[:, :, :1] - deviation @ self.basis[0].T
+        return (sampled + missed @ np.linalg.pinv(self.basis[0], rcond=cutoff).T).reshape(len(position), self.size)
+
+    def project(self, angles: Array) -> Array:
+        """(..., joints) angles [rad] to (..., independent_joints): each leader's angle and its followers', averaged."""
+        index, sign = self._expansion
+        mirrored = angles * sign
+        leaders = [mirrored[..., index == i] for i in range(self.independent_joints)]
+        # the mean as first + mean deviation: exact where the legs agree
+        return np.stack([a[..., 0] + (a - a[..., :1]).mean(axis=-1) for a in leaders], axis=-1)
+
+    def _posture(self, posture: ArrayLike) -> Array:
+        angles = np.asarray(posture, dtype=np.float64)
+        if angles.shape != (self.joints,) or not np.isfinite(angles).all():
+            raise LevadeError(f"posture: expected {self.joints} finite angles, got {angles.tolist()}")
+        return angles
+
+    def _checked(self, weights: Array) -> Array:
+        weights = np.asarray(weights, dtype=np.float64)
+        if weights.ndim != 2 or weights.shape[1] != self.size:
+            raise LevadeError(
+                f"weights: expected (n, {self.size}), {self.independent_joints} joints x {self.kernels.kernels}"
+                f" kernels, got {weights.shape}" + ("; add an axis: weights[None]" if weights.ndim == 1 else "")
+            )
+        if not np.isfinite(weights).all():
+            bad = np.flatnonzero(~np.isfinite(weights).all(axis=1)).tolist()
+            raise LevadeError(f"weights: trials {bad} are not finite; give finite angles in rad")
+        return weights
+
+
+def refine(weights: Array, old: Policy, new: Policy) -> Array:
+    """Weights of another basis, as a rule with more kernels, that best reproduce the same references.
+
+    weights: (n, old.size) [rad]. Returns (n, new.size) [rad]. The groups may differ too. See `Policy.fit`.
+    Raises LevadeError unless both policies have the same joints, horizon and timestep.
+    """
+    if (old.joints, old.horizon_steps, old.timestep) != (new.joints, new.horizon_steps, new.timestep):
+        raise LevadeError(
+            f"refine: {old.joints} joints, {old.horizon_steps} steps of {old.timestep} s to {new.joints} joints,"
+            f" {new.horizon_steps} steps of {new.timestep} s; both policies need the same"
+        )
+    return new.fit(old.reference(weights, hold_steps=0).position)
