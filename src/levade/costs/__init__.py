@@ -1,0 +1,49 @@
+"""Costs: what a trial achieved and what it took, as terms over Trajectories (eq. 5-7 of the paper). numpy only.
+
+    terms = {
+        "orientation": Orientation(pitch=-1.0472),
+        "position": Position(z=0.9),
+        "effort": Effort(),
+        "joint_limits": JointLimitExcess(),
+        "quiet": lambda trajectories: abs(trajectories.joint_velocity).max(axis=(1, 2)),
+    }
+    values = evaluate(terms, trajectories)                                    # name -> (n,), unweighted
+    cost = total(values, {"orientation": 1e3, "position": 1e2, "effort": 0.1, "joint_limits": 1, "quiet": 0})
+    won = Criterion("pitch", target=-1.0472, tolerance=0.05).holds(trajectories)
+
+A term is anything that takes Trajectories and returns one number per trial, unweighted, in the term's own unit.
+"""
+
+from levade.costs.contact import GroundContact
+from levade.costs.effort import Effort
+from levade.costs.evaluate import DIVERGED, HIGHEST, Term, evaluate, total
+from levade.costs.limits import JointLimitExcess, ReferenceLimitExcess, SpeedLimitExcess, TorqueLimitExcess
+from levade.costs.orientation import Orientation
+from levade.costs.position import Position
+from levade.costs.posture import Posture
+from levade.costs.success import Criterion, Quantity, errors, success
+from levade.costs.velocity import AngularVelocity, JointVelocity, LinearVelocity
+
+__all__ = [
+    "DIVERGED",
+    "HIGHEST",
+    "AngularVelocity",
+    "Criterion",
+    "Effort",
+    "GroundContact",
+    "JointLimitExcess",
+    "JointVelocity",
+    "LinearVelocity",
+    "Orientation",
+    "Position",
+    "Posture",
+    "Quantity",
+    "ReferenceLimitExcess",
+    "SpeedLimitExcess",
+    "Term",
+    "TorqueLimitExcess",
+    "errors",
+    "evaluate",
+    "success",
+    "total",
+]

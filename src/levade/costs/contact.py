@@ -1,0 +1,54 @@
+"""What touches the ground that should not."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from levade.costs.rows import Over, integral, rows_over
+from levade.errors import LevadeError, did_you_mean
+from levade.trajectory import Array, Trajectories
+
+# Below this [N] a contact exists in the solver's rounding only.
+CONTACT_FORCE = 1e-9
+
+
+@dataclass(frozen=True)
+class GroundContact:
+    """Contact of the named bodies with the ground and the obstacles, summed over the bodies.
+
+    measure: "time" in contact [s], each body on its own, or the "impulse" of the contact forces [Ns], which also tells
+        a touch from a blow.
+    over: the motion proper, or the hold as well.
+    Raises LevadeError if the contact force of a body was not recorded.
+    """
+
+    unit: ClassVar[str] = "s, or Ns for the impulse"
+
+    bodies: tuple[str, ...]
+    measure: Literal["time", "impulse"] = "time"
+    over: Over = "horizon"
+
+    def __post_init__(self) -> None:
+        if not self.bodies:
+            raise LevadeError("ground_contact.bodies: no bodies; name those that should stay off the ground")
+        if self.measure not in ("time", "impulse"):
+            raise LevadeError(f"ground_contact.measure: {self.measure!r} is unknown; time or impulse")
+
+    def __call__(self, trajectories: Trajectories) -> Array:
+        """(n,) [s] or [Ns]."""
+        rows = rows_over(trajectories, self.over)
+        total = np.zeros(trajectories.n)
+        for body in self.bodies:
+            recorded = trajectories.body_contact_force
+            if body not in recorded:
+                hint = did_you_mean(body, recorded) if recorded else "no body's contact force was recorded"
+                raise LevadeError(f"ground_contact.bodies: the contact force of {body} was not recorded; {hint}")
+            force = recorded[body][:, rows]
+            if self.measure == "time":
+                # a force that is not a number must not pass for no contact
+                force = np.where(np.isfinite(force), force > CONTACT_FORCE, np.nan)
+            total += integral(force, trajectories.timestep)
+        return total

@@ -1,0 +1,42 @@
+"""What the motion takes out of the actuators (eq. 6, first part)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from levade.costs.rows import Over, integral, rows_over
+from levade.errors import LevadeError
+from levade.trajectory import Array, Trajectories
+
+
+@dataclass(frozen=True)
+class Effort:
+    """Squared joint torque, summed over the joints and integrated over the motion.
+
+    normalised: torques as a share of each joint's constant limit, then [s]: n joints at their limits all the time cost
+        n * T. Otherwise in [Nm], then [Nm^2 s]. The paper does not say which its tau is.
+    over: the motion proper, or the hold as well.
+    Raises LevadeError if normalised and a joint has no torque limit.
+    """
+
+    unit: ClassVar[str] = "s, or Nm^2 s where not normalised"
+
+    normalised: bool = True
+    over: Over = "horizon"
+
+    def __call__(self, trajectories: Trajectories) -> Array:
+        """(n,) [s], or [Nm^2 s] where not normalised."""
+        torque = trajectories.joint_torque[:, rows_over(trajectories, self.over)]
+        if self.normalised:
+            limit = trajectories.limits.torque
+            unlimited = np.flatnonzero(~(np.isfinite(limit) & (limit > 0))).tolist()
+            if unlimited:
+                raise LevadeError(
+                    f"effort: joints {unlimited} have no finite, positive torque limit to normalise by;"
+                    " give the robot torque limits, or say normalised: false"
+                )
+            torque = torque / limit
+        return integral(torque * torque, trajectories.timestep)

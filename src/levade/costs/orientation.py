@@ -1,0 +1,141 @@
+"""How far the trunk is from a required orientation (eq. 7, first part).
+
+The paper subtracts roll, pitch and yaw. Those angles jump where the motions of interest go: at pitch = +-90 degrees,
+and when the robot goes over. Here each choice of required angles is measured by a rotation angle that is continuous
+there, and equals the paper's difference to first order near the target: for several angles at once if the target is
+level (elsewhere roll and yaw are no independent rotations, and their plain differences measure none).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import ClassVar
+
+import numpy as np
+
+from levade.costs.rows import At, check_target, mean_over_rows, rows_at
+from levade.trajectory import Array, Trajectories, roll_pitch_yaw
+
+
+@dataclass(frozen=True)
+class Orientation:
+    """Squared angle [rad^2] between the trunk's orientation and the required one; angles left out are free.
+
+    roll, pitch, yaw: required angles [rad], intrinsic z-y-x; nose up is negative pitch. Pitch may go beyond +-pi/2.
+    at: when; over the hold it is the mean.
+
+    - roll, pitch and yaw: the angle of the one rotation that takes the trunk to the goal (geodesic distance on SO(3)).
+    - roll and pitch: the smallest such angle over all yaws, which is the angle between the world's up as the trunk sees
+      it and as it would see it at the goal. Upside down is pi away from level, by whichever way the robot got there.
+    - pitch and yaw: the smallest over all rotations about the trunk's x axis: the angle between the nose directions.
+    - pitch: difference of the z-y-x pitch while the trunk's top looks up (abs(roll) <= pi/2). Beyond, the z-y-x pitch
+      runs backwards: a robot that fell over backwards to -120 degrees reads -60 degrees, roll 180. So there the squared
+      difference goes over, in the share -cos(roll), to that of the pitch counted on past the vertical (-120 degrees):
+      upside down is not mistaken for the goal, and nothing jumps on the way. Lying on the side is free, as roll is.
+    - roll, yaw, or both: wrapped differences of the z-y-x angles. These are not unique at pitch = +-pi/2: for motions
+      that pass there, ask for pitch too.
+    """
+
+    unit: ClassVar[str] = "rad^2"
+
+    roll: float | None = None
+    pitch: float | None = None
+    yaw: float | None = None
+    at: At = "horizon"
+
+    def __post_init__(self) -> None:
+        check_target("orientation", roll=self.roll, pitch=self.pitch, yaw=self.yaw)
+
+    @cached_property
+    def _goal(self) -> Array:
+        return quaternion_from_roll_pitch_yaw(self.roll or 0.0, self.pitch or 0.0, self.yaw or 0.0)
+
+    def __call__(self, trajectories: Trajectories) -> Array:
+        """(n,) [rad^2]."""
+        quaternion = trajectories.trunk_quaternion[:, rows_at(trajectories, self.at)]
+        return mean_over_rows(self._squared(quaternion))
+
+    def _squared(self, quaternion: Array) -> Array:
+        """(..., 4) to (...)."""
+        roll, pitch, yaw = (angle is not None for angle in (self.roll, self.pitch, self.yaw))
+        if roll and pitch and yaw:
+            return geodesic(quaternion, self._goal) ** 2
+        if roll and pitch:
+            return angle_between(world_up(quaternion), world_up(self._goal)) ** 2
+        if pitch and yaw:
+            return angle_between(nose(quaternion), nose(self._goal)) ** 2
+        if self.pitch is not None:
+            up = world_up(quaternion)
+            upright = _zyx_pitch(up)
+            level = np.hypot(up[..., 1], up[..., 2])
+            # 0 while the top looks up, 1 at roll = 180 degrees; irrelevant where the nose is vertical: both agree
+            over = np.maximum(0.0, -up[..., 2]) / np.maximum(level, np.finfo(float).tiny)
+            return (1.0 - over) * wrap(upright - self.pitch) ** 2 + over * wrap(math.pi - upright - self.pitch) ** 2
+        angles = roll_pitch_yaw(quaternion)
+        squares = np.zeros(quaternion.shape[:-1])
+        for i, goal in ((0, self.roll), (2, self.yaw)):
+            if goal is not None:
+                squares += wrap(angles[..., i] - goal) ** 2
+        return squares
+
+
+def wrap(angle: Array) -> Array:
+    """Angles [rad] to [-pi, pi)."""
+    return (angle + math.pi) % (2 * math.pi) - math.pi
+
+
+def geodesic(a: Array, b: Array) -> Array:
+    """Angle [rad], 0 to pi, of the rotation between the attitudes of two quaternions (..., 4), exact near 0 and near
+    pi.
+
+    Norm of the rotation vector log(B'A). Half that angle lies between the quaternions as vectors, up to their sign.
+    """
+    difference, total = np.linalg.norm(a - b, axis=-1), np.linalg.norm(a + b, axis=-1)
+    return 4.0 * np.arctan2(np.minimum(difference, total), np.maximum(difference, total))
+
+
+def angle_between(a: Array, b: Array) -> Array:
+    """Angle [rad], 0 to pi, between unit vectors (..., 3), exact near 0 and near pi."""
+    return 2.0 * np.arctan2(np.linalg.norm(a - b, axis=-1), np.linalg.norm(a + b, axis=-1))
+
+
+def world_up(quaternion: Array) -> Array:
+    """(..., 4) to (..., 3): the world's up in trunk axes, the third row of the rotation matrix."""
+    w, x, y, z = np.moveaxis(quaternion, -1, 0)
+    return np.stack([2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)], axis=-1)
+
+
+def nose(quaternion: Array) -> Array:
+    """(..., 4) to (..., 3): the trunk's x axis in the world, the first column of the rotation matrix."""
+    w, x, y, z = np.moveaxis(quaternion, -1, 0)
+    return np.stack([1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)], axis=-1)
+
+
+def pitch_past_vertical(quaternion: Array) -> Array:
+    """(..., 4) to (...): pitch [rad] in [-pi, pi), counted on past the vertical where the trunk's top looks down.
+
+    The z-y-x pitch while abs(roll) <= pi/2. A robot that rears past the vertical goes continuously from -89 to -91
+    degrees; it jumps only where the trunk rolls past its side. Upside down and level is +-pi.
+    """
+    up = world_up(quaternion)
+    upright = _zyx_pitch(up)
+    return wrap(np.where(up[..., 2] >= 0, upright, math.pi - upright))
+
+
+def _zyx_pitch(up: Array) -> Array:
+    return np.arctan2(-up[..., 0], np.hypot(up[..., 1], up[..., 2]))
+
+
+def quaternion_from_roll_pitch_yaw(roll: float, pitch: float, yaw: float) -> Array:
+    """(4,) w-x-y-z of intrinsic z-y-x angles [rad]."""
+    (cr, cp, cy), (sr, sp, sy) = ([f(a / 2) for a in (roll, pitch, yaw)] for f in (math.cos, math.sin))
+    return np.array(
+        [
+            cr * cp * cy + sr * sp * sy,
+            sr * cp * cy - cr * sp * sy,
+            cr * sp * cy + sr * cp * sy,
+            cr * cp * sy - sr * sp * cy,
+        ]
+    )

@@ -1,0 +1,32 @@
+"""How far the trunk is from a required place (eq. 7, second part)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from levade.costs.rows import At, check_target, rows_at, squared_distance
+from levade.trajectory import Array, Trajectories
+
+
+@dataclass(frozen=True)
+class Position:
+    """Squared distance [m^2] of the trunk's centre of mass from the required place; coordinates left out are free.
+
+    x, y, z: [m], world axes. at: when; over the hold it is the mean.
+    """
+
+    unit: ClassVar[str] = "m^2"
+
+    x: float | None = None
+    y: float | None = None
+    z: float | None = None
+    at: At = "horizon"
+
+    def __post_init__(self) -> None:
+        check_target("position", x=self.x, y=self.y, z=self.z)
+
+    def __call__(self, trajectories: Trajectories) -> Array:
+        """(n,) [m^2]."""
+        position = trajectories.trunk_com_position(rows_at(trajectories, self.at))
+        return squared_distance(position, (self.x, self.y, self.z))

@@ -1,0 +1,72 @@
+"""Which rows of the trajectories a term looks at, and the checks that all terms share."""
+
+from __future__ import annotations
+
+import math
+from typing import Literal
+
+import numpy as np
+
+from levade.errors import LevadeError
+from levade.trajectory import Array, Trajectories
+
+At = Literal["horizon", "end", "hold"]
+"""When a terminal term looks: at the horizon T, in the last row (the end of the hold), or over the whole hold."""
+
+Over = Literal["horizon", "all"]
+"""What a running term integrates over: the motion proper, [0, T], or the hold as well."""
+
+
+def rows_at(trajectories: Trajectories, at: At) -> slice:
+    """The rows of a terminal term, one for "horizon" and "end". LevadeError for "hold" where there is none."""
+    if at == "horizon":
+        return slice(trajectories.horizon_steps - 1, trajectories.horizon_steps)
+    if at == "end":
+        return slice(trajectories.steps - 1, trajectories.steps)
+    if at != "hold":
+        raise LevadeError(f"at: {at!r} is unknown; horizon, end or hold")
+    if trajectories.steps == trajectories.horizon_steps:
+        raise LevadeError("at: hold, but the motion ends at its horizon; give the task a hold, or say at: horizon")
+    return slice(trajectories.horizon_steps, trajectories.steps)
+
+
+def rows_over(trajectories: Trajectories, over: Over) -> slice:
+    """The rows of a running term."""
+    if over not in ("horizon", "all"):
+        raise LevadeError(f"over: {over!r} is unknown; horizon or all")
+    return slice(0, trajectories.horizon_steps if over == "horizon" else trajectories.steps)
+
+
+def integral(rate: Array, timestep: float) -> Array:
+    """(n, rows, ...) to (n,): summed over all but the trials, times the time step [s].
+
+    Each trial's sum is over its own contiguous row, so that its bits do not depend on the batch it is in.
+    """
+    return np.ascontiguousarray(rate).reshape(len(rate), -1).sum(axis=1) * timestep
+
+
+def squared_distance(values: Array, target: tuple[float | None, ...]) -> Array:
+    """Mean over the rows of the squared distance to the target, in the components that have one.
+
+    values: (n, rows, components). Returns (n,).
+    """
+    # one by one: numpy's own sum takes another order for a single trial, and would change its last bit
+    squares = np.zeros(values.shape[:-1])
+    for i, required in enumerate(target):
+        if required is not None:
+            squares += (values[..., i] - required) ** 2
+    return mean_over_rows(squares)
+
+
+def mean_over_rows(values: Array) -> Array:
+    """(n, rows) to (n,)."""
+    return np.ascontiguousarray(values).mean(axis=1)
+
+
+def check_target(term: str, **target: float | None) -> None:
+    """LevadeError unless at least one of the targets is given and all that are given are finite."""
+    if all(value is None for value in target.values()):
+        raise LevadeError(f"{term}: no target; give at least one of {', '.join(target)}")
+    for name, value in target.items():
+        if value is not None and not math.isfinite(value):
+            raise LevadeError(f"{term}.{name}: {value} is not finite; leave it out where it is free")

@@ -1,0 +1,149 @@
+"""Whether a trial did what was required, in SI units, apart from what it cost."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from levade.costs.evaluate import DIVERGED
+from levade.costs.orientation import angle_between, pitch_past_vertical, world_up, wrap
+from levade.costs.rows import rows_at
+from levade.errors import LevadeError, did_you_mean
+from levade.trajectory import Array, Trajectories, roll_pitch_yaw
+
+Quantity = Literal[
+    "roll", "pitch", "yaw", "tilt", "x", "y", "height", "speed", "vertical_speed", "angular_speed"
+]  # fmt: skip
+
+QUANTITIES: dict[str, str] = {
+    "roll": "rad",
+    "pitch": "rad",
+    "yaw": "rad",
+    "tilt": "rad",
+    "x": "m",
+    "y": "m",
+    "height": "m",
+    "speed": "m/s",
+    "vertical_speed": "m/s",
+    "angular_speed": "rad/s",
+}
+"""Quantity -> unit."""
+
+CIRCULAR = ("roll", "pitch", "yaw")
+
+
+@dataclass(frozen=True)
+class Criterion:
+    """One thing that a motion has to achieve: a target within a tolerance, or a minimum and/or a maximum.
+
+    quantity: what, of the trunk:
+        roll, yaw [rad]: z-y-x angles; not unique at pitch = +-pi/2, so use tilt for motions that end near there.
+        pitch [rad]: z-y-x, nose up negative, but counted on past the vertical where the trunk's top looks down, so
+            that a robot on its back never passes for one on its feet (`levade.costs.orientation.pitch_past_vertical`).
+        tilt [rad]: angle between the trunk's up and the world's, 0 to pi.
+        x, y, height [m]: of its centre of mass, world axes.
+        speed, vertical_speed [m/s]: of its centre of mass: norm, and upward component, of the velocity.
+        angular_speed [rad/s]: norm of the angular velocity.
+    target, tolerance: required value, and the distance from it that still counts. Angles wrap.
+    minimum, maximum: required bounds, instead of a target.
+    at: at the horizon T; at the end; the largest ("max") or smallest ("min") value of the whole trial, hold included;
+        or at every row of the hold ("hold": the error is that of the worst row).
+    """
+
+    quantity: Quantity
+    target: float | None = None
+    tolerance: float | None = None
+    minimum: float | None = None
+    maximum: float | None = None
+    at: Literal["horizon", "end", "max", "min", "hold"] = "horizon"
+
+    def __post_init__(self) -> None:
+        if self.quantity not in QUANTITIES:
+            raise LevadeError(f"success: {self.quantity} is not a quantity; {did_you_mean(self.quantity, QUANTITIES)}")
+        where = f"success.{self.quantity}"
+        if self.at not in ("horizon", "end", "max", "min", "hold"):
+            raise LevadeError(f"{where}.at: {self.at!r} is unknown; horizon, end, max, min or hold")
+        for name in ("target", "tolerance", "minimum", "maximum"):
+            value = getattr(self, name)
+            if value is not None and not math.isfinite(value):
+                raise LevadeError(f"{where}.{name}: {value} is not finite; leave it out where there is none")
+        bounded = self.minimum is not None or self.maximum is not None
+        if bounded == (self.target is not None):
+            raise LevadeError(f"{where}: give either a target and a tolerance, or a minimum and/or a maximum")
+        if (self.tolerance is None) != (self.target is None):
+            raise LevadeError(f"{where}: a target goes with a tolerance, and only a target does")
+        if self.tolerance is not None and self.tolerance < 0:
+            raise LevadeError(f"{where}.tolerance: {self.tolerance} is negative; 0 or more")
+        if self.minimum is not None and self.maximum is not None and self.minimum > self.maximum:
+            raise LevadeError(f"{where}: the minimum {self.minimum} is above the maximum {self.maximum}")
+
+    def error(self, trajectories: Trajectories) -> Array:
+        """(n,) in the quantity's SI unit: value - target, wrapped for angles, or what is beyond a bound (signed, else
+        0).
+
+        Always finite: `levade.costs.DIVERGED` for trials that diverged.
+        """
+        with np.errstate(all="ignore"):  # of broken trials, see below
+            error = self._error(trajectories)
+            bad = trajectories.diverged | ~np.isfinite(error)
+            return np.where(bad, DIVERGED, np.clip(error, -DIVERGED, DIVERGED))
+
+    def holds(self, trajectories: Trajectories) -> NDArray[np.bool_]:
+        """(n,) whether each trial meets the criterion; never one that diverged."""
+        return self.met(self.error(trajectories))
+
+    def met(self, error: Array) -> NDArray[np.bool_]:
+        """Whether errors, as `error` returns them, are within the tolerance; none is allowed beyond a bound."""
+        return np.abs(error) <= (self.tolerance or 0.0)
+
+    def _error(self, trajectories: Trajectories) -> Array:
+        if self.at in ("max", "min"):
+            value = quantity_values(self.quantity, trajectories, slice(None))
+            value = value.max(axis=1) if self.at == "max" else value.min(axis=1)
+            return self._deviation(value)
+        error = self._deviation(quantity_values(self.quantity, trajectories, rows_at(trajectories, self.at)))
+        worst = np.argmax(np.abs(error), axis=1)[:, None]
+        return np.take_along_axis(error, worst, axis=1)[:, 0]
+
+    def _deviation(self, value: Array) -> Array:
+        if self.target is not None:
+            return wrap(value - self.target) if self.quantity in CIRCULAR else value - self.target
+        low = -np.inf if self.minimum is None else self.minimum
+        high = np.inf if self.maximum is None else self.maximum
+        return value - np.clip(value, low, high)
+
+
+def quantity_values(quantity: Quantity, trajectories: Trajectories, rows: slice) -> Array:
+    """(n, rows) of a quantity, in its SI unit, as `Criterion` says."""
+    if quantity in ("x", "y", "height"):
+        return trajectories.trunk_com_position(rows)[..., ("x", "y", "height").index(quantity)]
+    if quantity == "vertical_speed":
+        return trajectories.trunk_com_velocity(rows)[..., 2]
+    if quantity == "speed":
+        return np.linalg.norm(trajectories.trunk_com_velocity(rows), axis=-1)
+    if quantity == "angular_speed":
+        return np.linalg.norm(trajectories.trunk_angular_velocity[:, rows], axis=-1)
+    quaternion = trajectories.trunk_quaternion[:, rows]
+    if quantity == "pitch":
+        return pitch_past_vertical(quaternion)
+    if quantity == "tilt":
+        return angle_between(world_up(quaternion), np.array([0.0, 0.0, 1.0]))
+    return roll_pitch_yaw(quaternion)[..., 0 if quantity == "roll" else 2]
+
+
+def errors(criteria: Mapping[str, Criterion], trajectories: Trajectories) -> dict[str, Array]:
+    """Error of each criterion: name -> (n,), see `Criterion.error`."""
+    return {name: criterion.error(trajectories) for name, criterion in criteria.items()}
+
+
+def success(criteria: Mapping[str, Criterion], trajectories: Trajectories) -> NDArray[np.bool_]:
+    """(n,) whether each trial meets every criterion. Without criteria every trial does that did not diverge."""
+    met = ~trajectories.diverged
+    for criterion in criteria.values():
+        met = met & criterion.holds(trajectories)
+    return met
