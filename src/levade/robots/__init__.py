@@ -1,0 +1,15 @@
+"""Robots: model, legs, joint order, limits, actuators, postures, mirror signs; built-in robots as data.
+
+    robot = load_robot("hyq2max")
+    robot = load_robot("my/robot.yaml", actuation="ideal", kp=400)
+
+A robot is one YAML file beside its model. ``data/hyq2max/robot.yaml`` is the example to copy;
+`levade.robots.description` says what each key means.
+"""
+
+from levade.robots.actuation import PID, Actuation, DCMotor
+from levade.robots.loading import builtin_robots, load_robot
+from levade.robots.robot import Leg, Robot
+from levade.robots.symmetry import mirror_signs
+
+__all__ = ["PID", "Actuation", "DCMotor", "Leg", "Robot", "builtin_robots", "load_robot", "mirror_signs"]

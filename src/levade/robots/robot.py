@@ -1,0 +1,164 @@
+"""The robot: model, legs, joint order, limits, actuators, postures.
+
+    robot = load_robot("hyq2max")
+    spec = robot.spec()                     # with actuators, without ground
+    robot.joint_names                       # ("lf_haa", "lf_hfe", "lf_kfe", "rf_haa", ...)
+    robot.postures["neutral"]               # (12,) [rad], in that order
+
+Joint order is that of the legs, each from the trunk outward; every array over joints follows it. Nothing says that the
+model's own order is the same: look joints up by name (``model.joint(name).qposadr``). Actuators are attached in joint
+order and take two controls each, position and velocity, interleaved.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import mujoco
+import numpy as np
+
+from levade.errors import LevadeError, did_you_mean
+from levade.robots.actuation import Actuation
+from levade.trajectory import Array, JointLimits
+
+
+@dataclass(frozen=True)
+class Leg:
+    """One leg.
+
+    joints: names from the trunk outward. foot: name of the geom that stands on the ground. side: "left" or "right".
+    end: "front" or "hind".
+    """
+
+    name: str
+    joints: tuple[str, ...]
+    foot: str
+    side: str
+    end: str
+
+
+@dataclass(frozen=True, eq=False)
+class Robot:
+    """A legged robot, ready to be put into a scene.
+
+    mjcf: MJCF text, one free joint on the trunk, no actuators, no ground. assets: file name in ``mjcf`` -> content.
+    trunk: body name. limits: in joint order. actuation: the chosen one.
+    postures: name -> (joints,) [rad], always with "neutral".
+    variant: name of the description's variant, None for the plain model.
+    linkage: whether ``limits`` has the linkage's torque curves. source: the description's path, for messages.
+    """
+
+    name: str
+    mjcf: str = field(repr=False)
+    assets: Mapping[str, bytes] = field(repr=False)
+    trunk: str
+    legs: tuple[Leg, ...]
+    limits: JointLimits
+    actuation: Actuation
+    postures: Mapping[str, Array]
+    description: str = ""
+    variant: str | None = None
+    linkage: bool = False
+    source: str = ""
+
+    @property
+    def joint_names(self) -> tuple[str, ...]:
+        """The robot's joint order: the legs' joints, one leg after the other."""
+        return tuple(joint for leg in self.legs for joint in leg.joints)
+
+    @property
+    def feet(self) -> tuple[str, ...]:
+        """Geom names of the feet, in leg order."""
+        return tuple(leg.foot for leg in self.legs)
+
+    def leg(self, name: str) -> Leg:
+        """The leg of that name; `LevadeError` if there is none."""
+        for leg in self.legs:
+            if leg.name == name:
+                return leg
+        raise LevadeError(f"robot {self.name}: no leg {name!r}; {did_you_mean(name, [leg.name for leg in self.legs])}")
+
+    def posture(self, name: str) -> Array:
+        """(joints,) [rad], the posture of that name; `LevadeError` if there is none."""
+        if name not in self.postures:
+            raise LevadeError(f"robot {self.name}: no posture {name!r}; {did_you_mean(name, self.postures)}")
+        return self.postures[name].copy()
+
+    def joint_indices(self, leg: Leg) -> slice:
+        """Where the leg's joints are in arrays over joints."""
+        first = self.joint_names.index(leg.joints[0])
+        return slice(first, first + len(leg.joints))
+
+    def spec(self, *, gain_scale: float = 1.0, damping_scale: float = 1.0) -> mujoco.MjSpec:
+        """A fresh `mujoco.MjSpec` of the robot with its actuators, to be completed by a scene.
+
+        gain_scale: factor on kp and kd. damping_scale: factor on the passive damping of the joints.
+        ``to_xml()`` of it writes six digits, so simulate what was compiled from that text, not from the spec.
+        """
+        spec = mujoco.MjSpec.from_string(self.mjcf, assets=dict(self.assets))
+        self.actuation.attach(spec, self.joint_names, gain_scale=gain_scale)
+        if damping_scale != 1.0:
+            for name in self.joint_names:
+                joint = spec.joint(name)
+                joint.damping = np.asarray(joint.damping) * damping_scale
+        return spec
+
+    @cached_property
+    def model(self) -> mujoco.MjModel:
+        """The robot alone, compiled; for kinematics. Not to be changed."""
+        return mujoco.MjModel.from_xml_string(self.mjcf, dict(self.assets))
+
+    def data_at(self, joint_position: Array) -> mujoco.MjData:
+        """`mujoco.MjData` of `model` at (joints,) [rad], the trunk frame on the world frame, kinematics computed."""
+        data = mujoco.MjData(self.model)
+        data.qpos[:] = 0.0
+        data.qpos[self.model.jnt_qposadr[self._free_joint] + 3] = 1.0
+        for name, angle in zip(self.joint_names, joint_position, strict=True):
+            data.joint(name).qpos[0] = angle
+        mujoco.mj_kinematics(self.model, data)
+        mujoco.mj_comPos(self.model, data)
+        return data
+
+    def foot_positions(self, joint_position: Array) -> Array:
+        """(feet, 3) [m], centres of the foot geoms in the trunk frame, at (joints,) [rad]."""
+        data = self.data_at(joint_position)
+        return np.array([data.geom(foot).xpos for foot in self.feet])
+
+    def standing_height(self, posture: str = "neutral") -> float:
+        """[m], the trunk's origin above the lowest point of the feet, the trunk level."""
+        data = self.data_at(self.posture(posture))
+        return max(_depth(self.model, data, foot) for foot in self.feet)
+
+    @cached_property
+    def neutral_height(self) -> float:
+        """[m], `standing_height` of the neutral posture."""
+        return self.standing_height("neutral")
+
+    @cached_property
+    def mass(self) -> float:
+        """[kg], of the whole robot."""
+        return float(self.model.body_mass.sum())
+
+    @cached_property
+    def trunk_com_offset(self) -> Array:
+        """(3,) [m], centre of mass of the trunk alone in the trunk frame."""
+        return self.model.body(self.trunk).ipos.copy()
+
+    @property
+    def _free_joint(self) -> int:
+        return int(self.model.body(self.trunk).jntadr[0])
+
+
+def _depth(model: mujoco.MjModel, data: mujoco.MjData, geom: str) -> float:
+    """How far the geom reaches below the world's origin [m]: its bounding box does, unless a sphere or a capsule."""
+    i = model.geom(geom).id
+    rotation = data.geom_xmat[i].reshape(3, 3)
+    kind, size = model.geom_type[i], model.geom_size[i]
+    if kind == mujoco.mjtGeom.mjGEOM_SPHERE:
+        return float(size[0] - data.geom_xpos[i, 2])
+    if kind == mujoco.mjtGeom.mjGEOM_CAPSULE:
+        return float(size[0] + size[1] * abs(rotation[2, 2]) - data.geom_xpos[i, 2])
+    centre = data.geom_xpos[i] + rotation @ model.geom_aabb[i, :3]
+    return float(np.abs(rotation[2]) @ model.geom_aabb[i, 3:] - centre[2])
