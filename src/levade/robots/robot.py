@@ -80,11 +80,31 @@ class Robot:
                 return leg
         raise LevadeError(f"robot {self.name}: no leg {name!r}; {did_you_mean(name, [leg.name for leg in self.legs])}")
 
-    def posture(self, name: str) -> Array:
-        """(joints,) [rad], the posture of that name; `LevadeError` if there is none."""
-        if name not in self.postures:
-            raise LevadeError(f"robot {self.name}: no posture {name!r}; {did_you_mean(name, self.postures)}")
-        return self.postures[name].copy()
+    def posture(self, posture: str | Mapping[str, float]) -> Array:
+        """(joints,) [rad]: the posture of that name, or the neutral one with some joints changed.
+
+        posture: name, or joint (or pattern, such as "*_kfe") -> angle [rad]. Raises `LevadeError` for unknown names and
+        angles out of range.
+        """
+        if isinstance(posture, str):
+            if posture not in self.postures:
+                raise LevadeError(
+                    f"robot {self.name}: no posture {posture!r}; {did_you_mean(posture, self.postures)}"
+                )
+            return self.postures[posture].copy()
+        from levade.robots.description import per_joint
+
+        angles = self.postures["neutral"].copy()
+        where = f"robot {self.name}: posture"
+        for joint, angle in per_joint(posture, self.joint_names, where, all_joints=False).items():
+            i = self.joint_names.index(joint)
+            if not self.limits.lower[i] <= angle <= self.limits.upper[i]:
+                raise LevadeError(
+                    f"{where}: {joint} {angle} rad is out of its range,"
+                    f" {self.limits.lower[i]:.4g} to {self.limits.upper[i]:.4g} rad"
+                )
+            angles[i] = angle
+        return angles
 
     def joint_indices(self, leg: Leg) -> slice:
         """Where the leg's joints are in arrays over joints."""
@@ -126,7 +146,7 @@ class Robot:
         data = self.data_at(joint_position)
         return np.array([data.geom(foot).xpos for foot in self.feet])
 
-    def standing_height(self, posture: str = "neutral") -> float:
+    def standing_height(self, posture: str | Mapping[str, float] = "neutral") -> float:
         """[m], the trunk's origin above the lowest point of the feet, the trunk level."""
         data = self.data_at(self.posture(posture))
         return max(_depth(self.model, data, foot) for foot in self.feet)

@@ -1,0 +1,106 @@
+"""YAML documents at the edge: reading them, and one clear line for each mistake in them.
+
+    content = read_yaml(path)
+    task = build(Task, content, where=str(path))
+
+Dataclasses say what a document may hold; pydantic checks it.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import types
+import typing
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, TypeVar
+
+from levade.errors import LevadeError, did_you_mean
+
+T = TypeVar("T")
+
+
+def read_yaml(path: Path) -> dict[str, Any]:
+    """The table in a YAML file. Raises LevadeError if it cannot be read, is not YAML or not a table."""
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise LevadeError(f"{path}: cannot be read ({getattr(error, 'strerror', None) or 'not UTF-8 text'})") from None
+    content = parse_yaml(text, where=str(path))
+    if not isinstance(content, dict):
+        raise LevadeError(f"{path}: should be a table of keys and values, is {kind_of(content)}")
+    return content
+
+
+def parse_yaml(text: str, *, where: str) -> Any:
+    """The value that a YAML text stands for; LevadeError, which starts with ``where``, if it is not YAML."""
+    import yaml
+
+    try:
+        return yaml.load(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    except yaml.YAMLError as error:
+        raise LevadeError(f"{where}: not YAML: {' '.join(str(error).split())}") from None
+
+
+def build(kind: type[T], content: Any, *, where: str) -> T:
+    """An instance of a dataclass from plain tables, lists and scalars.
+
+    Raises LevadeError, one line that starts with ``where`` and the path of the key: unknown keys (with the nearest valid
+    one), missing keys, values of a wrong type, and what the dataclasses themselves refuse.
+    """
+    import pydantic
+
+    _check_keys(kind, content, where)
+    try:
+        return pydantic.TypeAdapter(kind).validate_python(content)
+    except pydantic.ValidationError as error:
+        raise LevadeError(f"{where}.{first_mistake(error)}") from None
+    except LevadeError as error:
+        raise LevadeError(f"{where}: {error}") from None
+
+
+def first_mistake(error: Any) -> str:
+    """One line about the first mistake of a pydantic.ValidationError: the path of its key, what is wrong, what is there."""
+    mistake = error.errors()[0]
+    # pydantic names the alternatives of a union in the path; keys are plain words
+    path = ".".join(str(step) for step in mistake["loc"] if isinstance(step, int) or str(step).isidentifier())
+    if mistake["type"] == "missing":
+        return f"{path}: missing"
+    message = mistake["msg"].removeprefix("Input ").removeprefix("Value ")
+    return f"{path}: {message[0].lower()}{message[1:]}, is {kind_of(mistake['input'])}"
+
+
+def kind_of(value: Any) -> str:
+    """What a value is, for a message: its text if it is short, else its kind."""
+    names = {type(None): "empty", dict: "a table", list: "a list", bool: "true or false"}
+    return names.get(type(value)) or repr(value)
+
+
+def _check_keys(kind: Any, content: Any, where: str) -> None:
+    """Unknown keys of a dataclass, and of the dataclasses within it."""
+    options = [kind, *typing.get_args(kind)] if _is_union(kind) else [kind]
+    kind = next((option for option in options if dataclasses.is_dataclass(option)), kind)
+    origin, arguments = typing.get_origin(kind), typing.get_args(kind)
+    if dataclasses.is_dataclass(kind):
+        if dataclasses.is_dataclass(content):
+            return
+        if not isinstance(content, Mapping):
+            if not any(option is type(None) and content is None for option in options):
+                raise LevadeError(f"{where}: should be a table of keys and values, is {kind_of(content)}")
+            return
+        fields = typing.get_type_hints(kind)
+        valid = [field.name for field in dataclasses.fields(kind) if field.init]
+        for key, value in content.items():
+            if key not in valid:
+                raise LevadeError(f"{where}: unknown key {key!r}; {did_you_mean(str(key), valid)}")
+            _check_keys(fields[key], value, f"{where}.{key}")
+    elif origin in (tuple, list) and isinstance(content, (list, tuple)):
+        for i, value in enumerate(content):
+            _check_keys(arguments[0], value, f"{where}.{i}")
+    elif isinstance(origin, type) and issubclass(origin, Mapping) and isinstance(content, Mapping):
+        for key, value in content.items():
+            _check_keys(arguments[1], value, f"{where}.{key}")
+
+
+def _is_union(kind: Any) -> bool:
+    return typing.get_origin(kind) in (typing.Union, types.UnionType)

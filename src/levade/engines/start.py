@@ -1,0 +1,82 @@
+"""How a motion starts: standing in a posture, or lying after a fall."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from levade.errors import LevadeError
+from levade.trajectory import Array
+
+
+@dataclass(frozen=True)
+class Settled:
+    """Standing on the ground in a posture, at rest.
+
+    posture: name of a posture of the robot, or joint -> angle [rad] on top of the neutral one. The robot is put down level, with its lowest foot touching, above the point
+    x, y, and holds the posture with its own gains for ``time`` [s]; it sags a little, as its joints give way to gravity.
+    """
+
+    posture: str | Mapping[str, float] = "neutral"
+    x: float = 0.0
+    y: float = 0.0
+    time: float = 2.0
+
+    def __post_init__(self) -> None:
+        _check_time("start.time", self.time)
+
+
+@dataclass(frozen=True)
+class Fall:
+    """Lying as a fall with weak joints left it: deterministic, from the numbers here.
+
+    height: [m], trunk's origin over z = 0 at release. x, y: [m]. roll, pitch, yaw: [rad] at release, z-y-x.
+    posture: as in `Settled`; the joints hold it with ``gain`` times their gains while they fall.
+    time: [s] from release to the start of the motion.
+    spread: [rad], standard deviation of random changes of the joints and of roll, pitch and yaw at release, drawn with
+    ``seed``: a family of falls for a library or a test.
+    """
+
+    height: float
+    x: float = 0.0
+    y: float = 0.0
+    roll: float = 0.0
+    pitch: float = 0.0
+    yaw: float = 0.0
+    posture: str | Mapping[str, float] = "neutral"
+    gain: float = 0.1
+    time: float = 1.5
+    spread: float = 0.0
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        _check_time("start.time", self.time)
+        for name in ("gain", "spread"):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value >= 0):
+                raise LevadeError(f"start.{name}: {value} should be 0 or more")
+
+
+Start = Settled | Fall
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """Where a rollout starts.
+
+    qpos, qvel, act: MuJoCo's state vectors, in the model's own order.
+    joint_position: (joints,) [rad], the robot's joint order. joint_reference: (joints,) [rad], what the joints were told
+    last, so that a motion may start from there without a jump.
+    """
+
+    qpos: Array
+    qvel: Array
+    act: Array
+    joint_position: Array
+    joint_reference: Array
+
+
+def _check_time(name: str, time: float) -> None:
+    if not (math.isfinite(time) and time >= 0):
+        raise LevadeError(f"{name}: {time} s is not a duration; 0 or more")

@@ -1,0 +1,133 @@
+"""The ground and the obstacles, composed with the robot into one model."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from levade.errors import LevadeError
+from levade.robots import Robot
+
+GROUND = "ground"
+"""Name of the ground's geom; obstacles are named ``box0``, ``box1``, ..."""
+
+
+@dataclass(frozen=True)
+class Box:
+    """A box fixed in the world.
+
+    position: (3,) [m], its centre. size: (3,) [m], full edge lengths. roll, pitch, yaw: [rad], intrinsic z-y-x.
+    """
+
+    position: tuple[float, float, float]
+    size: tuple[float, float, float]
+    roll: float = 0.0
+    pitch: float = 0.0
+    yaw: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not all(math.isfinite(edge) and edge > 0 for edge in self.size):
+            raise LevadeError(f"box.size: {list(self.size)} should be three positive edge lengths in m")
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What the robot stands on and may touch.
+
+    friction: Coulomb friction coefficient of every contact with the ground and the obstacles; where left out, the robot's
+        own parts decide (feet and shell may differ), or 1 if they are below and do not take priority.
+    slope: [rad], of the ground along x, uphill positive. boxes: obstacles.
+    """
+
+    friction: float | None = None
+    slope: float = 0.0
+    boxes: tuple[Box, ...] = ()
+
+    def __post_init__(self) -> None:
+        if self.friction is not None and not (math.isfinite(self.friction) and self.friction > 0):
+            raise LevadeError(f"scene.friction: {self.friction} should be a positive coefficient; 0.6 to 1 is usual")
+        if not abs(self.slope) < math.pi / 2:
+            raise LevadeError(f"scene.slope: {self.slope} rad is no slope to stand on; between -pi/2 and pi/2")
+
+
+def compose(robot: Robot, scene: Scene, *, gain_scale: float = 1.0, damping_scale: float = 1.0) -> mujoco.MjSpec:
+    """The robot with its actuators, put into the scene.
+
+    gain_scale, damping_scale: see `levade.robots.Robot.spec`. Simulate what is compiled from the spec's ``to_xml()``,
+    which is what a motion file keeps.
+    """
+    spec = robot.spec(gain_scale=gain_scale, damping_scale=damping_scale)
+    world = spec.worldbody
+    _furnish(spec)
+    ground = world.add_geom(
+        name=GROUND,
+        type=mujoco.mjtGeom.mjGEOM_PLANE,
+        size=[0.0, 0.0, 0.05],
+        quat=[math.cos(scene.slope / 2), 0.0, -math.sin(scene.slope / 2), 0.0],
+        material=GROUND,
+    )
+    obstacles = [
+        world.add_geom(
+            name=f"box{i}",
+            type=mujoco.mjtGeom.mjGEOM_BOX,
+            size=[edge / 2 for edge in box.size],
+            pos=list(box.position),
+            quat=_quaternion(box.roll, box.pitch, box.yaw),
+            material="obstacle",
+        )
+        for i, box in enumerate(scene.boxes)
+    ]
+    for geom in (ground, *obstacles):
+        # everything of the robot that collides at all meets the scene; the scene never meets itself (all static)
+        geom.contype = geom.conaffinity = 0x7FFFFFFF
+        if scene.friction is not None:
+            geom.priority = 2  # above the robot's geoms, which have at most 1: the contact takes everything from the scene
+            geom.friction = [scene.friction, 0.005, 0.0001]
+            foot = robot.model.geom(robot.feet[0])
+            geom.condim, geom.solref, geom.solimp = 3, foot.solref.copy(), foot.solimp.copy()
+    return spec
+
+
+def _furnish(spec: mujoco.MjSpec) -> None:
+    """Light and surfaces: what pictures need, and the physics does not see."""
+    spec.add_texture(
+        name="sky",
+        type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,
+        builtin=mujoco.mjtBuiltin.mjBUILTIN_GRADIENT,
+        rgb1=[0.93, 0.95, 0.97],
+        rgb2=[0.70, 0.76, 0.83],
+        width=128,
+        height=768,
+    )
+    spec.add_texture(
+        name=GROUND,
+        type=mujoco.mjtTexture.mjTEXTURE_2D,
+        builtin=mujoco.mjtBuiltin.mjBUILTIN_CHECKER,
+        rgb1=[0.82, 0.83, 0.84],
+        rgb2=[0.76, 0.77, 0.79],
+        width=256,
+        height=256,
+    )
+    ground = spec.add_material(name=GROUND, texrepeat=[1.0, 1.0], texuniform=True, reflectance=0.0)
+    ground.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = GROUND
+    spec.add_material(name="obstacle", rgba=[0.80, 0.62, 0.42, 1.0])
+    spec.worldbody.add_light(
+        name="sun",
+        type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
+        pos=[1.5, -2.0, 4.0],
+        dir=[-0.35, 0.45, -0.85],
+        diffuse=[0.75, 0.75, 0.75],
+        specular=[0.2, 0.2, 0.2],
+        castshadow=True,
+    )
+    spec.visual.headlight.ambient = [0.38, 0.38, 0.38]
+    spec.visual.headlight.diffuse = [0.32, 0.32, 0.32]
+
+
+def _quaternion(roll: float, pitch: float, yaw: float) -> list[float]:
+    quaternion = np.empty(4)
+    mujoco.mju_euler2Quat(quaternion, np.array([yaw, pitch, roll]), "zyx")
+    return quaternion.tolist()

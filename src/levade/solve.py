@@ -1,0 +1,414 @@
+"""The staged loop: ask the optimizer, evaluate the trials, tell it their costs; the only place where these meet.
+
+    solution = solve(load_task("rearing"), seed=0)
+    solution.success, solution.trials_to_success, solution.errors
+
+Everything is deterministic: the same task, seed and versions give the same solution to the bit, for any number of threads.
+A `Record` of each generation holds what its simulations said; given the records of an interrupted solve, the loop runs
+through them again without simulating (the optimizer asks for the same candidates) and goes on to the same end.
+"""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import asdict, dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from levade.costs import DIVERGED, errors, evaluate, total
+from levade.engines import MujocoEngine
+from levade.errors import LevadeError, did_you_mean
+from levade.optimizers import OPTIMIZERS, Optimizer
+from levade.policies import Follower, GaussianKernels, Group, Policy, smoothness_factor
+from levade.robots import Leg, Robot, load_robot, mirror_signs
+from levade.tasks import PolicyChoice, Stage, Task, looks_at_hold
+from levade.trajectory import Array, Trajectories
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """What n trials achieved.
+
+    terms: cost -> (n,), unweighted. errors: criterion -> (n,), SI. Both are NaN where the hold was not simulated and the
+    cost or criterion looks at it. success, diverged: (n,).
+    """
+
+    terms: Mapping[str, Array]
+    errors: Mapping[str, Array]
+    success: NDArray[np.bool_]
+    diverged: NDArray[np.bool_]
+
+
+class Objective:
+    """From weights to costs: policy, engine and costs of one task, put together once and used for every generation.
+
+    threads: of the engine; 0 for one per core. Raises LevadeError for whatever does not fit together.
+    """
+
+    def __init__(self, task: Task, *, threads: int = 0) -> None:
+        self.task = task
+        choice = asdict(task.robot)
+        self.robot = load_robot(choice.pop("name"), **choice)
+        self.engine = MujocoEngine(self.robot, task.scene, task.physics, threads=threads)
+        self.policy = make_policy(task, self.robot)
+        self.terms = {name: cost.term for name, cost in task.costs.items()}
+        self._bodies = tuple(sorted({b for term in self.terms.values() for b in getattr(term, "bodies", ())}))
+        for body in self._bodies:
+            if body not in self.engine.bodies:
+                raise LevadeError(f"costs: no body {body!r} in {self.robot.name}; {did_you_mean(body, self.engine.bodies)}")
+        self.state = self.engine.start(task.start.choice)
+        self.evaluate(self.initial_weights[None])  # terms that cannot be evaluated say so now
+
+    @cached_property
+    def initial_weights(self) -> Array:
+        """(d,) [rad], the first mean of the search."""
+        choice = self.task.policy
+        if choice.initial == "hold":
+            return self.policy.hold(self.state.joint_reference)
+        return self.policy.interpolate(self.state.joint_position, self.robot.posture(choice.goal))
+
+    def rollout(self, weights: Array, *, hold_steps: int | None = None, feet: bool = False) -> Trajectories:
+        """Simulate trials (n, d), through ``hold_steps`` of the hold; through all of it if None."""
+        reference = self.policy.reference(weights, hold_steps=hold_steps)
+        return self.engine.rollout(self.state, reference, feet=feet, bodies=self._bodies)
+
+    def evaluate(self, weights: Array, *, hold_steps: int | None = None) -> Evaluation:
+        """Simulate and judge trials (n, d).
+
+        hold_steps: how much of the hold to simulate; all of it if None. With less, those trials that meet every criterion
+        so far are simulated again through all of it, to see whether they succeed.
+        """
+        full = self.task.hold_steps
+        hold_steps = full if hold_steps is None else hold_steps
+        result = self._judge(self.rollout(weights, hold_steps=hold_steps), skip_hold=full > 0 == hold_steps)
+        if hold_steps < full:
+            for trial in np.flatnonzero(result.success):
+                through = self._judge(self.rollout(weights[trial : trial + 1]))
+                result.success[trial] = through.success[0]
+        return result
+
+    def cost(self, evaluation: Evaluation, weights: Mapping[str, float]) -> Array:
+        """(n,), the weighted sum of the terms, less those that look at the hold if none of it was simulated."""
+        terms = {name: values for name, values in evaluation.terms.items() if not np.isnan(values).any()}
+        cost = total(terms, {name: weights[name] for name in terms})
+        return np.where(evaluation.diverged, DIVERGED, cost)
+
+    def _judge(self, trajectories: Trajectories, *, skip_hold: bool = False) -> Evaluation:
+        terms, criteria, n = self.terms, self.task.success, trajectories.n
+        if skip_hold:
+            terms = {name: term for name, term in terms.items() if not looks_at_hold(term)}
+            criteria = {name: criterion for name, criterion in criteria.items() if not looks_at_hold(criterion)}
+        values, off = evaluate(terms, trajectories), errors(criteria, trajectories)
+        met = ~trajectories.diverged
+        for name, criterion in criteria.items():
+            met &= criterion.met(off[name])
+        return Evaluation(
+            {name: values.get(name, np.full(n, np.nan)) for name in self.terms},
+            {name: off.get(name, np.full(n, np.nan)) for name in self.task.success},
+            met,
+            trajectories.diverged.copy(),
+        )
+
+
+def make_policy(task: Task, robot: Robot) -> Policy:
+    """The task's policy on the robot's joints; LevadeError where its groups do not fit the robot's legs."""
+    choice = task.policy
+    kernels = GaussianKernels(choice.kernels, choice.variance, choice.time)
+    return Policy(kernels, leg_groups(choice, robot), task.horizon, task.physics.timestep, task.hold_steps)
+
+
+def leg_groups(choice: PolicyChoice, robot: Robot) -> tuple[Group, ...]:
+    """Groups of legs as groups of joints, mirror signs derived from the robot's kinematics."""
+    legs = robot.legs
+    key: dict[str, Callable[[Leg], str]] = {
+        "pairs": lambda leg: leg.end,
+        "sides": lambda leg: leg.side,
+        "all": lambda leg: "",
+        "independent": lambda leg: leg.name,
+    }
+    if isinstance(choice.groups, str):
+        of = key[choice.groups]
+        grouped = [[leg for leg in legs if of(leg) == name] for name in dict.fromkeys(map(of, legs))]
+    else:
+        grouped = [[robot.leg(name) for name in names] for names in choice.groups]
+        named = [leg.name for group in grouped for leg in group]
+        if sorted(named) != sorted(leg.name for leg in legs):
+            missing = sorted({leg.name for leg in legs} - set(named))
+            problem = f"{', '.join(missing)} in none" if missing else "a leg in two"
+            raise LevadeError(f"policy.groups: {problem}; every leg of {robot.name} goes in one group")
+
+    def indices(leg: Leg) -> tuple[int, ...]:
+        where = robot.joint_indices(leg)
+        return tuple(range(where.start, where.stop))
+
+    return tuple(
+        Group(
+            indices(leader),
+            tuple(Follower(indices(leg), tuple(map(float, mirror_signs(robot, leader, leg)))) for leg in followers),
+        )
+        for leader, *followers in grouped
+    )
+
+
+@dataclass(frozen=True)
+class Record:
+    """What the simulations of one generation said: enough to run through it again without them.
+
+    checksum: of the candidates that the optimizer asked for. The rest as in `Evaluation`.
+    """
+
+    generation: int
+    checksum: int
+    evaluation: Evaluation
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain lists; floats survive JSON to the bit."""
+        numbers = {
+            key: {name: [None if np.isnan(v) else v for v in values.tolist()] for name, values in table.items()}
+            for key, table in (("terms", self.evaluation.terms), ("errors", self.evaluation.errors))
+        }
+        flags = {"success": self.evaluation.success.tolist(), "diverged": self.evaluation.diverged.tolist()}
+        return {"generation": self.generation, "checksum": self.checksum, **numbers, **flags}
+
+    @classmethod
+    def from_json(cls, content: Mapping[str, Any]) -> Record:
+        """The record that `to_json` wrote."""
+        terms, off = (
+            {name: np.array(values, dtype=float) for name, values in content[key].items()} for key in ("terms", "errors")
+        )
+        success, diverged = (np.array(content[key], dtype=bool) for key in ("success", "diverged"))
+        return cls(content["generation"], content["checksum"], Evaluation(terms, off, success, diverged))
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One trial and what it achieved: cost, by the task's own weights; terms, unweighted; errors, SI."""
+
+    weights: Array
+    cost: float
+    terms: Mapping[str, float]
+    errors: Mapping[str, float]
+    success: bool
+
+
+@dataclass(frozen=True)
+class Generation:
+    """The state of the search after a generation.
+
+    cost: (population,) as told to the optimizer. best: over all generations and stages. trials: spent so far.
+    trials_to_success: trials spent when one first met every criterion. replayed: whether it came from a record.
+    """
+
+    generation: int
+    stage: int
+    stage_name: str
+    trials: int
+    cost: Array
+    step: float
+    diverged: int
+    best: Trial
+    trials_to_success: int | None
+    record: Record
+    replayed: bool
+
+
+@dataclass(frozen=True)
+class Solution:
+    """The outcome: the best trial, and what it took.
+
+    stopped: "success" (and polished), "budget" or "interrupted".
+    """
+
+    best: Trial
+    trials: int
+    generations: int
+    trials_to_success: int | None
+    diverged: int
+    stopped: str
+
+    @property
+    def success(self) -> bool:
+        return self.best.success
+
+
+@dataclass
+class _Search:
+    """What changes while the loop runs."""
+
+    best: Trial | None = None
+    stage: int = 0
+    stage_trials: int = 0
+    trials: int = 0
+    generations: int = 0
+    diverged: int = 0
+    trials_to_success: int | None = None
+    hold_steps: int = 0
+
+
+def solve(
+    task: Task | Objective,
+    *,
+    seed: int = 0,
+    threads: int = 0,
+    observe: Callable[[Generation], object] | None = None,
+    records: Iterable[Record] = (),
+) -> Solution:
+    """Search for a motion that does the task.
+
+    task: or an `Objective` that was made of one. seed: of the optimizer.
+    observe: called after each generation. KeyboardInterrupt, from it or from the keyboard, ends the search with the best
+    trial so far. records: of an earlier solve of the same task and seed; the search goes on after them.
+    Raises LevadeError if the records are not of this search.
+    """
+    objective = task if isinstance(task, Objective) else Objective(task, threads=threads)
+    task = objective.task
+    stages, search = task.stages, _Search()
+    optimizer = make_optimizer(objective, seed)
+    earlier = iter(records)
+    weights = {name: cost.weight for name, cost in task.costs.items()}
+    stopped = "budget"
+    _enter(search, objective, stages[0], optimizer)
+    try:
+        while search.trials + optimizer.population <= max(task.search.trials, optimizer.population):
+            stage = stages[search.stage]
+            candidates = optimizer.ask()
+            record, replayed = _evaluate(objective, candidates, search, stage, earlier)
+            cost = objective.cost(record.evaluation, weights | stage.weights)
+            optimizer.tell(cost)
+
+            search.generations += 1
+            search.trials += len(candidates)
+            search.stage_trials += len(candidates)
+            search.diverged += int(record.evaluation.diverged.sum())
+            if search.trials_to_success is None and record.evaluation.success.any():
+                search.trials_to_success = search.trials
+            _keep_best(search, objective, candidates, record.evaluation, weights)
+            assert search.best is not None
+            if observe is not None:
+                observe(
+                    Generation(
+                        generation=search.generations,
+                        stage=search.stage,
+                        stage_name=stage.name,
+                        trials=search.trials,
+                        cost=cost,
+                        step=optimizer.step,
+                        diverged=int(record.evaluation.diverged.sum()),
+                        best=search.best,
+                        trials_to_success=search.trials_to_success,
+                        record=record,
+                        replayed=replayed,
+                    )
+                )
+            polish = task.search.polish
+            since = None if search.trials_to_success is None else search.trials - search.trials_to_success
+            if since is not None and polish is not None and since >= polish:
+                stopped = "success"
+                break
+            if search.stage + 1 < len(stages) and _ends(stage, search, record.evaluation):
+                search.stage += 1
+                before = search.hold_steps
+                _enter(search, objective, stages[search.stage], optimizer)
+                if search.hold_steps != before:
+                    _reconsider(search, objective, weights, search.hold_steps)
+    except KeyboardInterrupt:
+        stopped = "interrupted"
+    if search.best is None:
+        _keep_best(search, objective, objective.initial_weights[None], None, weights)
+    if search.hold_steps != task.hold_steps:
+        _reconsider(search, objective, weights, task.hold_steps)
+    assert search.best is not None
+    return Solution(
+        best=search.best,
+        trials=search.trials,
+        generations=search.generations,
+        trials_to_success=search.trials_to_success,
+        diverged=search.diverged,
+        stopped=stopped,
+    )
+
+
+def make_optimizer(objective: Objective, seed: int) -> Optimizer:
+    """The task's optimizer, at the objective's initial weights."""
+    search = objective.task.search
+    policy = objective.policy
+    factor = None
+    if search.smoothness > 0:
+        factor = smoothness_factor(policy.kernels, search.smoothness, policy.independent_joints)
+    return OPTIMIZERS[search.optimizer](
+        objective.initial_weights,
+        factor=factor,
+        step=search.step,
+        seed=seed,
+        population=search.population,
+        step_adaptation=search.step_adaptation,
+    )
+
+
+def _enter(search: _Search, objective: Objective, stage: Stage, optimizer: Optimizer) -> None:
+    search.stage_trials = 0
+    task = objective.task
+    share = stage.hold * task.hold_steps if isinstance(stage.hold, bool) else stage.hold / task.physics.timestep
+    search.hold_steps = min(round(share), task.hold_steps)
+    if stage.step != 1.0:
+        optimizer.scale_step(stage.step)
+
+
+def _ends(stage: Stage, search: _Search, evaluation: Evaluation) -> bool:
+    if stage.trials is not None and search.stage_trials >= stage.trials:
+        return True
+    if not stage.promote:
+        return False
+    within = ~evaluation.diverged
+    for name, tolerance in stage.promote.items():
+        within = within & (np.abs(evaluation.errors[name]) <= tolerance)  # nan, of what was not simulated, never is
+    return bool(within.any())
+
+
+def _evaluate(
+    objective: Objective, candidates: Array, search: _Search, stage: Stage, earlier: Iterable[Record]
+) -> tuple[Record, bool]:
+    """The record of a generation: an earlier one while there are any, else from simulation."""
+    checksum = zlib.crc32(np.ascontiguousarray(candidates).tobytes())
+    number = search.generations + 1
+    record = next(iter(earlier), None)
+    if record is None:
+        return Record(number, checksum, objective.evaluate(candidates, hold_steps=search.hold_steps)), False
+    if (record.generation, record.checksum) != (number, checksum):
+        raise LevadeError(
+            f"generation {number} of the records is of another search: the task, the seed or a library has changed since;"
+            " start anew in an empty directory"
+        )
+    return record, True
+
+
+def _keep_best(
+    search: _Search, objective: Objective, candidates: Array, evaluation: Evaluation | None, weights: Mapping[str, float]
+) -> None:
+    """Keep the best trial of all: success first, then the task's cost."""
+    if evaluation is None:
+        evaluation = objective.evaluate(candidates, hold_steps=search.hold_steps)
+    cost = objective.cost(evaluation, weights)
+    first = np.lexsort((cost, ~evaluation.success))[0]
+    best = search.best
+    if best is None or (not evaluation.success[first], cost[first]) < (not best.success, best.cost):
+        search.best = Trial(
+            weights=candidates[first].copy(),
+            cost=float(cost[first]),
+            terms={name: float(values[first]) for name, values in evaluation.terms.items()},
+            errors={name: float(values[first]) for name, values in evaluation.errors.items()},
+            success=bool(evaluation.success[first]),
+        )
+
+
+def _reconsider(search: _Search, objective: Objective, weights: Mapping[str, float], hold_steps: int) -> None:
+    """Simulate the best trial through as much of the hold as those that it will be compared with."""
+    best = search.best
+    assert best is not None
+    search.best = None
+    candidate = best.weights[None]
+    _keep_best(search, objective, candidate, objective.evaluate(candidate, hold_steps=hold_steps), weights)

@@ -1,0 +1,34 @@
+"""Tasks: the declarative whole, read from YAML or built in Python; the built-in ones are YAML files in ``data/``.
+
+    task = load_task("rearing", changes=["horizon=0.4"])
+    task = load_task("my-task.yaml", robot="my/robot.yaml")
+"""
+
+from levade.tasks.document import TERMS, builtin_tasks, load_task, task_from_dict, task_to_dict, task_to_yaml
+from levade.tasks.task import (
+    Cost,
+    PolicyChoice,
+    RobotChoice,
+    Search,
+    Stage,
+    StartChoice,
+    Task,
+    looks_at_hold,
+)
+
+__all__ = [
+    "TERMS",
+    "Cost",
+    "PolicyChoice",
+    "RobotChoice",
+    "Search",
+    "Stage",
+    "StartChoice",
+    "Task",
+    "builtin_tasks",
+    "load_task",
+    "looks_at_hold",
+    "task_from_dict",
+    "task_to_dict",
+    "task_to_yaml",
+]
