@@ -1,0 +1,6 @@
+"""``python -m levade``"""
+
+from levade.cli import main
+
+if __name__ == "__main__":
+    main()

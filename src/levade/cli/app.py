@@ -1,0 +1,155 @@
+"""Commands and their options. Rooms are imported where they are used: ``levade --help`` needs none of the physics."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from levade.errors import LevadeError
+
+app = typer.Typer(
+    name="levade",
+    help="Whole-body, single-shot motions for legged robots: state the goal, get a motion.",
+    add_completion=False,
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+)
+
+Json = Annotated[bool, typer.Option("--json", help="Print one JSON object, and nothing else, on standard output.")]
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the command line; whatever is wrong with the input is one line on standard error and exit status 2."""
+    import click
+
+    try:
+        status = app(args=arguments, standalone_mode=False)
+    except LevadeError as error:
+        _fail(str(error))
+    except click.UsageError as error:
+        command = error.ctx.command_path if error.ctx else "levade"
+        message = " ".join(error.format_message().split())
+        _fail(f"{message} See: {command} --help" if message.endswith(".") else f"{message}; see {command} --help")
+    except click.ClickException as error:
+        _fail(" ".join(error.format_message().split()))
+    except BrokenPipeError:  # the reader of a pipe has seen enough
+        sys.stderr.close()
+        sys.exit(1)
+    except (KeyboardInterrupt, click.Abort):
+        sys.exit(130)
+    sys.exit(status if isinstance(status, int) else 0)
+
+
+def _fail(message: str) -> None:
+    print(f"levade: {' '.join(message.split())}", file=sys.stderr)
+    sys.exit(2)
+
+
+@app.callback(invoke_without_command=True)
+def _levade(
+    version: Annotated[bool, typer.Option("--version", help="Print the version.")] = False,
+) -> None:
+    if version:
+        from levade import __version__
+
+        print(f"levade {__version__}")
+        raise typer.Exit
+
+
+@app.command()
+def solve(
+    task: Annotated[str | None, typer.Argument(help="Name of a built-in task, or a YAML file.")] = None,
+    robot: Annotated[str | None, typer.Option(help="Another robot: a name, or its robot.yaml.")] = None,
+    seed: Annotated[int, typer.Option(min=0, help="Of the search; the same seed gives the same motion.")] = 0,
+    trials: Annotated[int | None, typer.Option(help="Budget, instead of the task's.")] = None,
+    optimizer: Annotated[str | None, typer.Option(help="Instead of the task's.")] = None,
+    change: Annotated[
+        list[str] | None, typer.Option("--set", metavar="PATH=VALUE", help="Change a value of the task. Repeatable.")
+    ] = None,
+    out: Annotated[Path | None, typer.Option(help="Directory to write; by default the task's name.")] = None,
+    resume: Annotated[Path | None, typer.Option(metavar="DIR", help="Go on with the interrupted run in DIR.")] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace an interrupted run in the directory.")] = False,
+    threads: Annotated[int, typer.Option(min=0, help="0 for one per core; no effect on the result.")] = 0,
+    as_json: Json = False,
+) -> int:
+    """Search for a motion that does TASK, and write it to a directory.
+
+    Exit status: 0 the success criteria hold, 1 they do not (everything is still written), 2 the input is wrong.
+    """
+    from levade.cli.solving import solve_and_report
+
+    changes = list(change or [])
+    if trials is not None:
+        changes.append(f"search.trials={trials}")
+    if optimizer is not None:
+        changes.append(f"search.optimizer={optimizer}")
+    if resume is not None:
+        given = {"TASK": task, "--robot": robot, "--out": out, "--set, --trials or --optimizer": changes or None}
+        extra = [name for name, value in given.items() if value is not None]
+        if extra:
+            raise LevadeError(f"--resume {resume}: the run says all; leave out {' and '.join(extra)}")
+    elif task is None:
+        raise LevadeError("solve: name a task, such as: levade solve rearing (levade tasks lists them), or --resume DIR")
+    return solve_and_report(
+        task=task,
+        robot=robot,
+        seed=seed,
+        changes=changes,
+        directory=out,
+        resume_from=resume,
+        force=force,
+        threads=threads,
+        as_json=as_json,
+    )
+
+
+@app.command()
+def show(
+    motion: Annotated[Path, typer.Argument(help="A motion.npz.")],
+    as_json: Json = False,
+) -> int:
+    """Summarise a motion: goal against result, peaks against the robot's limits, where it came from."""
+    from levade.cli.showing import show_motion
+
+    return show_motion(motion, as_json=as_json)
+
+
+@app.command()
+def tasks(as_json: Json = False) -> None:
+    """List the built-in tasks."""
+    from levade.tasks import builtin_tasks, load_task
+
+    loaded = [load_task(name) for name in builtin_tasks()]
+    if as_json:
+        rows = [{"name": task.name, "description": task.description, "robot": task.robot.name} for task in loaded]
+        _print_json({"tasks": rows})
+    else:
+        _print_rows([(task.name, task.description) for task in loaded])
+
+
+@app.command()
+def robots(as_json: Json = False) -> None:
+    """List the built-in robots."""
+    from levade.robots import builtin_robots
+
+    listed = builtin_robots()
+    if as_json:
+        _print_json({"robots": [{"name": name, "description": description} for name, description in listed]})
+    else:
+        _print_rows(listed)
+
+
+def _print_json(content: dict[str, Any]) -> None:
+    print(json.dumps(content, ensure_ascii=False))
+
+
+def _print_rows(rows: list[tuple[str, str]]) -> None:
+    width = max(len(name) for name, _ in rows)
+    for name, description in rows:
+        print(f"{name:<{width}}  {description}")

@@ -1,0 +1,124 @@
+"""The live display of a solve: on a terminal it stays in place; in a pipe it is a few plain lines."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+
+import numpy as np
+from rich.console import Console, Group, RenderableType
+from rich.live import Live
+from rich.progress_bar import ProgressBar
+from rich.table import Table
+from rich.text import Text
+
+from levade.cli.tables import quantity_unit, signed
+from levade.solve import Generation
+from levade.tasks import Task
+
+_PLAIN_EVERY = 10.0
+"""[s], between lines in a pipe."""
+
+
+class Display:
+    """Shows generations as they come; a context manager."""
+
+    def __init__(self, console: Console, task: Task, *, quiet: bool) -> None:
+        self._console, self._task, self._quiet = console, task, quiet
+        self._live: Live | None = None
+        self._latest: Generation | None = None
+        self._recent: deque[tuple[float, int]] = deque(maxlen=50)
+        self._told = time.perf_counter()
+        self._stage: str | None = None
+        if console.is_terminal and not quiet:
+            self._live = Live(get_renderable=self._render, console=console, refresh_per_second=8, transient=True)
+
+    def __enter__(self) -> Display:
+        if not self._quiet:
+            robot = self._task.robot.name
+            self._console.print(f"[bold]{self._task.name}[/] on {robot}: up to {self._task.search.trials} trials")
+        if self._live is not None:
+            self._live.__enter__()
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        if self._live is not None:
+            self._live.__exit__(None, None, None)
+
+    def update(self, generation: Generation) -> None:
+        """Take in a generation; drawing it happens elsewhere, a few times a second."""
+        self._latest = generation
+        if not generation.replayed:
+            self._recent.append((time.perf_counter(), generation.trials))
+        if self._quiet or self._live is not None:
+            return
+        now = time.perf_counter()
+        if generation.stage_name != self._stage or now - self._told > _PLAIN_EVERY:
+            self._stage, self._told = generation.stage_name, now
+            errors = ", ".join(f"{name} {value:+.3g}" for name, value in generation.best.errors.items() if value == value)
+            self._console.print(
+                f"trial {generation.trials}, stage {generation.stage_name}: best cost {generation.best.cost:.4g};"
+                f" errors: {errors}"
+            )
+
+    def _render(self) -> RenderableType:
+        g = self._latest
+        if g is None:
+            return Text("starting ...", style="dim")
+        budget = self._task.search.trials
+        rate = self._rate()
+        left = "" if not rate else f"   at most {_duration((budget - g.trials) / rate)} left"
+        bar = Table.grid(padding=(0, 1))
+        bar.add_row(
+            ProgressBar(total=budget, completed=g.trials, width=32),
+            f"trial {g.trials} of {budget}   generation {g.generation}   stage {g.stage_name}"
+            f"   {rate:.0f} trials/s{left}",
+        )
+        found = Text("success", style="green") if g.best.success else Text("not yet", style="dim")
+        head = Table.grid(padding=(0, 3))
+        head.add_row(
+            f"best cost {g.best.cost:.4g}",
+            f"this generation {np.min(g.cost):.4g}",
+            f"step {g.step:.3g}",
+            f"diverged {g.diverged}",
+            found,
+        )
+        return Group(bar, head, _criteria(self._task, g), _terms(self._task, g))
+
+    def _rate(self) -> float:
+        if len(self._recent) < 2:
+            return 0.0
+        (t0, n0), (t1, n1) = self._recent[0], self._recent[-1]
+        return (n1 - n0) / max(t1 - t0, 1e-9)
+
+
+def _criteria(task: Task, g: Generation) -> Table:
+    table = Table(box=None, padding=(0, 2), header_style="dim")
+    for heading, justify in (("criterion", "left"), ("error", "right"), ("allowed", "right"), ("", "left")):
+        table.add_column(heading, justify=justify)  # type: ignore[arg-type]
+    for name, criterion in task.success.items():
+        error = g.best.errors[name]
+        met = bool(criterion.met(np.array(error))) if error == error else False
+        table.add_row(
+            name,
+            "" if error != error else f"{signed(error)} {quantity_unit(criterion.quantity)}",
+            f"{criterion.tolerance or 0:.4g} {quantity_unit(criterion.quantity)}",
+            Text("ok", style="green") if met else Text("-", style="dim"),
+        )
+    return table
+
+
+def _terms(task: Task, g: Generation) -> Table:
+    table = Table(box=None, padding=(0, 2), header_style="dim")
+    for heading, justify in (("cost", "left"), ("weighted", "right"), ("share", "right")):
+        table.add_column(heading, justify=justify)  # type: ignore[arg-type]
+    weighted = {name: cost.weight * g.best.terms[name] for name, cost in task.costs.items()}
+    whole = sum(value for value in weighted.values() if value == value) or 1.0
+    for name, value in weighted.items():
+        table.add_row(name, "" if value != value else f"{value:.4g}", "" if value != value else f"{value / whole:.0%}")
+    return table
+
+
+def _duration(seconds: float) -> str:
+    minutes, seconds = divmod(int(np.ceil(seconds)), 60)
+    return f"{minutes} min {seconds:02d} s" if minutes else f"{seconds} s"

@@ -1,0 +1,121 @@
+"""``levade solve``: run it, show how it goes, say how it ended."""
+
+from __future__ import annotations
+
+import json
+import signal
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import FrameType
+
+from rich.console import Console
+
+from levade.cli.display import Display
+from levade.cli.tables import motion_summary
+from levade.run import Outcome, read_run, resume, run, unfinished
+from levade.solve import Generation, Objective
+from levade.tasks import load_task
+
+
+def solve_and_report(
+    *,
+    task: str | None,
+    robot: str | None,
+    seed: int,
+    changes: list[str],
+    directory: Path | None,
+    resume_from: Path | None,
+    force: bool,
+    threads: int,
+    as_json: bool,
+) -> int:
+    """Exit status 0 if the success criteria hold, else 1."""
+    # with --json, standard output is for the one object
+    console = Console(stderr=as_json, highlight=False, soft_wrap=True)
+    quiet = as_json and not console.is_terminal
+    if resume_from is not None:
+        read_run(resume_from)  # whatever is wrong is said before the display opens
+        began: Callable[[Callable[[Generation], object]], Outcome] = lambda watch: resume(
+            resume_from, threads=threads, observe=watch
+        )
+        chosen, out = read_run(resume_from)[0], resume_from
+    else:
+        assert task is not None
+        chosen = load_task(task, robot=robot, changes=changes)
+        out = directory or Path(chosen.name)
+        if not force:
+            unfinished(out)
+        objective = Objective(chosen, threads=threads)
+        began = lambda watch: run(objective, seed=seed, directory=out, observe=watch)  # noqa: E731
+    with _stop_between_generations() as stopping, Display(console, chosen, quiet=quiet) as display:
+
+        def watch(generation: Generation) -> None:
+            display.update(generation)
+            if stopping():
+                raise KeyboardInterrupt
+
+        outcome = began(watch)
+    if as_json:
+        print(json.dumps(summary(outcome), ensure_ascii=False))
+    else:
+        _tell(console, outcome)
+    return 0 if outcome.motion.meta["success"] else 1
+
+
+def summary(outcome: Outcome) -> dict[str, object]:
+    """The object that ``solve --json`` prints."""
+    solution, meta = outcome.solution, outcome.motion.meta
+    return {
+        "task": meta["task"]["name"],
+        "robot": meta["robot"],
+        "seed": outcome.seed,
+        "success": meta["success"],
+        "trials": solution.trials,
+        "trials_to_success": solution.trials_to_success,
+        "wall_s": round(outcome.wall, 3),
+        "cost": meta["cost"],
+        "cost_terms": meta["cost_terms"],
+        "errors": meta["errors"],
+        "stopped": solution.stopped,
+        "diverged": solution.diverged,
+        "out": str(outcome.directory),
+    }
+
+
+def _tell(console: Console, outcome: Outcome) -> None:
+    solution, directory = outcome.solution, outcome.directory
+    for part in motion_summary(outcome.motion):
+        console.print(part)
+    first = solution.trials_to_success
+    spent = f"{solution.trials} trials in {outcome.wall:.1f} s"
+    if solution.stopped == "interrupted":
+        console.print(f"[yellow]Interrupted[/] after {spent}. To go on: levade solve --resume {directory}")
+    elif outcome.motion.meta["success"]:
+        console.print(f"[green]Success[/] at trial {first}; {spent}.")
+    else:
+        console.print(
+            f"[red]No success[/] within {spent}. Another --seed or more --trials may find one;"
+            f" {directory / 'progress.csv'} shows how the search went."
+        )
+    console.print(f"Written: {directory}/motion.npz, task.yaml, progress.csv, checkpoint.jsonl")
+
+
+@contextmanager
+def _stop_between_generations() -> Iterator[Callable[[], bool]]:
+    """Ctrl-C and SIGTERM end the search after the generation that is being simulated, so that nothing is half done."""
+    asked = False
+
+    def ask(number: int, frame: FrameType | None) -> None:
+        nonlocal asked
+        if asked and number == signal.SIGINT:
+            print("levade: stopping after this generation", file=sys.stderr)
+        asked = True
+
+    before = {number: signal.signal(number, ask) for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield lambda: asked
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)

@@ -1,0 +1,100 @@
+"""Tables about a motion that several commands print."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+from rich.console import RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from levade.costs.success import QUANTITIES
+from levade.motion import Motion
+
+
+def quantity_unit(quantity: str) -> str:
+    """SI unit of a success quantity."""
+    return QUANTITIES[quantity]
+
+
+def signed(value: float) -> str:
+    """Four digits and a sign, lined up under one another."""
+    return f"{value:+.4f}" if abs(value) < 1000 else f"{value:+.3g}"
+
+
+def motion_summary(motion: Motion) -> Iterator[RenderableType]:
+    """Goal against result, and peaks against the limits."""
+    yield goal_table(motion.meta)
+    yield peak_table(motion)
+
+
+def goal_table(meta: Mapping[str, Any]) -> Table:
+    """A row per success criterion."""
+    table = Table(box=None, padding=(0, 2), header_style="bold")
+    for heading, justify in (("criterion", "left"), ("goal", "right"), ("result", "right"), ("error", "right"), ("allowed", "right"), ("", "left")):  # fmt: skip
+        table.add_column(heading, justify=justify)  # type: ignore[arg-type]
+    when = {"horizon": "", "end": " at the end", "max": ", largest", "min": ", smallest", "hold": " in the hold"}
+    for name, criterion in meta["task"]["success"].items():
+        unit, error = quantity_unit(criterion["quantity"]), meta["errors"][name]
+        target = criterion["target"]
+        tolerance = criterion["tolerance"] or 0.0
+        if target is not None:
+            goal, result = f"{target:.4f} {unit}", f"{target + error:.4f} {unit}"
+        else:
+            low, high = criterion["minimum"], criterion["maximum"]
+            goal = " to ".join(["" if bound is None else f"{bound:.4f}" for bound in (low, high)]) + f" {unit}"
+            result = "within" if error == 0 else f"{(low if error < 0 else high) + error:.4f} {unit}"
+        met = abs(error) <= tolerance
+        table.add_row(
+            name + when[criterion["at"]] if name == criterion["quantity"] else name,
+            goal,
+            result,
+            f"{signed(error)} {unit}",
+            f"{tolerance:.4f} {unit}",
+            Text("ok", style="green") if met else Text("missed", style="red"),
+        )
+    return table
+
+
+def peak_table(motion: Motion) -> Table:
+    """The joint that comes nearest to its limit, or goes furthest beyond, in torque, speed and range."""
+    limits = motion.meta["limits"]
+    names = [str(name) for name in motion["joint_names"]]
+    table = Table(box=None, padding=(0, 2), header_style="bold")
+    for heading, justify in (("peak", "left"), ("joint", "left"), ("value", "right"), ("limit", "right"), ("share", "right")):  # fmt: skip
+        table.add_column(heading, justify=justify)  # type: ignore[arg-type]
+    for what, unit, array, limit in (
+        ("torque", "Nm", "joint_torque", limits["torque"]),
+        ("speed", "rad/s", "joint_velocity", limits["velocity"]),
+    ):
+        peak = np.abs(motion[array]).max(axis=0)
+        bounds = np.array([np.inf if value is None else value for value in limit])
+        joint = int(np.argmax(peak / bounds)) if np.isfinite(bounds).any() else int(np.argmax(peak))
+        share = peak[joint] / bounds[joint]
+        table.add_row(
+            what,
+            names[joint],
+            f"{peak[joint]:.1f} {unit}",
+            f"{bounds[joint]:.1f} {unit}" if np.isfinite(bounds[joint]) else "none",
+            _share(share),
+        )
+    lower = np.array([-np.inf if value is None else value for value in limits["lower"]])
+    upper = np.array([np.inf if value is None else value for value in limits["upper"]])
+    position = motion["joint_position"]
+    beyond = np.maximum(lower - position, position - upper).max(axis=0)
+    joint = int(np.argmax(beyond))
+    angle = position[np.argmax(np.maximum(lower - position, position - upper)[:, joint]), joint]
+    table.add_row(
+        "angle",
+        names[joint],
+        f"{angle:.3f} rad",
+        f"{lower[joint]:.3f} to {upper[joint]:.3f} rad",
+        Text(f"{beyond[joint]:.3f} beyond", style="yellow") if beyond[joint] > 0 else Text("inside", style="green"),
+    )
+    return table
+
+
+def _share(share: float) -> Text:
+    return Text(f"{share:.0%}", style="yellow" if share > 1.0 + 1e-9 else "green")

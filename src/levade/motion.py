@@ -1,0 +1,214 @@
+"""The result: a motion in one self-contained file, which anyone with only mujoco and numpy can replay.
+
+    motion = record(objective, solution, seed=0)
+    motion.save("motion.npz")
+    motion = Motion.load("motion.npz")
+    motion.meta["success"], motion["joint_position"]          # (steps, joints) [rad]
+
+What is in the file is documented in docs/motion-file.md. Replaying it needs none of levade:
+
+    data = np.load("motion.npz")
+    assets = {name[6:]: data[name].tobytes() for name in data if name.startswith("asset:")}
+    model = mujoco.MjModel.from_xml_string(str(data["model_xml"]), assets)
+    state = mujoco.MjData(model)
+    state.qpos[:], state.qvel[:], state.act[:] = data["qpos0"], data["qvel0"], data["act0"]
+    for ctrl in data["ctrl"]:
+        state.ctrl[:] = ctrl
+        mujoco.mj_step(model, state)
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import zipfile
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from levade.costs import errors, evaluate, success
+from levade.errors import LevadeError
+from levade.solve import Objective, Solution
+from levade.tasks import task_to_dict
+from levade.trajectory import Array, rotate
+
+SCHEMA = 1
+"""Version of the file's layout; raised when a reader of the old one would be wrong."""
+
+ARRAYS: dict[str, tuple[str, ...]] = {
+    "qpos0": ("nq",),
+    "qvel0": ("nv",),
+    "act0": ("na",),
+    "ctrl": ("steps", "nu"),
+    "time": ("steps",),
+    "joint_names": ("joints",),
+    "joint_position_reference": ("steps", "joints"),
+    "joint_velocity_reference": ("steps", "joints"),
+    "joint_position": ("steps", "joints"),
+    "joint_velocity": ("steps", "joints"),
+    "joint_torque": ("steps", "joints"),
+    "trunk_position": ("steps", "3"),
+    "trunk_com_position": ("steps", "3"),
+    "trunk_quaternion": ("steps", "4"),
+    "trunk_linear_velocity": ("steps", "3"),
+    "trunk_angular_velocity": ("steps", "3"),
+    "foot_contact_force": ("steps", "feet", "3"),
+    "weights": ("d",),
+}
+"""Array -> shape, by name of the dimension. Beside these: ``meta`` and ``model_xml``, texts, and ``asset:NAME``, bytes."""
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """A motion: what was sent to the actuators, what the robot then did, and the model that says so.
+
+    meta: schema, task (resolved), robot, engine and library versions, seed, success, errors, cost, trials, limits.
+    arrays: see `ARRAYS`; rows as in `levade.trajectory`. assets: files that the model needs.
+    """
+
+    meta: Mapping[str, Any]
+    model_xml: str
+    arrays: Mapping[str, Array]
+    assets: Mapping[str, bytes]
+
+    def __getitem__(self, name: str) -> Array:
+        return self.arrays[name]
+
+    @property
+    def horizon_steps(self) -> int:
+        """Rows up to the horizon; later ones are the hold."""
+        return int(self.meta["horizon_steps"])
+
+    def save(self, path: str | Path) -> None:
+        """Write the file, or leave the one that is there: it is written beside it first. Raises OSError."""
+        path = Path(path)
+        content: dict[str, Any] = {
+            "meta": np.array(json.dumps(self.meta, ensure_ascii=False)),
+            "model_xml": np.array(self.model_xml),
+            **self.arrays,
+            **{f"asset:{name}": np.frombuffer(data, dtype=np.uint8) for name, data in self.assets.items()},
+        }
+        partial = path.with_name(f".{path.name}.partial")
+        try:
+            with partial.open("wb") as file:
+                np.savez_compressed(file, **content)
+                file.flush()
+                os.fsync(file.fileno())
+            partial.replace(path)
+        finally:
+            partial.unlink(missing_ok=True)
+
+    @classmethod
+    def load(cls, path: str | Path) -> Motion:
+        """The motion in a file. Raises LevadeError if it is missing, damaged, or something else."""
+        path = Path(path)
+        try:
+            with np.load(path, allow_pickle=False) as file:
+                content = {name: file[name] for name in file.files}
+        except FileNotFoundError:
+            raise LevadeError(f"{path}: no such file; give the motion.npz that levade solve wrote") from None
+        except (OSError, ValueError, zipfile.BadZipFile, EOFError, zipfile.zlib.error, NotImplementedError, AttributeError):
+            raise LevadeError(f"{path}: cannot be read as a motion; damaged, or not a motion.npz of levade solve") from None
+        missing = [name for name in ("meta", "model_xml", *ARRAYS) if name not in content]
+        if missing:
+            raise LevadeError(f"{path}: not a motion file, {', '.join(missing[:3])} missing; give a motion.npz of levade solve")
+        try:
+            meta = json.loads(str(content["meta"]))
+            schema = meta["schema"]
+        except (ValueError, TypeError, KeyError):
+            raise LevadeError(f"{path}: its meta cannot be read; damaged, or not a motion.npz of levade solve") from None
+        if schema != SCHEMA:
+            raise LevadeError(f"{path}: layout {schema}, but this levade reads layout {SCHEMA}; use the levade that wrote it")
+        _check_shapes(path, content)
+        assets = {name[6:]: content[name].tobytes() for name in content if name.startswith("asset:")}
+        return cls(meta, str(content["model_xml"]), {name: content[name] for name in ARRAYS}, assets)
+
+
+def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
+    """Simulate the best trial of a solution once more, with everything recorded."""
+    task, engine = objective.task, objective.engine
+    weights = solution.best.weights
+    trajectories = objective.rollout(weights[None], feet=True)
+    reference = trajectories.reference
+    values = evaluate(objective.terms, trajectories)
+    off = errors(task.success, trajectories)
+    state, limits = objective.state, objective.robot.limits
+    com = trajectories.trunk_com_position()[0]
+    assert trajectories.foot_contact_force is not None
+    arrays = {
+        "qpos0": state.qpos,
+        "qvel0": state.qvel,
+        "act0": state.act,
+        "ctrl": engine.ctrl(reference)[0],
+        "time": trajectories.time,
+        "joint_names": np.array(objective.robot.joint_names),
+        "joint_position_reference": reference.position[0],
+        "joint_velocity_reference": reference.velocity[0],
+        "joint_position": trajectories.joint_position[0],
+        "joint_velocity": trajectories.joint_velocity[0],
+        "joint_torque": trajectories.joint_torque[0],
+        "trunk_position": trajectories.trunk_position[0],
+        "trunk_com_position": com,
+        "trunk_quaternion": trajectories.trunk_quaternion[0],
+        "trunk_linear_velocity": trajectories.trunk_linear_velocity[0],
+        "trunk_angular_velocity": rotate(trajectories.trunk_quaternion[0], trajectories.trunk_angular_velocity[0]),
+        "foot_contact_force": trajectories.foot_contact_force[0],
+        "weights": weights,
+    }
+    meta = {
+        "schema": SCHEMA,
+        "task": task_to_dict(task),
+        "robot": objective.robot.name,
+        "trunk": objective.robot.trunk,
+        "legs": {leg.name: {"joints": list(leg.joints), "foot": leg.foot, "side": leg.side, "end": leg.end} for leg in objective.robot.legs},
+        "limits": {
+            "lower": _finite(limits.lower),
+            "upper": _finite(limits.upper),
+            "velocity": _finite(limits.velocity),
+            "torque": _finite(limits.torque),
+        },
+        "trunk_com_offset": objective.robot.trunk_com_offset.tolist(),
+        "engine": "mujoco",
+        "versions": versions(),
+        "seed": seed,
+        "timestep": task.physics.timestep,
+        "horizon": task.horizon_steps * task.physics.timestep,
+        "horizon_steps": task.horizon_steps,
+        "success": bool(success(task.success, trajectories)[0]),
+        "diverged": bool(trajectories.diverged[0]),
+        "errors": {name: float(error[0]) for name, error in off.items()},
+        "cost": float(solution.best.cost),
+        "cost_terms": {name: float(value[0]) for name, value in values.items()},
+        "trials": solution.trials,
+        "trials_to_success": solution.trials_to_success,
+        "stopped": solution.stopped,
+    }
+    arrays = {name: np.ascontiguousarray(arrays[name]).copy() for name in ARRAYS}
+    return Motion(meta, engine.xml, arrays, dict(engine.assets))
+
+
+def versions() -> dict[str, str]:
+    """The versions that decide a motion's bits."""
+    from importlib.metadata import version
+
+    from levade import __version__
+
+    return {"levade": __version__, **{name: version(name) for name in ("mujoco", "numpy", "cma")}}
+
+
+def _finite(limit: Array) -> list[float | None]:
+    """JSON has no infinity: None where there is no limit."""
+    return [float(value) if np.isfinite(value) else None for value in limit]
+
+
+def _check_shapes(path: Path, content: Mapping[str, Array]) -> None:
+    """Every array has as many dimensions as it should, and dimensions of one name agree."""
+    sizes: dict[str, int] = {"3": 3, "4": 4}
+    for name, dimensions in ARRAYS.items():
+        shape = content[name].shape
+        if len(shape) != len(dimensions) or any(sizes.setdefault(d, n) != n for d, n in zip(dimensions, shape, strict=True)):
+            expected = ", ".join(f"{d}={sizes[d]}" if d in sizes and not d.isdigit() else d for d in dimensions)
+            raise LevadeError(f"{path}: {name} has the shape {shape}, should be ({expected}); the file is damaged")
