@@ -337,8 +337,10 @@ def make_optimizer(objective: Objective, seed: int) -> Optimizer:
     search = objective.task.search
     policy = objective.policy
     factor = None
-    if search.smoothness > 0:
-        factor = smoothness_factor(policy.kernels, search.smoothness, policy.independent_joints)
+    if search.smoothness > 0 or search.modes is not None:
+        factor = smoothness_factor(
+            policy.kernels, search.smoothness, policy.independent_joints, modes=search.modes
+        )
     return OPTIMIZERS[search.optimizer](
         objective.initial_weights,
         factor=factor,

@@ -34,10 +34,21 @@ def smoothness(kernels: GaussianKernels, length: float) -> Array:
     return correlation
 
 
-def smoothness_factor(kernels: GaussianKernels, length: float, joints: int) -> Array:
-    """Lower-triangular A (size, size) with ``A @ A.T`` the covariance of all weights: one `smoothness` block per joint.
+def smoothness_factor(kernels: GaussianKernels, length: float, joints: int, *, modes: int | None = None) -> Array:
+    """A with ``A @ A.T`` the covariance of all weights: one `smoothness` block per joint.
 
     joints: the independent joints; size = joints * kernels. Standard normal z gives smooth weights ``A @ z``.
+    modes: per joint, keep only that many of the directions that vary most, the smoothest. A is then (size, joints * modes)
+    and the search has as many dimensions; all of them, lower triangular and (size, size), if None.
+    Raises LevadeError unless 1 <= modes <= kernels.
     """
-    block: Array = np.asarray(np.linalg.cholesky(smoothness(kernels, length)), dtype=np.float64)
+    correlation = smoothness(kernels, length)
+    if modes is None:
+        block: Array = np.asarray(np.linalg.cholesky(correlation), dtype=np.float64)
+    else:
+        if not 1 <= modes <= kernels.kernels:
+            raise LevadeError(f"modes: {modes} of {kernels.kernels} kernels; 1 to {kernels.kernels}")
+        variance, direction = np.linalg.eigh(correlation)
+        largest = np.argsort(variance)[::-1][:modes]
+        block = direction[:, largest] * np.sqrt(variance[largest])
     return np.asarray(np.kron(np.eye(joints), block), dtype=np.float64)

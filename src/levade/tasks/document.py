@@ -70,7 +70,10 @@ def load_task(name_or_path: str | Path, *, robot: str | None = None, changes: Se
         content = task_to_dict(task)
         for change in changes:
             _apply(content, change)
-        task = task_from_dict(content, where="--set")
+        try:
+            task = task_from_dict(content, where="--set")
+        except LevadeError as error:
+            raise LevadeError(f"--set {str(error).removeprefix('--set').lstrip('.: ')}") from None
     return task
 
 
@@ -135,7 +138,7 @@ def _cost(name: str, content: Any, *, where: str) -> Cost:
         raise LevadeError(f"{where}: should be a table such as {{weight: 1}}, is {kind_of(content)}")
     content = dict(content)
     term, weight = content.pop("term"), content.pop("weight", None)
-    if term not in TERMS:
+    if not isinstance(term, str) or term not in TERMS:
         raise LevadeError(f"{where}: no term {term!r}; {did_you_mean(str(term), TERMS)}")
     if isinstance(weight, bool) or not isinstance(weight, (int, float)):
         raise LevadeError(f"{where}.weight: should be a number, is {'missing' if weight is None else kind_of(weight)}")

@@ -103,7 +103,8 @@ class Search:
     optimizer: name. trials: budget, all stages counted. population: trials per generation, the optimizer's default if None.
     step: initial standard deviation of the weights [rad].
     smoothness: correlation length of neighbouring weights in the initial covariance, as a share of the horizon; 0 for
-        none, as plain CMA-ES has it. step_adaptation: see `levade.optimizers.CMAES`.
+        none, as plain CMA-ES has it. modes: search only over so many of the smoothest directions of each joint's weights;
+        all if None. step_adaptation: see `levade.optimizers.CMAES`.
     polish: trials to go on for after the first success, for a lower cost; None goes on to the end of the budget.
     """
 
@@ -112,6 +113,7 @@ class Search:
     population: int | None = None
     step: float = 0.1
     smoothness: float = 0.3
+    modes: int | None = None
     step_adaptation: Literal["csa", "tpa"] = "tpa"
     polish: int | None = 0
 

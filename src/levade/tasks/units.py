@@ -45,7 +45,7 @@ def to_si(content: Any, *, where: str, measures: str | None = None) -> Any:
         }
     if isinstance(content, (list, tuple)):
         return [to_si(value, where=f"{where}.{i}", measures=measures) for i, value in enumerate(content)]
-    match = _NUMBER.fullmatch(content) if isinstance(content, str) else None
+    match = _NUMBER.fullmatch(content) if isinstance(content, str) and not _is_number(content) else None
     if match is None:
         return content
     number, unit = match.groups()
@@ -61,10 +61,22 @@ def to_si(content: Any, *, where: str, measures: str | None = None) -> Any:
     return float(number) * size
 
 
+def _is_number(text: str) -> bool:
+    """Whether a text is a number without a unit: in 1e3 the e is none."""
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
 def _measured(key: str, siblings: Mapping[str, Any]) -> str | None:
-    if key in _BOUNDS and siblings.get("quantity") in QUANTITIES:
-        return UNITS[QUANTITIES[str(siblings["quantity"])]][0]
+    quantity, term = str(siblings.get("quantity")), siblings.get("term")
+    if key in _BOUNDS and quantity in QUANTITIES:
+        return UNITS[QUANTITIES[quantity]][0]
     # terms that aim at a velocity name their components x, y, z too
-    if key in ("x", "y", "z") and siblings.get("term") in ("linear_velocity", "angular_velocity"):
-        return "a speed" if siblings["term"] == "linear_velocity" else "an angular speed"
+    if key in ("x", "y", "z") and term in ("linear_velocity", "angular_velocity"):
+        return "a speed" if term == "linear_velocity" else "an angular speed"
+    if key == "position" and term == "posture":
+        return "an angle"
     return _KEYS.get(key)
