@@ -11,7 +11,8 @@ through them again without simulating (the optimizer asks for the same candidate
 from __future__ import annotations
 
 import zlib
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -22,7 +23,7 @@ from numpy.typing import NDArray
 from levade.costs import DIVERGED, errors, evaluate, total
 from levade.engines import MujocoEngine
 from levade.errors import LevadeError, did_you_mean
-from levade.optimizers import OPTIMIZERS, Optimizer
+from levade.optimizers import OPTIMIZERS, Aim, Optimizer
 from levade.policies import Follower, GaussianKernels, Group, Policy, smoothness_factor
 from levade.robots import Leg, Robot, load_robot, mirror_signs
 from levade.tasks import PolicyChoice, Stage, Task, looks_at_hold
@@ -56,10 +57,12 @@ class Objective:
         self.engine = MujocoEngine(self.robot, task.scene, task.physics, threads=threads)
         self.policy = make_policy(task, self.robot)
         self.terms = {name: cost.term for name, cost in task.costs.items()}
-        self._bodies = tuple(sorted({b for term in self.terms.values() for b in getattr(term, "bodies", ())}))
-        for body in self._bodies:
+        bodies = {name: getattr(term, "bodies", ()) for name, term in self.terms.items()}
+        for name, body in ((name, body) for name in bodies for body in bodies[name]):
             if body not in self.engine.bodies:
-                raise LevadeError(f"costs: no body {body!r} in {self.robot.name}; {did_you_mean(body, self.engine.bodies)}")
+                hint = did_you_mean(body, self.engine.bodies)
+                raise LevadeError(f"costs.{name}.bodies: no body {body!r} in {self.robot.name}; {hint}")
+        self._bodies = tuple(sorted({body for named in bodies.values() for body in named}))
         self.state = self.engine.start(task.start.choice)
         self.evaluate(self.initial_weights[None])  # terms that cannot be evaluated say so now
 
@@ -69,7 +72,9 @@ class Objective:
         choice = self.task.policy
         if choice.initial == "hold":
             return self.policy.hold(self.state.joint_reference)
-        return self.policy.interpolate(self.state.joint_position, self.robot.posture(choice.goal))
+        with _at("policy.goal: "):
+            goal = self.robot.posture(choice.goal)
+        return self.policy.interpolate(self.state.joint_position, goal)
 
     def rollout(self, weights: Array, *, hold_steps: int | None = None, feet: bool = False) -> Trajectories:
         """Simulate trials (n, d), through ``hold_steps`` of the hold; through all of it if None."""
@@ -117,7 +122,8 @@ class Objective:
 def make_policy(task: Task, robot: Robot) -> Policy:
     """The task's policy on the robot's joints; LevadeError where its groups do not fit the robot's legs."""
     choice = task.policy
-    kernels = GaussianKernels(choice.kernels, choice.variance, choice.time)
+    with _at("policy."):
+        kernels = GaussianKernels(choice.kernels, choice.variance, choice.time)
     return Policy(kernels, leg_groups(choice, robot), task.horizon, task.physics.timestep, task.hold_steps)
 
 
@@ -134,8 +140,11 @@ def leg_groups(choice: PolicyChoice, robot: Robot) -> tuple[Group, ...]:
         of = key[choice.groups]
         grouped = [[leg for leg in legs if of(leg) == name] for name in dict.fromkeys(map(of, legs))]
     else:
-        grouped = [[robot.leg(name) for name in names] for names in choice.groups]
+        with _at("policy.groups: "):
+            grouped = [[robot.leg(name) for name in names] for names in choice.groups]
         named = [leg.name for group in grouped for leg in group]
+        if not all(grouped):
+            raise LevadeError("policy.groups: a group is empty; leave it out")
         if sorted(named) != sorted(leg.name for leg in legs):
             missing = sorted({leg.name for leg in legs} - set(named))
             problem = f"{', '.join(missing)} in none" if missing else "a leg in two"
@@ -145,13 +154,23 @@ def leg_groups(choice: PolicyChoice, robot: Robot) -> tuple[Group, ...]:
         where = robot.joint_indices(leg)
         return tuple(range(where.start, where.stop))
 
-    return tuple(
-        Group(
-            indices(leader),
-            tuple(Follower(indices(leg), tuple(map(float, mirror_signs(robot, leader, leg)))) for leg in followers),
+    with _at("policy.groups: "):
+        return tuple(
+            Group(
+                indices(leader),
+                tuple(Follower(indices(leg), tuple(map(float, mirror_signs(robot, leader, leg)))) for leg in followers),
+            )
+            for leader, *followers in grouped
         )
-        for leader, *followers in grouped
-    )
+
+
+@contextmanager
+def _at(where: str) -> Iterator[None]:
+    """Errors start with the key of the task that they are about."""
+    try:
+        yield
+    except LevadeError as error:
+        raise LevadeError(f"{where}{error}") from None
 
 
 @dataclass(frozen=True)
@@ -267,6 +286,7 @@ def solve(
     objective = task if isinstance(task, Objective) else Objective(task, threads=threads)
     task = objective.task
     stages, search = task.stages, _Search()
+    aim = Aim() if task.search.aim and task.success else None
     optimizer = make_optimizer(objective, seed)
     earlier = iter(records)
     weights = {name: cost.weight for name, cost in task.costs.items()}
@@ -279,6 +299,11 @@ def solve(
             record, replayed = _evaluate(objective, candidates, search, stage, earlier)
             cost = objective.cost(record.evaluation, weights | stage.weights)
             optimizer.tell(cost)
+            if aim is not None:
+                aim.tell(candidates, _missed(task, record.evaluation), cost)
+                proposal = aim.propose()
+                if proposal is not None:
+                    optimizer.inject(proposal)
 
             search.generations += 1
             search.trials += len(candidates)
@@ -312,6 +337,8 @@ def solve(
             if search.stage + 1 < len(stages) and _ends(stage, search, record.evaluation):
                 search.stage += 1
                 before = search.hold_steps
+                if aim is not None:
+                    aim.forget()
                 _enter(search, objective, stages[search.stage], optimizer)
                 if search.hold_steps != before:
                     _reconsider(search, objective, weights, search.hold_steps)
@@ -349,6 +376,14 @@ def make_optimizer(objective: Objective, seed: int) -> Optimizer:
         population=search.population,
         step_adaptation=search.step_adaptation,
     )
+
+
+def _missed(task: Task, evaluation: Evaluation) -> Array:
+    """(n, k), errors as a share of what is allowed, of the criteria that were looked at; NaN for diverged trials."""
+    looked_at = [name for name, off in evaluation.errors.items() if not np.isnan(off).all()]
+    shares = [evaluation.errors[name] / (task.success[name].tolerance or 1.0) for name in looked_at]
+    missed = np.stack(shares, axis=1) if shares else np.empty((len(evaluation.success), 0))
+    return np.where(evaluation.diverged[:, None], np.nan, missed)
 
 
 def _enter(search: _Search, objective: Objective, stage: Stage, optimizer: Optimizer) -> None:
@@ -411,6 +446,7 @@ def _reconsider(search: _Search, objective: Objective, weights: Mapping[str, flo
     """Simulate the best trial through as much of the hold as those that it will be compared with."""
     best = search.best
     assert best is not None
-    search.best = None
     candidate = best.weights[None]
-    _keep_best(search, objective, candidate, objective.evaluate(candidate, hold_steps=hold_steps), weights)
+    evaluation = objective.evaluate(candidate, hold_steps=hold_steps)
+    search.best = None  # only now: whoever interrupts the simulation keeps the best
+    _keep_best(search, objective, candidate, evaluation, weights)

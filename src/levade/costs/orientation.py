@@ -15,7 +15,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from levade.costs.rows import At, check_target, mean_over_rows, rows_at
+from levade.costs.rows import At, beyond, check_target, check_tolerance, mean_over_rows, rows_at
 from levade.trajectory import Array, Trajectories, roll_pitch_yaw
 
 
@@ -25,6 +25,7 @@ class Orientation:
 
     roll, pitch, yaw: required angles [rad], intrinsic z-y-x; nose up is negative pitch. Pitch may go beyond +-pi/2.
     at: when; over the hold it is the mean.
+    tolerance: [rad], an angle that costs nothing; beyond, the excess is squared.
 
     - roll, pitch and yaw: the angle of the one rotation that takes the trunk to the goal (geodesic distance on SO(3)).
     - roll and pitch: the smallest such angle over all yaws, which is the angle between the world's up as the trunk sees
@@ -44,9 +45,11 @@ class Orientation:
     pitch: float | None = None
     yaw: float | None = None
     at: At = "horizon"
+    tolerance: float = 0.0
 
     def __post_init__(self) -> None:
         check_target("orientation", roll=self.roll, pitch=self.pitch, yaw=self.yaw)
+        check_tolerance("orientation", self.tolerance)
 
     @cached_property
     def _goal(self) -> Array:
@@ -55,7 +58,7 @@ class Orientation:
     def __call__(self, trajectories: Trajectories) -> Array:
         """(n,) [rad^2]."""
         quaternion = trajectories.trunk_quaternion[:, rows_at(trajectories, self.at)]
-        return mean_over_rows(self._squared(quaternion))
+        return mean_over_rows(beyond(self._squared(quaternion), self.tolerance))
 
     def _squared(self, quaternion: Array) -> Array:
         """(..., 4) to (...)."""

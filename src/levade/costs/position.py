@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from levade.costs.rows import At, check_target, rows_at, squared_distance
+from levade.costs.rows import At, check_target, check_tolerance, rows_at, squared_distance
 from levade.trajectory import Array, Trajectories
 
 
@@ -14,6 +14,7 @@ class Position:
     """Squared distance [m^2] of the trunk's centre of mass from the required place; coordinates left out are free.
 
     x, y, z: [m], world axes. at: when; over the hold it is the mean.
+    tolerance: [m], a distance that costs nothing; beyond, the excess is squared.
     """
 
     unit: ClassVar[str] = "m^2"
@@ -22,11 +23,13 @@ class Position:
     y: float | None = None
     z: float | None = None
     at: At = "horizon"
+    tolerance: float = 0.0
 
     def __post_init__(self) -> None:
         check_target("position", x=self.x, y=self.y, z=self.z)
+        check_tolerance("position", self.tolerance)
 
     def __call__(self, trajectories: Trajectories) -> Array:
         """(n,) [m^2]."""
         position = trajectories.trunk_com_position(rows_at(trajectories, self.at))
-        return squared_distance(position, (self.x, self.y, self.z))
+        return squared_distance(position, (self.x, self.y, self.z), self.tolerance)

@@ -45,8 +45,8 @@ def integral(rate: Array, timestep: float) -> Array:
     return np.ascontiguousarray(rate).reshape(len(rate), -1).sum(axis=1) * timestep
 
 
-def squared_distance(values: Array, target: tuple[float | None, ...]) -> Array:
-    """Mean over the rows of the squared distance to the target, in the components that have one.
+def squared_distance(values: Array, target: tuple[float | None, ...], tolerance: float = 0.0) -> Array:
+    """Mean over the rows of the squared distance to the target, beyond the tolerance, in the components that have one.
 
     values: (n, rows, components). Returns (n,).
     """
@@ -55,7 +55,14 @@ def squared_distance(values: Array, target: tuple[float | None, ...]) -> Array:
     for i, required in enumerate(target):
         if required is not None:
             squares += (values[..., i] - required) ** 2
-    return mean_over_rows(squares)
+    return mean_over_rows(beyond(squares, tolerance))
+
+
+def beyond(squared: Array, tolerance: float) -> Array:
+    """Squared distances to the squares of what is beyond the tolerance."""
+    if tolerance == 0:
+        return squared
+    return np.maximum(0.0, np.sqrt(squared) - tolerance) ** 2
 
 
 def mean_over_rows(values: Array) -> Array:
@@ -70,3 +77,9 @@ def check_target(term: str, **target: float | None) -> None:
     for name, value in target.items():
         if value is not None and not math.isfinite(value):
             raise LevadeError(f"{term}.{name}: {value} is not finite; leave it out where it is free")
+
+
+def check_tolerance(term: str, tolerance: float) -> None:
+    """LevadeError unless the tolerance is finite and not negative."""
+    if not (math.isfinite(tolerance) and tolerance >= 0):
+        raise LevadeError(f"{term}.tolerance: {tolerance} should be 0 or more")

@@ -6,10 +6,11 @@
         optimizer.tell(cost(weights))          # (n,)
 """
 
+from levade.optimizers.aim import Aim
 from levade.optimizers.cmaes import CMAES
 from levade.optimizers.protocol import Optimizer
 
 OPTIMIZERS = {"cma": CMAES}
 """Name on the command line and in task files -> class."""
 
-__all__ = ["CMAES", "OPTIMIZERS", "Optimizer"]
+__all__ = ["CMAES", "OPTIMIZERS", "Aim", "Optimizer"]

@@ -25,6 +25,13 @@ _libraries = ThreadpoolController()
 _NEVER = {"tolfun": 0, "tolfunhist": 0, "tolfunrel": 0, "tolx": 0, "tolstagnation": 10**9, "tolflatfitness": 10**9}
 
 
+class _TwoPoint(cma.sigma_adaptation.CMAAdaptSigmaTPA):
+    """Two-point adaptation without its self-check, which draws from numpy's global generator and warns near the optimum."""
+
+    def check_consistency(self, es: object) -> None:
+        pass
+
+
 class CMAES:
     """Covariance matrix adaptation (Hansen and Ostermeier, Evolutionary Computation 9(2), 2001).
 
@@ -67,7 +74,7 @@ class CMAES:
         if population is not None:
             options["popsize"] = population
         if step_adaptation == "tpa":
-            options["AdaptSigma"] = cma.sigma_adaptation.CMAAdaptSigmaTPA
+            options["AdaptSigma"] = _TwoPoint
         with _single_threaded():
             self._search = cma.CMAEvolutionStrategy(np.zeros(self._factor.shape[1]), step, options)
         self._asked: list | None = None
@@ -96,6 +103,12 @@ class CMAES:
         with _single_threaded():
             self._search.tell(self._asked, cost.tolist())
         self._asked = None
+
+    def inject(self, candidate: Array) -> None:
+        """Make a candidate (d,) part of the next generation, in place of one of its own."""
+        deviation = candidate - self._mean
+        with _single_threaded():
+            self._search.inject([np.linalg.lstsq(self._factor, deviation, rcond=1e-8)[0]], force=True)
 
     def scale_step(self, factor: float) -> None:
         """Multiply the step size, as at the start of a stage."""

@@ -28,6 +28,10 @@ class Optimizer(Protocol):
         """Costs (population,) of the candidates just asked for; all finite, lower is better."""
         ...
 
+    def inject(self, candidate: Array) -> None:
+        """Make a candidate (d,) part of the next generation, in place of one of its own."""
+        ...
+
     def scale_step(self, factor: float) -> None:
         """Multiply the step size, as at the start of a stage."""
         ...

@@ -53,7 +53,7 @@ _BUILT_IN = Path(__file__).parent / "data"
 
 def builtin_tasks() -> dict[str, Path]:
     """Name -> file of every built-in task, by name."""
-    return {path.stem: path for path in sorted(_BUILT_IN.glob("*.yaml"))}
+    return {path.stem: path for path in sorted(_BUILT_IN.glob("*.yaml"), key=lambda path: path.stem)}
 
 
 def load_task(name_or_path: str | Path, *, robot: str | None = None, changes: Sequence[str] = ()) -> Task:

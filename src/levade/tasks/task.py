@@ -105,6 +105,7 @@ class Search:
     smoothness: correlation length of neighbouring weights in the initial covariance, as a share of the horizon; 0 for
         none, as plain CMA-ES has it. modes: search only over so many of the smoothest directions of each joint's weights;
         all if None. step_adaptation: see `levade.optimizers.CMAES`.
+    aim: whether one candidate of each generation is aimed at the criteria: see `levade.optimizers.Aim`.
     polish: trials to go on for after the first success, for a lower cost; None goes on to the end of the budget.
     """
 
@@ -115,6 +116,7 @@ class Search:
     smoothness: float = 0.3
     modes: int | None = None
     step_adaptation: Literal["csa", "tpa"] = "tpa"
+    aim: bool = True
     polish: int | None = 0
 
 
@@ -142,6 +144,8 @@ class Task:
     search: Search = Search()
 
     def __post_init__(self) -> None:
+        if not self.name.strip(". ") or "/" in self.name or "\\" in self.name or not self.name.isprintable():
+            raise LevadeError(f"name: {self.name!r} should be a word or two that can name a directory")
         if not (math.isfinite(self.horizon) and self.horizon >= self.physics.timestep):
             raise LevadeError(
                 f"horizon: {self.horizon} s should be at least one time step ({self.physics.timestep} s); 0.3 to 3 s is usual"
@@ -175,6 +179,8 @@ class Task:
                 raise LevadeError(f"{where}.trials: {stage.trials} should be at least 1; leave it out for all that is left")
             if not 0 <= stage.hold <= max(self.hold, 1):
                 raise LevadeError(f"{where}.hold: {stage.hold} should be true, false, or at most the task's {self.hold} s")
+            if self.hold_steps and not stage.hold and all(looks_at_hold(cost.term) for cost in self.costs.values()):
+                raise LevadeError(f"{where}.hold: {stage.hold}, but every cost of the task looks at the hold; say hold: true")
             if not (math.isfinite(stage.step) and stage.step > 0):
                 raise LevadeError(f"{where}.step: {stage.step} should be a positive factor on the step size")
 

@@ -74,6 +74,8 @@ def _measured(key: str, siblings: Mapping[str, Any]) -> str | None:
     quantity, term = str(siblings.get("quantity")), siblings.get("term")
     if key in _BOUNDS and quantity in QUANTITIES:
         return UNITS[QUANTITIES[quantity]][0]
+    if key == "tolerance" and siblings.get("term") in ("orientation", "position"):
+        return "an angle" if siblings["term"] == "orientation" else "a length"
     # terms that aim at a velocity name their components x, y, z too
     if key in ("x", "y", "z") and term in ("linear_velocity", "angular_velocity"):
         return "a speed" if term == "linear_velocity" else "an angular speed"
