@@ -6,7 +6,7 @@ import json
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, NoReturn
 
 import typer
 
@@ -16,7 +16,6 @@ app = typer.Typer(
     name="levade",
     help="Whole-body, single-shot motions for legged robots: state the goal, get a motion.",
     add_completion=False,
-    no_args_is_help=True,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
 )
@@ -26,33 +25,36 @@ Json = Annotated[bool, typer.Option("--json", help="Print one JSON object, and n
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line; whatever is wrong with the input is one line on standard error and exit status 2."""
-    import click
-
+    # typer names these by its own copy of click since 0.26, by click itself before
+    _, usage_error, click_exception, *_ = typer.BadParameter.__mro__
     try:
         status = app(args=arguments, standalone_mode=False)
     except LevadeError as error:
         _fail(str(error))
-    except click.UsageError as error:
+    except usage_error as error:  # type: ignore[misc]
         command = error.ctx.command_path if error.ctx else "levade"
         message = " ".join(error.format_message().split())
-        _fail(f"{message} See: {command} --help" if message.endswith(".") else f"{message}; see {command} --help")
-    except click.ClickException as error:
+        _fail(
+            f"{message} See: {command} --help" if message.endswith((".", "?")) else f"{message}; see {command} --help"
+        )
+    except click_exception as error:  # type: ignore[misc]
         _fail(" ".join(error.format_message().split()))
     except BrokenPipeError:  # the reader of a pipe has seen enough
         sys.stderr.close()
         sys.exit(1)
-    except (KeyboardInterrupt, click.Abort):
+    except (KeyboardInterrupt, typer.Abort):
         sys.exit(130)
     sys.exit(status if isinstance(status, int) else 0)
 
 
-def _fail(message: str) -> None:
+def _fail(message: str) -> NoReturn:
     print(f"levade: {' '.join(message.split())}", file=sys.stderr)
     sys.exit(2)
 
 
 @app.callback(invoke_without_command=True)
 def _levade(
+    context: typer.Context,
     version: Annotated[bool, typer.Option("--version", help="Print the version.")] = False,
 ) -> None:
     if version:
@@ -60,6 +62,8 @@ def _levade(
 
         print(f"levade {__version__}")
         raise typer.Exit
+    if context.invoked_subcommand is None:
+        print(context.get_help())
 
 
 @app.command()
@@ -95,7 +99,9 @@ def solve(
         if extra:
             raise LevadeError(f"--resume {resume}: the run says all; leave out {' and '.join(extra)}")
     elif task is None:
-        raise LevadeError("solve: name a task, such as: levade solve rearing (levade tasks lists them), or --resume DIR")
+        raise LevadeError(
+            "solve: name a task, such as: levade solve rearing (levade tasks lists them), or --resume DIR"
+        )
     return solve_and_report(
         task=task,
         robot=robot,
@@ -111,13 +117,24 @@ def solve(
 
 @app.command()
 def show(
-    motion: Annotated[Path, typer.Argument(help="A motion.npz.")],
+    motions: Annotated[list[Path], typer.Argument(metavar="MOTION", help="A motion.npz; several are compared.")],
+    figures: Annotated[Path | None, typer.Option(metavar="DIR", help="Write figures for a paper to DIR.")] = None,
+    format: Annotated[str | None, typer.Option(help="Of the figures: pdf (default), svg or png.")] = None,
+    strip: Annotated[Path | None, typer.Option(metavar="FILE", help="Write poses side by side, as .png.")] = None,
+    poses: Annotated[int | None, typer.Option(help="In the strip; by default 6.")] = None,
+    video: Annotated[Path | None, typer.Option(metavar="FILE", help="Write a video: .mp4, .gif or .webp.")] = None,
+    slow: Annotated[float | None, typer.Option(help="Times slower than it was, in the video; by default 8.")] = None,
+    camera: Annotated[
+        str | None, typer.Option(metavar="AZ,EL[,DIST]", help="Of strip and video: degrees and m, such as 118,-12.")
+    ] = None,
     as_json: Json = False,
 ) -> int:
     """Summarise a motion: goal against result, peaks against the robot's limits, where it came from."""
-    from levade.cli.showing import show_motion
+    from levade.cli.picturing import Pictures
+    from levade.cli.showing import show_motions
 
-    return show_motion(motion, as_json=as_json)
+    pictures = Pictures(figures, format, strip, poses, video, slow, camera)
+    return show_motions(motions, pictures, as_json=as_json)
 
 
 @app.command()

@@ -8,6 +8,7 @@ from collections import deque
 import numpy as np
 from rich.console import Console, Group, RenderableType
 from rich.live import Live
+from rich.markup import escape
 from rich.progress_bar import ProgressBar
 from rich.table import Table
 from rich.text import Text
@@ -35,8 +36,10 @@ class Display:
 
     def __enter__(self) -> Display:
         if not self._quiet:
-            robot = self._task.robot.name
-            self._console.print(f"[bold]{self._task.name}[/] on {robot}: up to {self._task.search.trials} trials")
+            robot = escape(self._task.robot.name)
+            self._console.print(
+                f"[bold]{escape(self._task.name)}[/] on {robot}: up to {self._task.search.trials} trials"
+            )
         if self._live is not None:
             self._live.__enter__()
         return self
@@ -55,10 +58,12 @@ class Display:
         now = time.perf_counter()
         if generation.stage_name != self._stage or now - self._told > _PLAIN_EVERY:
             self._stage, self._told = generation.stage_name, now
-            errors = ", ".join(f"{name} {value:+.3g}" for name, value in generation.best.errors.items() if value == value)
+            errors = ", ".join(
+                f"{name} {value:+.3g}" for name, value in generation.best.errors.items() if value == value
+            )
             self._console.print(
-                f"trial {generation.trials}, stage {generation.stage_name}: best cost {generation.best.cost:.4g};"
-                f" errors: {errors}"
+                f"trial {generation.trials}, stage {escape(generation.stage_name)}:"
+                f" best cost {generation.best.cost:.4g}; errors: {errors}"
             )
 
     def _render(self) -> RenderableType:

@@ -3,31 +3,49 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 
 from rich.console import Console
+from rich.markup import escape
 
-from levade.cli.tables import motion_summary
+from levade.cli.comparing import comparison_table
+from levade.cli.picturing import Pictures, draw, labels
+from levade.cli.tables import make_console, motion_summary
 from levade.motion import Motion
 
 
-def show_motion(path: Path, *, as_json: bool) -> int:
-    """Exit status 0 if the motion meets its success criteria, else 1."""
-    motion = Motion.load(path)
-    meta = motion.meta
+def show_motions(paths: Sequence[Path], pictures: Pictures, *, as_json: bool) -> int:
+    """Exit status 0 if all motions meet their success criteria, else 1."""
+    motions = {path: Motion.load(path) for path in paths}
     if as_json:
-        print(json.dumps({"motion": str(path), **meta}, ensure_ascii=False))
-    else:
-        console = Console(highlight=False, soft_wrap=True)
-        steps, horizon = len(motion["time"]), meta["horizon"]
-        hold = motion["time"][-1] - horizon
-        console.print(
-            f"[bold]{meta['task']['name']}[/] on {meta['robot']}, seed {meta['seed']}: {horizon:g} s"
-            + (f" and {hold:g} s of hold" if hold > 1e-9 else "")
-            + f", {steps} steps of {meta['timestep'] * 1e3:g} ms"
+        written = draw(motions, pictures)
+        shown = [{"motion": str(path), **motion.meta} for path, motion in motions.items()]
+        content = shown[0] if len(shown) == 1 else {"motions": shown}
+        print(
+            json.dumps(content | ({"written": [str(path) for path in written]} if written else {}), ensure_ascii=False)
         )
-        for part in motion_summary(motion):
-            console.print(part)
-        made = ", ".join(f"{name} {version}" for name, version in meta["versions"].items())
-        console.print(f"{meta['trials']} trials, cost {meta['cost']:.4g}; made with {made}")
-    return 0 if meta["success"] else 1
+    else:
+        console = make_console()
+        if len(motions) == 1:
+            _show(console, *motions.values())
+        else:
+            console.print(comparison_table(dict(zip(labels(list(motions)), motions.values(), strict=True))))
+        if written := draw(motions, pictures):
+            console.print(f"Written: {', '.join(escape(str(path)) for path in written)}")
+    return 0 if all(motion.meta["success"] for motion in motions.values()) else 1
+
+
+def _show(console: Console, motion: Motion) -> None:
+    meta = motion.meta
+    steps, horizon = len(motion["time"]), meta["horizon"]
+    hold = motion["time"][-1] - horizon
+    console.print(
+        f"[bold]{escape(meta['task']['name'])}[/] on {escape(meta['robot'])}, seed {meta['seed']}: {horizon:g} s"
+        + (f" and {hold:g} s of hold" if hold > 1e-9 else "")
+        + f", {steps} steps of {meta['timestep'] * 1e3:g} ms"
+    )
+    for part in motion_summary(motion):
+        console.print(part)
+    made = ", ".join(f"{name} {version}" for name, version in meta["versions"].items())
+    console.print(f"{meta['trials']} trials, cost {meta['cost']:.4g}; made with {made}")

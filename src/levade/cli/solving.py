@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import signal
 import sys
@@ -11,9 +12,10 @@ from pathlib import Path
 from types import FrameType
 
 from rich.console import Console
+from rich.markup import escape
 
 from levade.cli.display import Display
-from levade.cli.tables import motion_summary
+from levade.cli.tables import make_console, motion_summary
 from levade.run import Outcome, read_run, resume, run, unfinished
 from levade.solve import Generation, Objective
 from levade.tasks import load_task
@@ -33,22 +35,20 @@ def solve_and_report(
 ) -> int:
     """Exit status 0 if the success criteria hold, else 1."""
     # with --json, standard output is for the one object
-    console = Console(stderr=as_json, highlight=False, soft_wrap=True)
+    console = make_console(stderr=as_json)
     quiet = as_json and not console.is_terminal
+    # whatever is wrong with the input is said before the display opens
+    go: Callable[[Callable[[Generation], object]], Outcome]
     if resume_from is not None:
-        read_run(resume_from)  # whatever is wrong is said before the display opens
-        began: Callable[[Callable[[Generation], object]], Outcome] = lambda watch: resume(
-            resume_from, threads=threads, observe=watch
-        )
-        chosen, out = read_run(resume_from)[0], resume_from
+        chosen = read_run(resume_from)[0]
+        go = functools.partial(_resume, resume_from, threads)
     else:
         assert task is not None
         chosen = load_task(task, robot=robot, changes=changes)
         out = directory or Path(chosen.name)
         if not force:
             unfinished(out)
-        objective = Objective(chosen, threads=threads)
-        began = lambda watch: run(objective, seed=seed, directory=out, observe=watch)  # noqa: E731
+        go = functools.partial(_run, Objective(chosen, threads=threads), seed, out)
     with _stop_between_generations() as stopping, Display(console, chosen, quiet=quiet) as display:
 
         def watch(generation: Generation) -> None:
@@ -56,12 +56,20 @@ def solve_and_report(
             if stopping():
                 raise KeyboardInterrupt
 
-        outcome = began(watch)
+        outcome = go(watch)
     if as_json:
         print(json.dumps(summary(outcome), ensure_ascii=False))
     else:
         _tell(console, outcome)
     return 0 if outcome.motion.meta["success"] else 1
+
+
+def _resume(directory: Path, threads: int, watch: Callable[[Generation], object]) -> Outcome:
+    return resume(directory, threads=threads, observe=watch)
+
+
+def _run(objective: Objective, seed: int, directory: Path, watch: Callable[[Generation], object]) -> Outcome:
+    return run(objective, seed=seed, directory=directory, observe=watch)
 
 
 def summary(outcome: Outcome) -> dict[str, object]:
@@ -85,7 +93,7 @@ def summary(outcome: Outcome) -> dict[str, object]:
 
 
 def _tell(console: Console, outcome: Outcome) -> None:
-    solution, directory = outcome.solution, outcome.directory
+    solution, directory = outcome.solution, escape(str(outcome.directory))
     for part in motion_summary(outcome.motion):
         console.print(part)
     first = solution.trials_to_success
@@ -97,7 +105,7 @@ def _tell(console: Console, outcome: Outcome) -> None:
     else:
         console.print(
             f"[red]No success[/] within {spent}. Another --seed or more --trials may find one;"
-            f" {directory / 'progress.csv'} shows how the search went."
+            f" {directory}/progress.csv shows how the search went."
         )
     console.print(f"Written: {directory}/motion.npz, task.yaml, progress.csv, checkpoint.jsonl")
 

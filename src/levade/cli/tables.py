@@ -6,12 +6,21 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
-from rich.console import RenderableType
+from rich.console import Console, RenderableType
 from rich.table import Table
 from rich.text import Text
 
 from levade.costs.success import QUANTITIES
 from levade.motion import Motion
+
+_WIDE = 200
+"""Columns, where the output is no terminal: nothing is wrapped there."""
+
+
+def make_console(*, stderr: bool = False) -> Console:
+    """Where to print: styled on a terminal, plain and unwrapped in a pipe."""
+    console = Console(stderr=stderr, highlight=False, soft_wrap=True)
+    return console if console.is_terminal else Console(stderr=stderr, highlight=False, soft_wrap=True, width=_WIDE)
 
 
 def quantity_unit(quantity: str) -> str:
@@ -32,9 +41,10 @@ def motion_summary(motion: Motion) -> Iterator[RenderableType]:
 
 def goal_table(meta: Mapping[str, Any]) -> Table:
     """A row per success criterion."""
-    table = Table(box=None, padding=(0, 2), header_style="bold")
-    for heading, justify in (("criterion", "left"), ("goal", "right"), ("result", "right"), ("error", "right"), ("allowed", "right"), ("", "left")):  # fmt: skip
-        table.add_column(heading, justify=justify)  # type: ignore[arg-type]
+    table = Table(box=None, padding=(0, 2, 0, 0), header_style="bold")
+    for heading in ("criterion", "goal", "result", "error", "allowed", ""):
+        justify = "left" if heading in ("criterion", "") else "right"
+        table.add_column(heading, justify=justify)
     when = {"horizon": "", "end": " at the end", "max": ", largest", "min": ", smallest", "hold": " in the hold"}
     for name, criterion in meta["task"]["success"].items():
         unit, error = quantity_unit(criterion["quantity"]), meta["errors"][name]
@@ -62,9 +72,10 @@ def peak_table(motion: Motion) -> Table:
     """The joint that comes nearest to its limit, or goes furthest beyond, in torque, speed and range."""
     limits = motion.meta["limits"]
     names = [str(name) for name in motion["joint_names"]]
-    table = Table(box=None, padding=(0, 2), header_style="bold")
-    for heading, justify in (("peak", "left"), ("joint", "left"), ("value", "right"), ("limit", "right"), ("share", "right")):  # fmt: skip
-        table.add_column(heading, justify=justify)  # type: ignore[arg-type]
+    table = Table(box=None, padding=(0, 2, 0, 0), header_style="bold")
+    for heading in ("peak", "joint", "value", "limit", "share"):
+        justify = "left" if heading in ("peak", "joint") else "right"
+        table.add_column(heading, justify=justify)
     for what, unit, array, limit in (
         ("torque", "Nm", "joint_torque", limits["torque"]),
         ("speed", "rad/s", "joint_velocity", limits["velocity"]),

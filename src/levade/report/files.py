@@ -1,0 +1,32 @@
+"""Files that are written whole or not at all."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from levade.errors import LevadeError
+
+
+@contextmanager
+def writing(path: Path) -> Iterator[Path]:
+    """A place beside a file to write it at; put in the file's place at the end, removed if something goes wrong.
+
+    The file's directory is made if need be. Raises LevadeError if it cannot be written, before any work is done.
+    """
+    partial = path.with_name(f".{path.stem}.partial{path.suffix}")
+    try:
+        if path.is_dir():
+            raise IsADirectoryError(21, "Is a directory")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        partial.touch()
+    except OSError as error:
+        raise LevadeError(f"{path}: cannot be written ({error.strerror}); give a file that can") from None
+    try:
+        yield partial
+        partial.replace(path)
+    except OSError as error:
+        raise LevadeError(f"{path}: cannot be written ({error.strerror or error}); give a file that can") from None
+    finally:
+        partial.unlink(missing_ok=True)

@@ -1,0 +1,105 @@
+"""``levade show`` with pictures: what it writes, how it compares motions, and what it says of wrong options."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from levade.cli import main
+from levade.cli.picturing import labels, progress_beside
+from levade.motion import Motion
+from levade.run import run
+from levade.tasks import load_task
+
+
+@pytest.fixture(scope="module")
+def directory(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A run that has not met its goal, and a copy of its motion beside it."""
+    directory = tmp_path_factory.mktemp("runs") / "rearing"
+    run(load_task("rearing", changes=["search.population=8", "search.trials=16"]), seed=0, directory=directory)
+    (directory / "other.npz").write_bytes((directory / "motion.npz").read_bytes())
+    return directory
+
+
+def levade(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:
+    with pytest.raises(SystemExit) as stopped:
+        main([str(argument) for argument in arguments])
+    out, err = capsys.readouterr()
+    assert isinstance(stopped.value.code, int)
+    return stopped.value.code, out, err
+
+
+def test_figures_have_the_cost_of_the_run_beside_them(
+    directory: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install levade[figures]")
+    status, out, _ = levade(
+        capsys, "show", directory / "motion.npz", "--figures", tmp_path, "--format", "svg", "--json"
+    )
+    assert status == 1
+    written = json.loads(out)["written"]
+    assert str(tmp_path / "cost.svg") in written
+    assert all(Path(path).stat().st_size > 1000 for path in written)
+
+
+def test_several_motions_are_compared_column_by_column(directory: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    motion = Motion.load(directory / "motion.npz")
+    status, out, _ = levade(capsys, "show", directory / "motion.npz", directory / "other.npz")
+    assert status == 1
+    rows = {line.split("  ")[1].strip(): line for line in out.splitlines() if line.startswith("  ")}
+    assert out.splitlines()[0].split() == ["motion", "other"]
+    assert rows["trials"].split()[1:] == ["16", "16"]
+    assert rows["success"].split()[1:] == ["no", "no"]
+    assert rows["cost"].split()[1:] == [f"{motion.meta['cost']:.4g}"] * 2
+    assert f"{motion.meta['errors']['pitch']:+.4f} rad" in rows["error of pitch"]
+    status, out, _ = levade(capsys, "show", directory / "motion.npz", directory / "other.npz", "--json")
+    assert [shown["seed"] for shown in json.loads(out)["motions"]] == [0, 0]
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--figures", "{}/a", "--format", "pgn"], "did you mean png"),
+        (["--format", "pdf"], "add --figures DIR"),
+        (["--slow", "4"], "add --video FILE"),
+        (["--camera", "1,2"], "add --video FILE or --strip FILE"),
+        (["--strip", "{}/a.png", "--camera", "1"], "should be AZIMUTH,ELEVATION"),
+        (["--strip", "{}/a.png", "--camera", "1,2,3,4"], "should be AZIMUTH,ELEVATION"),
+        (["--strip", "{}/a.png", "--camera", "1,200"], "between -90 and 90"),
+        (["--strip", "{}/a.png", "--poses", "0"], "poses 0"),
+        (["--video", "{}/a.mkv"], "unknown kind of video"),
+    ],
+)
+def test_wrong_options_are_one_line_and_write_nothing(
+    directory: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], options: list[str], message: str
+) -> None:
+    if "--format" in options and "--figures" in options:
+        pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install levade[figures]")
+    filled = [option.format(tmp_path) for option in options]
+    status, _, err = levade(capsys, "show", directory / "motion.npz", *filled)
+    assert status == 2
+    assert message in err
+    assert err.count("\n") == 1
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_video_shows_one_motion(directory: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    files = (directory / "motion.npz", directory / "other.npz")
+    status, _, err = levade(capsys, "show", *files, "--video", tmp_path / "a.gif")
+    assert (status, "one motion, not 2" in err) == (2, True)
+
+
+def test_names_of_motions_are_short_and_tell_them_apart() -> None:
+    assert labels([Path("x/a.npz"), Path("x/b.npz")]) == ["a", "b"]
+    assert labels([Path("x/motion.npz"), Path("y/motion.npz")]) == ["x", "y"]
+    assert labels([Path("p/x/motion.npz"), Path("q/x/motion.npz")]) == ["p/x/motion.npz", "q/x/motion.npz"]
+
+
+def test_progress_of_another_search_is_not_taken(directory: Path, tmp_path: Path) -> None:
+    motion = Motion.load(directory / "motion.npz")
+    assert progress_beside(directory / "motion.npz", motion) == directory / "progress.csv"
+    assert progress_beside(tmp_path / "motion.npz", motion) is None
+    (tmp_path / "progress.csv").write_text("generation,trials\n1,17\n")
+    assert progress_beside(tmp_path / "motion.npz", motion) is None
