@@ -84,7 +84,14 @@ def run(seeds: int) -> None:
     with ProcessPoolExecutor(2) as pool:
         for result in pool.map(experiment, cases):
             results.append(result)
-            print(result["task"], result["horizon"], result["seed"], result["trials_to_paper"], result["errors"], flush=True)
+            print(
+                result["task"],
+                result["horizon"],
+                result["seed"],
+                result["trials_to_paper"],
+                result["errors"],
+                flush=True,
+            )
     machine = f"{platform.machine()}, {platform.system()}, Python {platform.python_version()}"
     content = {"seeds": seeds, "versions": versions(), "machine": machine, "results": results}
     RESULTS.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")

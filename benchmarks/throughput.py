@@ -2,9 +2,9 @@
 
     python benchmarks/throughput.py [--task rearing] [--repeats 9]
 
-The bare engine is a `mujoco.batch` roll-out of the same model, start and controls, with nothing read back but the states
-that any cost would need (qpos, qvel, actuator_force). The objective is policy, engine and costs as `levade solve` calls them. Runs of both are
-interleaved and the medians compared, because the machine is shared: read the ratios, not the rates.
+The bare engine is a `mujoco.batch` roll-out of the same model, start and controls, with nothing read back but what any cost
+would need (qpos, qvel, actuator_force). The objective is policy, engine and costs as `levade solve` calls them. Runs of both
+are interleaved and the medians compared, because the machine is shared: read the ratios, not the rates.
 """
 
 from __future__ import annotations

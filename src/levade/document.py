@@ -9,6 +9,8 @@ Dataclasses say what a document may hold; pydantic checks it.
 from __future__ import annotations
 
 import dataclasses
+import functools
+import re
 import types
 import typing
 from collections.abc import Mapping
@@ -37,16 +39,31 @@ def parse_yaml(text: str, *, where: str) -> Any:
     import yaml
 
     try:
-        return yaml.load(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+        return yaml.load(text, Loader=_loader())
     except yaml.YAMLError as error:
         raise LevadeError(f"{where}: not YAML: {' '.join(str(error).split())}") from None
+
+
+@functools.cache
+def _loader() -> Any:
+    """YAML's safe loader, for which 1e3 is a number, as in YAML 1.2; PyYAML's own takes it for a word."""
+    import yaml
+
+    base: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+
+    class Loader(base):
+        pass
+
+    number = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+$")
+    Loader.add_implicit_resolver("tag:yaml.org,2002:float", number, list("-+.0123456789"))
+    return Loader
 
 
 def build(kind: type[T], content: Any, *, where: str) -> T:
     """An instance of a dataclass from plain tables, lists and scalars.
 
-    Raises LevadeError, one line that starts with ``where`` and the path of the key: unknown keys (with the nearest valid
-    one), missing keys, values of a wrong type, and what the dataclasses themselves refuse.
+    Raises LevadeError, one line that starts with ``where`` and the path of the key: unknown keys (with the nearest
+    valid one), missing keys, values of a wrong type, and what the dataclasses themselves refuse.
     """
     import pydantic
 
@@ -60,13 +77,18 @@ def build(kind: type[T], content: Any, *, where: str) -> T:
 
 
 def first_mistake(error: Any) -> str:
-    """One line about the first mistake of a pydantic.ValidationError: the path of its key, what is wrong, what is there."""
-    mistake = error.errors()[0]
-    # pydantic names the alternatives of a union in the path; keys are plain words
-    path = ".".join(str(step) for step in mistake["loc"] if isinstance(step, int) or str(step).isidentifier())
+    """One line about the first mistake of a pydantic.ValidationError: the path of its key, what is wrong, what is
+    there.
+    """
+    # pydantic tries each alternative of a union, and names it in the path; the one that it got furthest with was meant
+    tags = ("str", "bool", "float", "int")
+    paths = [[s for s in mistake["loc"] if s not in tags and "[" not in str(s)] for mistake in error.errors()]
+    furthest = max(range(len(paths)), key=lambda i: len(paths[i]))
+    mistake, path = error.errors()[furthest], ".".join(map(str, paths[furthest]))
     if mistake["type"] == "missing":
         return f"{path}: missing"
     message = mistake["msg"].removeprefix("Input ").removeprefix("Value ")
+    message = message.replace("a valid dictionary", "a table of keys and values")
     return f"{path}: {message[0].lower()}{message[1:]}, is {kind_of(mistake['input'])}"
 
 
@@ -77,8 +99,12 @@ def kind_of(value: Any) -> str:
 
 
 def _check_keys(kind: Any, content: Any, where: str) -> None:
-    """Unknown keys of a dataclass, and of the dataclasses within it."""
+    """Unknown keys of a dataclass, and of the dataclasses within it; and true or false for a number, which Python
+    allows.
+    """
     options = [kind, *typing.get_args(kind)] if _is_union(kind) else [kind]
+    if isinstance(content, bool) and bool not in options and (float in options or int in options):
+        raise LevadeError(f"{where}: should be a number, is {kind_of(content)}")
     kind = next((option for option in options if dataclasses.is_dataclass(option)), kind)
     origin, arguments = typing.get_origin(kind), typing.get_args(kind)
     if dataclasses.is_dataclass(kind):

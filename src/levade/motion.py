@@ -22,6 +22,7 @@ from __future__ import annotations
 import json
 import os
 import zipfile
+import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -58,7 +59,35 @@ ARRAYS: dict[str, tuple[str, ...]] = {
     "foot_contact_force": ("steps", "feet", "3"),
     "weights": ("d",),
 }
-"""Array -> shape, by name of the dimension. Beside these: ``meta`` and ``model_xml``, texts, and ``asset:NAME``, bytes."""
+"""Array -> shape, by name of the dimension. Beside these: ``meta`` and ``model_xml``, texts, and ``asset:NAME``,
+bytes.
+"""
+
+
+META = (
+    *(
+        "schema",
+        "task",
+        "robot",
+        "trunk",
+        "legs",
+        "limits",
+        "trunk_com_offset",
+        "engine",
+        "versions",
+        "seed",
+        "timestep",
+    ),
+    *("horizon", "horizon_steps", "success", "diverged", "errors", "cost", "cost_terms", "trials", "trials_to_success"),
+    "stopped",
+)
+"""Keys of ``meta``."""
+
+# what numpy and zipfile raise for files that are damaged, or something else
+_UNREADABLE = (
+    *(OSError, ValueError, EOFError, AttributeError, TypeError, LookupError, RuntimeError, MemoryError, SyntaxError),
+    *(zipfile.BadZipFile, zlib.error),
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,22 +135,36 @@ class Motion:
         """The motion in a file. Raises LevadeError if it is missing, damaged, or something else."""
         path = Path(path)
         try:
-            with np.load(path, allow_pickle=False) as file:
+            # opened here: of a file that is damaged, numpy would leave its own handle open
+            with path.open("rb") as opened, np.load(opened, allow_pickle=False) as file:
                 content = {name: file[name] for name in file.files}
         except FileNotFoundError:
             raise LevadeError(f"{path}: no such file; give the motion.npz that levade solve wrote") from None
-        except (OSError, ValueError, zipfile.BadZipFile, EOFError, zipfile.zlib.error, NotImplementedError, AttributeError):
-            raise LevadeError(f"{path}: cannot be read as a motion; damaged, or not a motion.npz of levade solve") from None
+        except _UNREADABLE:
+            raise LevadeError(
+                f"{path}: cannot be read as a motion; damaged, or not a motion.npz of levade solve"
+            ) from None
         missing = [name for name in ("meta", "model_xml", *ARRAYS) if name not in content]
         if missing:
-            raise LevadeError(f"{path}: not a motion file, {', '.join(missing[:3])} missing; give a motion.npz of levade solve")
+            raise LevadeError(
+                f"{path}: not a motion file, {', '.join(missing[:3])} missing; give a motion.npz of levade solve"
+            )
         try:
             meta = json.loads(str(content["meta"]))
             schema = meta["schema"]
         except (ValueError, TypeError, KeyError):
-            raise LevadeError(f"{path}: its meta cannot be read; damaged, or not a motion.npz of levade solve") from None
-        if schema != SCHEMA:
-            raise LevadeError(f"{path}: layout {schema}, but this levade reads layout {SCHEMA}; use the levade that wrote it")
+            raise LevadeError(
+                f"{path}: its meta cannot be read; damaged, or not a motion.npz of levade solve"
+            ) from None
+        if schema != SCHEMA and isinstance(schema, int):
+            raise LevadeError(
+                f"{path}: layout {schema}, but this levade reads layout {SCHEMA}; use the levade that wrote it"
+            )
+        lacking = [key for key in META if key not in meta]
+        if lacking or schema != SCHEMA:
+            raise LevadeError(
+                f"{path}: its meta lacks {', '.join(lacking[:3]) or 'a schema'}; not made by levade solve"
+            )
         _check_shapes(path, content)
         assets = {name[6:]: content[name].tobytes() for name in content if name.startswith("asset:")}
         return cls(meta, str(content["model_xml"]), {name: content[name] for name in ARRAYS}, assets)
@@ -163,7 +206,10 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
         "task": task_to_dict(task),
         "robot": objective.robot.name,
         "trunk": objective.robot.trunk,
-        "legs": {leg.name: {"joints": list(leg.joints), "foot": leg.foot, "side": leg.side, "end": leg.end} for leg in objective.robot.legs},
+        "legs": {
+            leg.name: {"joints": list(leg.joints), "foot": leg.foot, "side": leg.side, "end": leg.end}
+            for leg in objective.robot.legs
+        },
         "limits": {
             "lower": _finite(limits.lower),
             "upper": _finite(limits.upper),
@@ -209,6 +255,11 @@ def _check_shapes(path: Path, content: Mapping[str, Array]) -> None:
     sizes: dict[str, int] = {"3": 3, "4": 4}
     for name, dimensions in ARRAYS.items():
         shape = content[name].shape
-        if len(shape) != len(dimensions) or any(sizes.setdefault(d, n) != n for d, n in zip(dimensions, shape, strict=True)):
+        if content[name].dtype.kind != ("U" if name == "joint_names" else "f"):
+            kind = "texts" if name == "joint_names" else "floating-point numbers"
+            raise LevadeError(f"{path}: {name} is of {content[name].dtype}, should be {kind}; the file is damaged")
+        if len(shape) != len(dimensions) or any(
+            sizes.setdefault(d, n) != n for d, n in zip(dimensions, shape, strict=True)
+        ):
             expected = ", ".join(f"{d}={sizes[d]}" if d in sizes and not d.isdigit() else d for d in dimensions)
             raise LevadeError(f"{path}: {name} has the shape {shape}, should be ({expected}); the file is damaged")

@@ -1,14 +1,14 @@
 """A run: a solve that keeps a directory, so that nothing it computed is lost.
 
-    outcome = run(load_task("rearing"), seed=0, directory=Path("rearing"))
-    outcome = resume(Path("rearing"))
+outcome = run(load_task("rearing"), seed=0, directory=Path("rearing"))
+outcome = resume(Path("rearing"))
 
-    DIR/task.yaml         the task with every default filled in; solving it again with the same seed gives the same motion
-    DIR/motion.npz        the best motion: written at the end, and on the way whenever there is a better one (at most every
-                          few seconds)
-    DIR/progress.csv      a line per generation
-    DIR/checkpoint.jsonl  a line per generation: what its simulations said (`levade.solve.Record`); a resumed run goes
-                          through these again without simulating, to exactly the state where the run stopped
+DIR/task.yaml         the task with every default filled in; solving it again with the same seed gives the same motion
+DIR/motion.npz        the best motion: written at the end, and on the way whenever there is a better one (at most every
+                      few seconds)
+DIR/progress.csv      a line per generation
+DIR/checkpoint.jsonl  a line per generation: what its simulations said (`levade.solve.Record`); a resumed run goes
+                      through these again without simulating, to exactly the state where the run stopped
 """
 
 from __future__ import annotations
@@ -16,7 +16,9 @@ from __future__ import annotations
 import csv
 import json
 import time
+import zlib
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any
@@ -69,28 +71,30 @@ def run(
     """
     objective = task if isinstance(task, Objective) else Objective(task, threads=threads)
     text = task_to_yaml(objective.task)
+    header = {"task": objective.task.name, "seed": seed, "versions": versions(), "task_checksum": _checksum(text)}
+    new = not directory.exists()
     try:
         directory.mkdir(parents=True, exist_ok=True)
+        _write(directory / TASK, text)
+        _write(directory / CHECKPOINT, json.dumps(header) + "\n")
         (directory / MOTION).unlink(missing_ok=True)
-        (directory / TASK).write_text(text, encoding="utf-8")
-        checkpoint = (directory / CHECKPOINT).open("w", encoding="utf-8")
-        header = {"task": objective.task.name, "seed": seed, "versions": versions()}
-        checkpoint.write(json.dumps(header) + "\n")
-        checkpoint.flush()
+        checkpoint = (directory / CHECKPOINT).open("a", encoding="utf-8")
     except OSError as error:
+        if new:
+            with suppress(OSError):
+                directory.rmdir()
         raise LevadeError(
             f"{directory}: cannot be written ({error.strerror}); give a directory that can: --out DIR"
         ) from None
-    with checkpoint:
+    with _closing(checkpoint):
         return _run(objective, seed, directory, checkpoint, [], observe)
 
 
-def resume(
-    directory: Path, *, threads: int = 0, observe: Callable[[Generation], object] | None = None
-) -> Outcome:
+def resume(directory: Path, *, threads: int = 0, observe: Callable[[Generation], object] | None = None) -> Outcome:
     """Go on with a run that was interrupted, to exactly the motion that it would have come to.
 
-    Raises LevadeError if there is no run in the directory, or other versions of the libraries made it.
+    Raises LevadeError if there is no run in the directory, its task has been changed since, or other versions of the
+    libraries made it.
     """
     task, header, records = read_run(directory)
     now = versions()
@@ -100,22 +104,33 @@ def resume(
                 f"{directory}: was started with {name} {version}, this is {now.get(name)}: going on would give another"
                 f" motion; install {name}=={version}, or start anew"
             )
+    text = (directory / TASK).read_text(encoding="utf-8")
+    if header.get("task_checksum") != _checksum(text):
+        raise LevadeError(
+            f"{directory / TASK}: has changed since the run began, so that it cannot go on; put it back, or start anew:"
+            f" levade solve {directory / TASK} --force"
+        )
     objective = Objective(task, threads=threads)
     try:
         # a line that was cut off in the middle is written anew
         kept = [json.dumps(header), *(json.dumps(record.to_json()) for record in records)]
-        partial = directory / f".{CHECKPOINT}.partial"
-        partial.write_text("".join(line + "\n" for line in kept), encoding="utf-8")
-        partial.replace(directory / CHECKPOINT)
+        _write(directory / CHECKPOINT, "".join(line + "\n" for line in kept))
         checkpoint = (directory / CHECKPOINT).open("a", encoding="utf-8")
     except OSError as error:
         raise LevadeError(f"{directory}: cannot be written ({error.strerror})") from None
-    with checkpoint:
+    with _closing(checkpoint):
         return _run(objective, header["seed"], directory, checkpoint, records, observe)
 
 
 def unfinished(directory: Path) -> None:
-    """Raise LevadeError if the directory holds a run that was interrupted, and can still be gone on with."""
+    """Raise LevadeError if a run in the directory would replace an interrupted one, or files that are of no run."""
+    if not (directory / CHECKPOINT).exists():
+        for name in (TASK, MOTION, PROGRESS):
+            if (directory / name).exists():
+                raise LevadeError(
+                    f"{directory / name}: is of no run here, and would be replaced; write elsewhere: --out DIR, or"
+                    " replace it: --force"
+                )
     try:
         _, header, records = read_run(directory)
     except LevadeError:
@@ -134,12 +149,15 @@ def _finished(directory: Path) -> bool:
 def read_run(directory: Path) -> tuple[Task, dict[str, Any], list[Record]]:
     """Task, header (task, seed, versions) and records of a run's directory. Raises LevadeError if there is none."""
     if not (directory / CHECKPOINT).is_file() or not (directory / TASK).is_file():
-        raise LevadeError(f"{directory}: no run to resume, {TASK} or {CHECKPOINT} is missing; give the --out of a solve")
+        raise LevadeError(
+            f"{directory}: no run to resume, {TASK} or {CHECKPOINT} is missing; give the --out of a solve"
+        )
     task = task_from_dict(read_yaml(directory / TASK), where=str(directory / TASK))
     lines = (directory / CHECKPOINT).read_text(encoding="utf-8", errors="replace").splitlines()
     try:
         header = json.loads(lines[0])
-        header["seed"], header["versions"]  # noqa: B018
+        if not (isinstance(header["seed"], int) and isinstance(header["versions"], dict)):
+            raise TypeError
     except (ValueError, LookupError, TypeError):
         raise LevadeError(f"{directory / CHECKPOINT}: damaged, its first line is no header; start anew") from None
     return task, header, list(_records(lines[1:]))
@@ -150,7 +168,7 @@ def _records(lines: list[str]) -> Iterator[Record]:
     for line in lines:
         try:
             yield Record.from_json(json.loads(line))
-        except (ValueError, LookupError, TypeError):
+        except (ValueError, LookupError, TypeError, AttributeError):
             return
 
 
@@ -163,7 +181,10 @@ def _run(
     observe: Callable[[Generation], object] | None,
 ) -> Outcome:
     began = time.perf_counter()
-    progress = _Progress(objective, directory)
+    try:
+        progress = _Progress(objective, directory)
+    except OSError as error:
+        raise StorageError(f"{directory / PROGRESS}: cannot be written ({error.strerror})") from None
     saved = time.perf_counter()
     best: Any = None
 
@@ -180,8 +201,8 @@ def _run(
                 saved = time.perf_counter()
         except OSError as error:
             raise StorageError(
-                f"{directory}: cannot be written any more ({error.strerror}) after {generation.trials} trials; make room,"
-                f" then: levade solve --resume {directory}"
+                f"{directory}: cannot be written any more ({error.strerror}) after {generation.trials} trials; make"
+                f" room, then: levade solve --resume {directory}"
             ) from None
         if observe is not None:
             observe(generation)
@@ -197,7 +218,8 @@ def _run(
             checkpoint.flush()
     except OSError as error:
         raise StorageError(
-            f"{directory / MOTION}: cannot be written ({error.strerror}); make room, then: levade solve --resume {directory}"
+            f"{directory / MOTION}: cannot be written ({error.strerror}); make room, then:"
+            f" levade solve --resume {directory}"
         ) from None
     return Outcome(objective, solution, motion, directory, seed, wall)
 
@@ -211,6 +233,31 @@ def _so_far(generation: Generation) -> Solution:
         diverged=generation.diverged,
         stopped="running",
     )
+
+
+def _checksum(text: str) -> int:
+    return zlib.crc32(text.encode())
+
+
+def _write(path: Path, text: str) -> None:
+    """Write a file, or leave the one that is there. Raises OSError."""
+    partial = path.with_name(f".{path.name}.partial")
+    try:
+        partial.write_text(text, encoding="utf-8")
+        partial.replace(path)
+    finally:
+        with suppress(OSError):
+            partial.unlink(missing_ok=True)
+
+
+@contextmanager
+def _closing(file: IO[str]) -> Iterator[None]:
+    """Close a file whose every line has been flushed: what a full disk refused is not tried, and reported, again."""
+    try:
+        yield
+    finally:
+        with suppress(OSError):
+            file.close()
 
 
 class _Progress:
@@ -234,7 +281,8 @@ class _Progress:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._file.close()
+        with suppress(OSError):
+            self._file.close()
 
     def write(self, g: Generation) -> None:
         """A line: costs of the generation as its stage weighs them, the best trial so far by the task's own weights."""

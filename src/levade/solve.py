@@ -13,7 +13,7 @@ from __future__ import annotations
 import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from functools import cached_property
 from typing import Any
 
@@ -58,7 +58,7 @@ class Objective:
         self.policy = make_policy(task, self.robot)
         self.terms = {name: cost.term for name, cost in task.costs.items()}
         bodies = {name: getattr(term, "bodies", ()) for name, term in self.terms.items()}
-        for name, body in ((name, body) for name in bodies for body in bodies[name]):
+        for name, body in ((term, body) for term in bodies for body in bodies[term]):
             if body not in self.engine.bodies:
                 hint = did_you_mean(body, self.engine.bodies)
                 raise LevadeError(f"costs.{name}.bodies: no body {body!r} in {self.robot.name}; {hint}")
@@ -197,7 +197,8 @@ class Record:
     def from_json(cls, content: Mapping[str, Any]) -> Record:
         """The record that `to_json` wrote."""
         terms, off = (
-            {name: np.array(values, dtype=float) for name, values in content[key].items()} for key in ("terms", "errors")
+            {name: np.array(values, dtype=float) for name, values in content[key].items()}
+            for key in ("terms", "errors")
         )
         success, diverged = (np.array(content[key], dtype=bool) for key in ("success", "diverged"))
         return cls(content["generation"], content["checksum"], Evaluation(terms, off, success, diverged))
@@ -297,7 +298,7 @@ def solve(
             stage = stages[search.stage]
             candidates = optimizer.ask()
             record, replayed = _evaluate(objective, candidates, search, stage, earlier)
-            cost = objective.cost(record.evaluation, weights | stage.weights)
+            cost = objective.cost(record.evaluation, {**weights, **stage.weights})
             optimizer.tell(cost)
             if aim is not None:
                 aim.tell(candidates, _missed(task, record.evaluation), cost)
@@ -365,9 +366,7 @@ def make_optimizer(objective: Objective, seed: int) -> Optimizer:
     policy = objective.policy
     factor = None
     if search.smoothness > 0 or search.modes is not None:
-        factor = smoothness_factor(
-            policy.kernels, search.smoothness, policy.independent_joints, modes=search.modes
-        )
+        factor = smoothness_factor(policy.kernels, search.smoothness, policy.independent_joints, modes=search.modes)
     return OPTIMIZERS[search.optimizer](
         objective.initial_weights,
         factor=factor,
@@ -424,7 +423,11 @@ def _evaluate(
 
 
 def _keep_best(
-    search: _Search, objective: Objective, candidates: Array, evaluation: Evaluation | None, weights: Mapping[str, float]
+    search: _Search,
+    objective: Objective,
+    candidates: Array,
+    evaluation: Evaluation | None,
+    weights: Mapping[str, float],
 ) -> None:
     """Keep the best trial of all: success first, then the task's cost."""
     if evaluation is None:
@@ -432,7 +435,7 @@ def _keep_best(
     cost = objective.cost(evaluation, weights)
     first = np.lexsort((cost, ~evaluation.success))[0]
     best = search.best
-    if best is None or (not evaluation.success[first], cost[first]) < (not best.success, best.cost):
+    if best is None or (not evaluation.success[first], float(cost[first])) < (not best.success, best.cost):
         search.best = Trial(
             weights=candidates[first].copy(),
             cost=float(cost[first]),

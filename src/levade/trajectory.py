@@ -1,9 +1,9 @@
 """The arrays that pass between the rooms: what is asked of the joints, and what the robot then did.
 
 Everything is batched over ``n`` trials and sampled once per physics step. Row ``k`` of every array belongs to physics
-step ``k``, which starts at ``k * timestep`` and ends at ``time[k] = (k + 1) * timestep``: references and torques are those
-in force *during* the step, positions and velocities those reached at its *end*. Rows ``[:horizon_steps]`` are the motion
-proper, up to the horizon T; the rows after them, if any, are the hold.
+step ``k``, which starts at ``k * timestep`` and ends at ``time[k] = (k + 1) * timestep``: references and torques are
+those in force *during* the step, positions and velocities those reached at its *end*. Rows ``[:horizon_steps]`` are the
+motion proper, up to the horizon T; the rows after them, if any, are the hold.
 
 SI units; quaternions w-x-y-z; joint order is the robot's.
 """
@@ -166,8 +166,8 @@ def rotation_matrix(quaternion: Array) -> Array:
 def roll_pitch_yaw(quaternion: Array) -> Array:
     """(..., 4) quaternions, w-x-y-z, to (..., 3) intrinsic z-y-x angles [rad]: roll, pitch, yaw.
 
-    Pitch is in [-pi/2, pi/2], roll and yaw in (-pi, pi]. At pitch = +-pi/2 roll and yaw are not unique; costs and success
-    criteria therefore measure orientation as `levade.costs.orientation` says, not by subtracting these angles.
+    Pitch is in [-pi/2, pi/2], roll and yaw in (-pi, pi]. At pitch = +-pi/2 roll and yaw are not unique; costs and
+    success criteria therefore measure orientation as `levade.costs.orientation` says, not by subtracting these angles.
     """
     w, x, y, z = np.moveaxis(quaternion, -1, 0)
     roll = np.arctan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))

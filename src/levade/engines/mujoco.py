@@ -1,13 +1,15 @@
 """The default engine: MuJoCo, its simulations stepped in a batch on a thread pool.
 
-The model is always the one compiled from `MujocoEngine.xml`, the text that a motion file keeps, so that whoever replays a
-motion from its file simulates the same model to the last bit.
+The model is always the one compiled from `MujocoEngine.xml`, the text that a motion file keeps, so that whoever
+replays a motion from its file simulates the same model to the last bit.
 """
 
 from __future__ import annotations
 
+import copy
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from functools import cached_property
 
 import mujoco
@@ -15,7 +17,7 @@ import numpy as np
 from mujoco.batch import Batch, SimulationError
 
 from levade.engines.physics import Physics
-from levade.engines.start import Fall, Settled, Start, State
+from levade.engines.start import Settled, Start, State
 from levade.errors import LevadeError
 from levade.robots import Robot
 from levade.scenes import Scene, compose
@@ -44,7 +46,7 @@ class MujocoEngine:
         self.assets = dict(robot.assets)
         self.model = _compile(self.xml, self.assets)
         self._layout = _Layout(robot, self.model)
-        self._batch: Batch | None = None
+        self._batches: dict[bool, Batch] = {}
         self._ctrl: Array | None = None
 
     @cached_property
@@ -58,14 +60,14 @@ class MujocoEngine:
         Raises LevadeError if the robot overlaps the scene, or itself, before it is let go, or the simulation diverges.
         """
         if isinstance(start, Settled):
-            posture = self.robot.posture(start.posture)
+            posture = self._posture("start.settled.posture", start)
             height = self.robot.standing_height(start.posture)
             height += start.x * math.tan(self.scene.slope) + abs(math.tan(self.scene.slope)) * self._reach(posture)
             data = self._release((start.x, start.y, height), (0.0, 0.0, 0.0), posture, self.model)
             return self._let_go(self.model, data, posture, start.time)
         generator = np.random.default_rng(start.seed)
         attitude = np.array([start.roll, start.pitch, start.yaw]) + start.spread * generator.standard_normal(3)
-        posture = self.robot.posture(start.posture)
+        posture = self._posture("start.fall.posture", start)
         posture += start.spread * generator.standard_normal(posture.size)
         limits = self.robot.limits
         posture = np.clip(posture, limits.lower, limits.upper)
@@ -86,20 +88,14 @@ class MujocoEngine:
         recorded = ["qpos", "qvel", "actuator_force"]
         if feet or bodies:
             recorded.append("sensordata")
-        batch = self._batch_for(n)
-        # sensors are read only, so the motion is the same with and without them
-        option = batch.model.opt
-        if feet or bodies:
-            option.disableflags &= ~_SENSORS_OFF
-        else:
-            option.disableflags |= _SENSORS_OFF
-
+        batch = self._batch_for(n, sensors=feet or bool(bodies))
         batch.state[:n] = self._row(state)
         before = batch.warning[:n].copy()
         failed: list[int] = []
         ids = None if n == batch.nsim else np.arange(n)
         try:
-            out = batch.rollout(steps, self.ctrl(reference), record=recorded, ids=ids)
+            with _quiet():
+                out = batch.rollout(steps, self.ctrl(reference), record=recorded, ids=ids)
         except SimulationError as error:
             failed = [int(i) for i in error.ids]
             ok = [i for i in range(n) if i not in failed]
@@ -108,7 +104,8 @@ class MujocoEngine:
                 out[name] = np.zeros((n, steps, *getattr(mujoco.MjData(model), name).shape))
             if ok:
                 batch.state[ok] = self._row(state)
-                part = batch.rollout(steps, self.ctrl(reference[ok]), record=recorded, ids=np.array(ok))
+                with _quiet():
+                    part = batch.rollout(steps, self.ctrl(reference[ok]), record=recorded, ids=np.array(ok))
                 for name in recorded:
                     out[name][ok] = part[name]
             out["qpos"][failed], out["qvel"][failed] = state.qpos, state.qvel
@@ -132,11 +129,15 @@ class MujocoEngine:
             horizon_steps=reference.horizon_steps,
             diverged=diverged,
             foot_contact_force=None if sensordata is None or not feet else layout.foot_forces(sensordata),
-            body_contact_force={} if sensordata is None else {body: layout.force_on(body, sensordata) for body in bodies},
+            body_contact_force={}
+            if sensordata is None
+            else {body: layout.force_on(body, sensordata) for body in bodies},
         )
 
     def ctrl(self, reference: JointReference) -> Array:
-        """What is sent to the actuators, (n, steps, nu): position and velocity of each joint. Reused by the next call."""
+        """What is sent to the actuators, (n, steps, nu): position and velocity of each joint. Reused by the next
+        call.
+        """
         shape = (*reference.position.shape[:2], self.model.nu)
         if self._ctrl is None or self._ctrl.shape != shape:
             self._ctrl = np.zeros(shape)
@@ -155,12 +156,18 @@ class MujocoEngine:
         _add_contact_sensors(spec, self.robot)
         return spec.to_xml()
 
-    def _batch_for(self, n: int) -> Batch:
-        if self._batch is None or self._batch.nsim < n:
-            self._batch = Batch(self.model, n, self._threads)
+    def _batch_for(self, n: int, *, sensors: bool) -> Batch:
+        """A batch of at least n simulations. A batch takes its options when it is made, so there are two.
+
+        Sensors are read only: the motion is the same with and without them.
+        """
+        batch = self._batches.get(sensors)
+        if batch is None or batch.nsim < n:
+            model = copy.deepcopy(self.model)
             # a state that has gone bad stops the simulation; it must not start over unnoticed
-            self._batch.model.opt.disableflags |= _RESET_OFF
-        return self._batch
+            model.opt.disableflags |= _RESET_OFF | (0 if sensors else _SENSORS_OFF)
+            batch = self._batches[sensors] = Batch(model, n, self._threads)
+        return batch
 
     def _row(self, state: State) -> Array:
         """The state as a batch takes it: as after ``mj_resetData`` and setting qpos, qvel and act."""
@@ -169,6 +176,12 @@ class MujocoEngine:
         row = np.empty(mujoco.mj_stateSize(self.model, _STATE))
         mujoco.mj_getState(self.model, data, row, _STATE)
         return row
+
+    def _posture(self, where: str, start: Start) -> Array:
+        try:
+            return self.robot.posture(start.posture)
+        except LevadeError as error:
+            raise LevadeError(f"{where}: {error}") from None
 
     def _reach(self, posture: Array) -> float:
         """[m], how far the feet are from the trunk's origin along x."""
@@ -203,7 +216,8 @@ class MujocoEngine:
         ctrl[self._layout.ctrl_position] = posture
         data.ctrl[:] = ctrl
         if steps:
-            mujoco.mj_step(model, data, nstep=steps)
+            with _quiet():
+                mujoco.mj_step(model, data, nstep=steps)
         if any(warning.number for warning in data.warning):
             raise LevadeError(
                 f"start: the simulation broke down within {time} s; a smaller physics.timestep or lower gains may help"
@@ -215,6 +229,21 @@ class MujocoEngine:
             joint_position=data.qpos[self._layout.joint_qpos].copy(),
             joint_reference=posture.copy(),
         )
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Simulations that break down are told to the caller, not to standard error and a MUJOCO_LOG.TXT."""
+    before = mujoco.get_mju_user_warning()
+    mujoco.set_mju_user_warning(_ignore)
+    try:
+        yield
+    finally:
+        mujoco.set_mju_user_warning(before)
+
+
+def _ignore(message: str) -> None:
+    pass
 
 
 class _Layout:

@@ -25,6 +25,8 @@ class Physics:
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.timestep) and 0 < self.timestep <= 0.02):
-            raise LevadeError(f"physics.timestep: {self.timestep} s is out of range; 0.001 to 0.004 is usual, at most 0.02")
+            raise LevadeError(
+                f"physics.timestep: {self.timestep} s is out of range; 0.001 to 0.004 is usual, at most 0.02"
+            )
         if not (math.isfinite(self.impratio) and self.impratio > 0):
             raise LevadeError(f"physics.impratio: {self.impratio} should be a positive number; 10 is usual")

@@ -14,8 +14,9 @@ from levade.trajectory import Array
 class Settled:
     """Standing on the ground in a posture, at rest.
 
-    posture: name of a posture of the robot, or joint -> angle [rad] on top of the neutral one. The robot is put down level, with its lowest foot touching, above the point
-    x, y, and holds the posture with its own gains for ``time`` [s]; it sags a little, as its joints give way to gravity.
+    posture: name of a posture of the robot, or joint -> angle [rad] on top of the neutral one. The robot is put down
+    level, with its lowest foot touching, above the point x, y, and holds the posture with its own gains for ``time``
+    [s]; it sags a little, as its joints give way to gravity.
     """
 
     posture: str | Mapping[str, float] = "neutral"
@@ -24,7 +25,8 @@ class Settled:
     time: float = 2.0
 
     def __post_init__(self) -> None:
-        _check_time("start.time", self.time)
+        _check_time("start.settled.time", self.time)
+        _check_finite("start.settled", x=self.x, y=self.y)
 
 
 @dataclass(frozen=True)
@@ -51,11 +53,13 @@ class Fall:
     seed: int = 0
 
     def __post_init__(self) -> None:
-        _check_time("start.time", self.time)
+        _check_time("start.fall.time", self.time)
+        places = {name: getattr(self, name) for name in ("height", "x", "y", "roll", "pitch", "yaw")}
+        _check_finite("start.fall", **places)
         for name in ("gain", "spread"):
             value = getattr(self, name)
             if not (math.isfinite(value) and value >= 0):
-                raise LevadeError(f"start.{name}: {value} should be 0 or more")
+                raise LevadeError(f"start.fall.{name}: {value} should be 0 or more")
 
 
 Start = Settled | Fall
@@ -66,8 +70,8 @@ class State:
     """Where a rollout starts.
 
     qpos, qvel, act: MuJoCo's state vectors, in the model's own order.
-    joint_position: (joints,) [rad], the robot's joint order. joint_reference: (joints,) [rad], what the joints were told
-    last, so that a motion may start from there without a jump.
+    joint_position: (joints,) [rad], the robot's joint order. joint_reference: (joints,) [rad], what the joints were
+    told last, so that a motion may start from there without a jump.
     """
 
     qpos: Array
@@ -75,6 +79,12 @@ class State:
     act: Array
     joint_position: Array
     joint_reference: Array
+
+
+def _check_finite(where: str, **values: float) -> None:
+    for name, value in values.items():
+        if not math.isfinite(value):
+            raise LevadeError(f"{where}.{name}: {value} is not a number")
 
 
 def _check_time(name: str, time: float) -> None:

@@ -1,9 +1,9 @@
 """Optimizers: ask for candidates, tell their costs. They know nothing of robots.
 
-    optimizer = CMAES(mean, factor=factor, step=0.1, seed=0)
-    while ...:
-        weights = optimizer.ask()              # (n, d)
-        optimizer.tell(cost(weights))          # (n,)
+optimizer = CMAES(mean, factor=factor, step=0.1, seed=0)
+while ...:
+    weights = optimizer.ask()              # (n, d)
+    optimizer.tell(cost(weights))          # (n,)
 """
 
 from levade.optimizers.aim import Aim

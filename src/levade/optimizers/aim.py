@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from levade.optimizers.blas import single_threaded
 from levade.trajectory import Array
 
 RIDGE = 1e-3
@@ -27,9 +28,7 @@ class Aim:
 
     def __init__(self, *, memory: int = 400, neighbours: int = 120) -> None:
         self._memory, self._neighbours = memory, neighbours
-        self._candidates: Array | None = None
-        self._errors: Array | None = None
-        self._cost: Array | None = None
+        self._seen: tuple[Array, Array, Array] | None = None
 
     def tell(self, candidates: Array, errors: Array, cost: Array) -> None:
         """What came of a generation.
@@ -38,41 +37,43 @@ class Aim:
         A change of k, as when more is looked at from now on, starts anew.
         """
         known = np.isfinite(errors).all(axis=1)
-        candidates, errors, cost = candidates[known], errors[known], cost[known]
-        if self._errors is None or self._errors.shape[1] != errors.shape[1]:
-            self._candidates, self._errors, self._cost = candidates, errors, cost
-            return
-        assert self._candidates is not None and self._cost is not None
-        self._candidates = np.concatenate([self._candidates, candidates])[-self._memory :]
-        self._errors = np.concatenate([self._errors, errors])[-self._memory :]
-        self._cost = np.concatenate([self._cost, cost])[-self._memory :]
+        new = (candidates[known], errors[known], cost[known])
+        if self._seen is None or self._seen[1].shape[1] != errors.shape[1]:
+            self._seen = new
+        else:
+            one, two, three = (np.concatenate(both)[-self._memory :] for both in zip(self._seen, new, strict=True))
+            self._seen = (one, two, three)
 
     def forget(self) -> None:
         """Start anew: costs and errors mean something else from now on."""
-        self._candidates = self._errors = self._cost = None
+        self._seen = None
 
     def propose(self) -> Array | None:
-        """The candidate (d,) to try next; None while too few trials are known."""
-        if self._candidates is None or self._errors is None or self._cost is None:
+        """The candidate (d,) to try next; None while too few trials are known, or if the best one misses nothing by much."""
+        if self._seen is None:
             return None
-        n, k = self._errors.shape
+        candidates, errors, cost = self._seen
+        n, k = errors.shape
         if k == 0 or n < 3 * (k + 1):
             return None
-        best = int(np.argmin(self._cost))
-        difference = self._candidates - self._candidates[best]
+        with single_threaded():
+            return self._step(candidates, errors, int(np.argmin(cost)))
+
+    def _step(self, candidates: Array, errors: Array, best: int) -> Array | None:
+        difference = candidates - candidates[best]
         length = np.einsum("nd,nd->n", difference, difference)
         nearest = np.argsort(length, kind="stable")[1 : self._neighbours + 1]
         nearest = nearest[length[nearest] > 0]
-        if nearest.size < 2 * k:
+        if nearest.size < 2 * errors.shape[1]:
             return None
-        change = self._errors[nearest] - self._errors[best]
+        change = errors[nearest] - errors[best]
         scale = np.sqrt(np.maximum(length[nearest].mean(), np.finfo(float).tiny))
         unit = difference[nearest] / scale
         gram = unit @ unit.T
         gram[np.diag_indices_from(gram)] += RIDGE
         slope = unit.T @ np.linalg.solve(gram, change)  # (d, k)
         # what is well within its bounds stays; the rest is to vanish
-        wanted = np.where(np.abs(self._errors[best]) > 0.5, self._errors[best], 0.0)
+        wanted = np.where(np.abs(errors[best]) > 0.5, errors[best], 0.0)
         if not wanted.any():
             return None
         normal = slope.T @ slope
@@ -82,4 +83,4 @@ class Aim:
         farthest = 3.0 * np.sqrt(length[nearest].max()) / scale
         if reach > farthest:  # the regression knows nothing that far away
             step *= farthest / reach
-        return self._candidates[best] + scale * step
+        return candidates[best] + scale * step

@@ -1,7 +1,7 @@
 """CMA-ES, by the library `cma` (N. Hansen), in coordinates where the initial covariance is the identity.
 
-A candidate is ``mean + factor @ z``, and CMA-ES searches over z with step size ``step``: ``factor @ factor.T`` is then the
-initial covariance of the candidates, up to ``step**2``.
+A candidate is ``mean + factor @ z``, and CMA-ES searches over z with step size ``step``: ``factor @ factor.T`` is then
+the initial covariance of the candidates, up to ``step**2``.
 """
 
 from __future__ import annotations
@@ -10,23 +10,23 @@ import warnings
 from typing import Literal
 
 import numpy as np
-from threadpoolctl import ThreadpoolController
 
 from levade.errors import LevadeError
+from levade.optimizers.blas import single_threaded
 from levade.trajectory import Array
 
 with warnings.catch_warnings():
     warnings.simplefilter("ignore")  # that matplotlib is missing, which only cma's own plots need
     import cma
 
-_libraries = ThreadpoolController()
-
 # cma's stop rules answer a flat or noisy cost; when to stop is for the staged loop to say
 _NEVER = {"tolfun": 0, "tolfunhist": 0, "tolfunrel": 0, "tolx": 0, "tolstagnation": 10**9, "tolflatfitness": 10**9}
 
 
 class _TwoPoint(cma.sigma_adaptation.CMAAdaptSigmaTPA):
-    """Two-point adaptation without its self-check, which draws from numpy's global generator and warns near the optimum."""
+    """Two-point adaptation without its self-check, which draws from numpy's global generator and warns near the
+    optimum.
+    """
 
     def check_consistency(self, es: object) -> None:
         pass
@@ -39,8 +39,8 @@ class CMAES:
     step: initial step size. seed: of this optimizer's own random numbers.
     population: candidates per generation; 4 + 3 log(m) if None, the library's default (17 for m = 96, 19 for 192).
     step_adaptation: how the step size follows the search. "csa": cumulative path length, the library's default.
-        "tpa": two-point adaptation (Hansen, arXiv 0805.0231), which tests a longer and a shorter step in each generation;
-        it keeps its pace where most directions matter little, as with smooth motions of many kernels.
+        "tpa": two-point adaptation (Hansen, arXiv 0805.0231), which tests a longer and a shorter step in each
+        generation; it keeps its pace where most directions matter little, as with smooth motions of many kernels.
     Raises LevadeError for shapes that do not fit or a step that is not positive.
     """
 
@@ -75,7 +75,7 @@ class CMAES:
             options["popsize"] = population
         if step_adaptation == "tpa":
             options["AdaptSigma"] = _TwoPoint
-        with _single_threaded():
+        with single_threaded():
             self._search = cma.CMAEvolutionStrategy(np.zeros(self._factor.shape[1]), step, options)
         self._asked: list | None = None
 
@@ -89,7 +89,7 @@ class CMAES:
 
     def ask(self) -> Array:
         """The next candidates, (population, d)."""
-        with _single_threaded():
+        with single_threaded():
             self._asked = self._search.ask()
             return self._mean + np.asarray(self._asked) @ self._factor.T
 
@@ -100,21 +100,16 @@ class CMAES:
         cost = np.asarray(cost, dtype=np.float64)
         if cost.shape != (self.population,) or not np.isfinite(cost).all():
             raise ValueError(f"cost: expected {self.population} finite numbers, got {cost}")
-        with _single_threaded():
+        with single_threaded():
             self._search.tell(self._asked, cost.tolist())
         self._asked = None
 
     def inject(self, candidate: Array) -> None:
         """Make a candidate (d,) part of the next generation, in place of one of its own."""
         deviation = candidate - self._mean
-        with _single_threaded():
+        with single_threaded():
             self._search.inject([np.linalg.lstsq(self._factor, deviation, rcond=1e-8)[0]], force=True)
 
     def scale_step(self, factor: float) -> None:
         """Multiply the step size, as at the start of a stage."""
         self._search.sigma *= factor
-
-
-def _single_threaded():
-    """One BLAS thread: faster at these sizes, and the same bits whatever the machine's number of cores."""
-    return _libraries.limit(limits=1, user_api="blas")

@@ -88,9 +88,7 @@ class Robot:
         """
         if isinstance(posture, str):
             if posture not in self.postures:
-                raise LevadeError(
-                    f"robot {self.name}: no posture {posture!r}; {did_you_mean(posture, self.postures)}"
-                )
+                raise LevadeError(f"robot {self.name}: no posture {posture!r}; {did_you_mean(posture, self.postures)}")
             return self.postures[posture].copy()
         from levade.robots.description import per_joint
 

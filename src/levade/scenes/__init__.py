@@ -1,7 +1,7 @@
 """Scenes: the ground and the obstacles, and the one model that they make with a robot.
 
-    scene = Scene(boxes=(Box(position=(0.0, 0.4, 0.1), size=(0.9, 0.3, 0.2)),))
-    spec = compose(load_robot("hyq2max"), scene)
+scene = Scene(boxes=(Box(position=(0.0, 0.4, 0.1), size=(0.9, 0.3, 0.2)),))
+spec = compose(load_robot("hyq2max"), scene)
 """
 
 from levade.scenes.scene import GROUND, Box, Scene, compose

@@ -29,6 +29,8 @@ class Box:
     yaw: float = 0.0
 
     def __post_init__(self) -> None:
+        if not all(math.isfinite(value) for value in (*self.position, self.roll, self.pitch, self.yaw)):
+            raise LevadeError(f"box: position {list(self.position)} and roll, pitch, yaw should be finite numbers")
         if not all(math.isfinite(edge) and edge > 0 for edge in self.size):
             raise LevadeError(f"box.size: {list(self.size)} should be three positive edge lengths in m")
 
@@ -37,7 +39,8 @@ class Box:
 class Scene:
     """What the robot stands on and may touch.
 
-    friction: Coulomb friction coefficient of every contact with the ground and the obstacles; where left out, the robot's
+    friction: Coulomb friction coefficient of every contact with the ground and the obstacles; where left out, the
+    robot's
         own parts decide (feet and shell may differ), or 1 if they are below and do not take priority.
     slope: [rad], of the ground along x, uphill positive. boxes: obstacles.
     """
@@ -84,7 +87,9 @@ def compose(robot: Robot, scene: Scene, *, gain_scale: float = 1.0, damping_scal
         # everything of the robot that collides at all meets the scene; the scene never meets itself (all static)
         geom.contype = geom.conaffinity = 0x7FFFFFFF
         if scene.friction is not None:
-            geom.priority = 2  # above the robot's geoms, which have at most 1: the contact takes everything from the scene
+            geom.priority = (
+                2  # above the robot's geoms, which have at most 1: the contact takes everything from the scene
+            )
             geom.friction = [scene.friction, 0.005, 0.0001]
             foot = robot.model.geom(robot.feet[0])
             geom.condim, geom.solref, geom.solimp = 3, foot.solref.copy(), foot.solimp.copy()

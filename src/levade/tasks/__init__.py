@@ -1,7 +1,7 @@
 """Tasks: the declarative whole, read from YAML or built in Python; the built-in ones are YAML files in ``data/``.
 
-    task = load_task("rearing", changes=["horizon=0.4"])
-    task = load_task("my-task.yaml", robot="my/robot.yaml")
+task = load_task("rearing", changes=["horizon=0.4"])
+task = load_task("my-task.yaml", robot="my/robot.yaml")
 """
 
 from levade.tasks.document import TERMS, builtin_tasks, load_task, task_from_dict, task_to_dict, task_to_yaml

@@ -9,7 +9,6 @@ from typing import Any
 
 from levade.costs import (
     AngularVelocity,
-    Criterion,
     Effort,
     GroundContact,
     JointLimitExcess,
@@ -59,13 +58,15 @@ def builtin_tasks() -> dict[str, Path]:
 def load_task(name_or_path: str | Path, *, robot: str | None = None, changes: Sequence[str] = ()) -> Task:
     """A built-in task by name, or any task by the path of its YAML file.
 
-    robot: name or file of a robot, instead of the task's. changes: "path=value" each, such as "costs.effort.weight=0.5";
-    the path has to exist in the task with all its defaults. Raises LevadeError.
+    robot: name or file of a robot, instead of the task's. changes: "path=value" each, such as
+    "costs.effort.weight=0.5"; the path has to exist in the task with all its defaults. Raises LevadeError.
     """
     path = _find(str(name_or_path))
     task = task_from_dict(read_yaml(path), where=str(path))
     if robot is not None:
-        task = dataclasses.replace(task, robot=dataclasses.replace(task.robot, name=robot, actuation=None, variant=None))
+        task = dataclasses.replace(
+            task, robot=dataclasses.replace(task.robot, name=robot, actuation=None, variant=None)
+        )
     if changes:
         content = task_to_dict(task)
         for change in changes:
@@ -97,7 +98,7 @@ def task_from_dict(content: Mapping[str, Any], *, where: str) -> Task:
         content["costs"] = {
             name: {"term": name, **value} if isinstance(value, Mapping) else value for name, value in costs.items()
         }
-    content = to_si(content, where=where)
+    content = dict(to_si(content, where=where))
     if isinstance(costs, Mapping):
         content["costs"] = {
             name: _cost(str(name), value, where=f"{where}.costs.{name}") for name, value in content["costs"].items()
@@ -176,7 +177,7 @@ def _apply(content: dict[str, Any], change: str) -> None:
             if not keys:
                 raise LevadeError(f"--set {path}: {place} is a single value, {kind_of(at)}; set it as a whole")
             raise LevadeError(f"--set {path}: no {key!r} in {place}; {did_you_mean(key, keys)}")
-        index = int(key) if isinstance(at, list) else key
+        index: Any = int(key) if isinstance(at, list) else key
         if i == len(parents):
             at[index] = value
         else:

@@ -176,11 +176,17 @@ class Task:
                     if not math.isfinite(value):
                         raise LevadeError(f"{where}.{key}.{name}: {value} is not a number")
             if stage.trials is not None and stage.trials < 1:
-                raise LevadeError(f"{where}.trials: {stage.trials} should be at least 1; leave it out for all that is left")
+                raise LevadeError(
+                    f"{where}.trials: {stage.trials} should be at least 1; leave it out for all that is left"
+                )
             if not 0 <= stage.hold <= max(self.hold, 1):
-                raise LevadeError(f"{where}.hold: {stage.hold} should be true, false, or at most the task's {self.hold} s")
+                raise LevadeError(
+                    f"{where}.hold: {stage.hold} should be true, false, or at most the task's {self.hold} s"
+                )
             if self.hold_steps and not stage.hold and all(looks_at_hold(cost.term) for cost in self.costs.values()):
-                raise LevadeError(f"{where}.hold: {stage.hold}, but every cost of the task looks at the hold; say hold: true")
+                raise LevadeError(
+                    f"{where}.hold: {stage.hold}, but every cost of the task looks at the hold; say hold: true"
+                )
             if not (math.isfinite(stage.step) and stage.step > 0):
                 raise LevadeError(f"{where}.step: {stage.step} should be a positive factor on the step size")
 
@@ -207,7 +213,9 @@ def _check_hold(where: str, term: object, hold: float) -> None:
 
 def _check_search(search: Search) -> None:
     if search.optimizer not in OPTIMIZERS:
-        raise LevadeError(f"search.optimizer: no optimizer {search.optimizer!r}; {did_you_mean(search.optimizer, OPTIMIZERS)}")
+        raise LevadeError(
+            f"search.optimizer: no optimizer {search.optimizer!r}; {did_you_mean(search.optimizer, OPTIMIZERS)}"
+        )
     if search.trials < 1:
         raise LevadeError(f"search.trials: {search.trials} should be at least 1; the paper has about 3000")
     if search.population is not None and not 4 <= search.population <= 100_000:

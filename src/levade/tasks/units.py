@@ -41,7 +41,8 @@ def to_si(content: Any, *, where: str, measures: str | None = None) -> Any:
     """
     if isinstance(content, Mapping):
         return {
-            key: to_si(value, where=f"{where}.{key}", measures=_measured(str(key), content)) for key, value in content.items()
+            key: to_si(value, where=f"{where}.{key}", measures=_measured(str(key), content))
+            for key, value in content.items()
         }
     if isinstance(content, (list, tuple)):
         return [to_si(value, where=f"{where}.{i}", measures=measures) for i, value in enumerate(content)]

@@ -1,0 +1,277 @@
+"""The command line, as a user meets it: a process, its exit status, and what it prints where."""
+
+from __future__ import annotations
+
+import json
+import os
+import pty
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from levade import __version__
+from levade.cli import main
+from levade.motion import Motion
+
+QUICK = ["--set", "search.population=8", "--trials", "16", "--set", "horizon=0.06"]
+LOOSE = ["--set", "success.pitch.tolerance=9", "--set", "success.height.tolerance=9"]
+
+
+@pytest.fixture(autouse=True)
+def _here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name in ("FORCE_COLOR", "CLICOLOR_FORCE", "TTY_COMPATIBLE"):
+        monkeypatch.delenv(name, raising=False)
+
+
+@pytest.fixture
+def run(capfd: pytest.CaptureFixture[str]):
+    """Run the command line in this process: exit status, standard output, standard error."""
+
+    def call(*arguments: str) -> tuple[int, str, str]:
+        with pytest.raises(SystemExit) as exit_:
+            main(list(arguments))
+        out, err = capfd.readouterr()
+        assert isinstance(exit_.value.code, int)
+        return exit_.value.code, out, err
+
+    return call
+
+
+def test_help_and_version(run) -> None:
+    status, out, err = run("--version")
+    assert (status, out, err) == (0, f"levade {__version__}\n", "")
+    for arguments in ((), ("--help",)):
+        status, out, err = run(*arguments)
+        assert (status, err) == (0, "")
+        for command in ("solve", "show", "tasks", "robots"):
+            assert f"\n  {command} " in out
+    status, out, err = run("solve", "--help")
+    assert (status, err) == (0, "")
+    for option in ("--robot", "--seed", "--trials", "--optimizer", "--set", "--out", "--json", "--resume"):
+        assert option in out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ("solv", "No such command 'solv'. Did you mean 'solve'?"),
+        ("--nonsense", "No such option: --nonsense"),
+        ("solve rearing --sed 1", "No such option: --sed"),
+        ("solve rearing --seed one", "Invalid value for '--seed'"),
+        ("solve rearing --seed -1", "Invalid value for '--seed'"),
+        ("solve rearing --threads -1", "Invalid value for '--threads'"),
+        ("solve rearing --trials many", "Invalid value for '--trials'"),
+        ("solve rearing --trials", "requires an argument"),
+        ("solve rearing twice", "unexpected extra argument"),
+        ("solve", "solve: name a task, such as: levade solve rearing (levade tasks lists them), or --resume DIR"),
+        ("solve rearin", "no task 'rearin'; did you mean rearing? (or the path of a YAML file)"),
+        ("solve none.yaml", "none.yaml: no such file"),
+        ("solve rearing --robot hyq2", "no robot 'hyq2'; did you mean hyq2max?"),
+        ("solve rearing --robot my/robot.yaml", "my/robot.yaml: no such file"),
+        ("solve rearing --optimizer cmaes", "--set search.optimizer: no optimizer 'cmaes'; did you mean cma?"),
+        ("solve rearing --trials 0", "--set search.trials: 0 should be at least 1; the paper has about 3000"),
+        ("solve rearing --set horizn=1", "--set horizn: no 'horizn' in the task; did you mean horizon?"),
+        ("solve rearing --set horizon=0", "--set horizon: 0.0 s should be at least one time step (0.002 s)"),
+        (
+            "solve rearing --set horizon=5cm",
+            "--set horizon: '5cm' is a length, but this is a duration; units here: s, ms",
+        ),
+        ("solve rearing --set policy.kernels=0", "--set policy.kernels: 0 should be 1 to 1000; the paper has 16"),
+        ("solve rearing --set policy.kernels=two", "--set policy.kernels: should be a valid integer"),
+        (
+            "solve rearing --set start.settled.posture=low",
+            "start.settled.posture: robot hyq2max: no posture 'low'; valid",
+        ),
+        ('solve rearing --set scene.boxes=[{"position":[0,0,0.4],"size":[1,1,0.8]}]', "overlap by"),
+        ("solve rearing --resume here", "--resume here: the run says all; leave out TASK"),
+        ("solve --resume here --trials 3", "--resume here: the run says all; leave out --set, --trials or --optimizer"),
+        (
+            "solve --resume here",
+            "here: no run to resume, task.yaml or checkpoint.jsonl is missing; give the --out of a solve",
+        ),
+        (
+            "solve rearing --out /proc/none",
+            "/proc/none: cannot be written (No such file or directory); give a directory",
+        ),
+        ("solve rearing --out /dev/null/none", "/dev/null/none: cannot be written (Not a directory)"),
+        ("show none.npz", "none.npz: no such file; give the motion.npz that levade solve wrote"),
+        ("show .", ".: cannot be read as a motion"),
+        ("show", "Missing argument"),
+    ],
+)
+@pytest.mark.parametrize("json_too", [False, True])
+def test_wrong_input_is_one_line_and_nothing_is_written(
+    run, tmp_path: Path, arguments: str, message: str, json_too: bool
+) -> None:
+    if json_too and not arguments.startswith(("solve", "show")):
+        pytest.skip("no --json here")
+    status, out, err = run(*arguments.split(" ", 1)[:1], *["--json"] * json_too, *arguments.split(" ")[1:])
+    assert status == 2
+    assert err.startswith("levade: ")
+    assert message in err
+    assert err.count("\n") == 1
+    assert err.endswith("\n")
+    assert "Traceback" not in err + out
+    assert out == "" or not json_too
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_task_file_with_a_mistake(run, tmp_path: Path) -> None:
+    (tmp_path / "mine.yaml").write_text(
+        "name: mine\nhorizon: 300 ms\ncosts: {position: {weight: 1, z: 90 deg}}\nsuccess: {}\n"
+    )
+    status, out, err = run("solve", "mine.yaml")
+    assert (status, out) == (2, "")
+    assert err == (
+        "levade: mine.yaml.costs.position.z: '90 deg' is an angle, but this is a length; units here: m, cm, mm\n"
+    )
+    (tmp_path / "mine.yaml").write_bytes(b"\x00\xff")
+    assert run("solve", "mine.yaml")[0] == 2
+    assert [path.name for path in tmp_path.iterdir()] == ["mine.yaml"]
+
+
+@pytest.mark.parametrize(("extra", "status"), [(LOOSE, 0), ([], 1)])
+def test_solve_says_by_its_status_whether_it_succeeded(run, tmp_path: Path, extra: list[str], status: int) -> None:
+    code, out, err = run("solve", "rearing", *QUICK, *extra)
+    assert (code, err) == (status, "")
+    assert "\x1b" not in out
+    for name in ("motion.npz", "task.yaml", "progress.csv", "checkpoint.jsonl"):
+        assert (tmp_path / "rearing" / name).is_file()
+    assert "Written: rearing/motion.npz, task.yaml, progress.csv, checkpoint.jsonl" in out
+    assert ("Success at trial 8" if status == 0 else "No success within 16 trials") in out
+    for word in ("criterion", "goal", "result", "pitch", "height", "torque", "speed", "angle"):
+        assert word in out
+    assert Motion.load(tmp_path / "rearing" / "motion.npz").meta["success"] is (status == 0)
+
+
+@pytest.mark.parametrize(("extra", "status"), [(LOOSE, 0), ([], 1)])
+def test_json_is_one_object_and_nothing_else(run, extra: list[str], status: int) -> None:
+    code, out, err = run("solve", "rearing", "--json", "--seed", "5", "--out", "x/y", *QUICK, *extra)
+    assert (code, err) == (status, "")
+    assert out.count("\n") == 1
+    content = json.loads(out)
+    contract = (
+        "task",
+        "robot",
+        "seed",
+        "success",
+        "trials",
+        "trials_to_success",
+        "wall_s",
+        "cost",
+        "cost_terms",
+        "errors",
+    )
+    assert set(contract) <= set(content)
+    assert (content["task"], content["robot"], content["seed"]) == ("rearing", "hyq2max", 5)
+    assert content["success"] is (status == 0)
+    assert content["trials_to_success"] == (8 if status == 0 else None)
+    assert set(content["errors"]) == {"pitch", "height"}
+    assert {"orientation", "position", "effort", "joint_limits"} <= set(content["cost_terms"])
+    motion = Motion.load("x/y/motion.npz")
+    assert motion.meta["errors"] == content["errors"]
+    assert motion.meta["cost"] == content["cost"]
+
+
+def test_the_same_seed_and_the_file_that_is_left_give_the_same_motion(run) -> None:
+    run("solve", "rearing", "--seed", "4", "--out", "one", *QUICK)
+    run("solve", "one/task.yaml", "--seed", "4", "--out", "two", "--threads", "2")
+    run("solve", "rearing", "--seed", "5", "--out", "three", *QUICK)
+    one, two, three = (Motion.load(f"{name}/motion.npz") for name in ("one", "two", "three"))
+    for name, values in one.arrays.items():
+        assert values.tobytes() == two[name].tobytes()
+    assert one["weights"].tobytes() != three["weights"].tobytes()
+
+
+def test_files_of_ones_own_are_kept_unless_forced(run, tmp_path: Path) -> None:
+    run("solve", "rearing", *QUICK)
+    (tmp_path / "task.yaml").write_text((tmp_path / "rearing" / "task.yaml").read_text())
+    before = (tmp_path / "task.yaml").read_bytes()
+    status, out, err = run("solve", "task.yaml", "--out", ".")
+    assert (status, out) == (2, "")
+    assert "task.yaml: is of no run here, and would be replaced" in err
+    assert (tmp_path / "task.yaml").read_bytes() == before
+    assert run("solve", "task.yaml", "--out", ".", "--force")[0] == 1
+    assert run("solve", "rearing/task.yaml")[0] == 1  # a finished run is replaced by itself
+
+
+def test_odd_names_are_printed_as_they_are(run) -> None:
+    status, out, _ = run("solve", "rearing", "--out", "out[bold]", *QUICK)
+    assert status == 1
+    assert "Written: out[bold]/motion.npz" in out
+
+
+@pytest.mark.parametrize("extra", [LOOSE, []])
+def test_show(run, extra: list[str]) -> None:
+    solved = run("solve", "rearing", "--seed", "2", *QUICK, *extra)[0]
+    status, out, err = run("show", "rearing/motion.npz")
+    assert (status, err) == (solved, "")
+    assert "\x1b" not in out
+    assert "rearing on hyq2max, seed 2: 0.06 s, 30 steps of 2 ms" in out
+    assert "-1.0472 rad" in out
+    lines = out.splitlines()
+    assert len({line.split()[0] for line in lines}) >= 6  # no row is broken in two
+    assert all(len(line.split()) > 3 for line in lines)
+    status, out, err = run("show", "rearing/motion.npz", "--json")
+    assert (status, err, out.count("\n")) == (solved, "", 1)
+    assert json.loads(out)["seed"] == 2
+
+
+def test_listings(run) -> None:
+    from levade.robots import builtin_robots
+    from levade.tasks import builtin_tasks
+
+    status, out, err = run("tasks")
+    assert (status, err) == (0, "")
+    assert [line.split()[0] for line in out.splitlines()] == list(builtin_tasks())
+    status, out, _ = run("tasks", "--json")
+    assert [task["name"] for task in json.loads(out)["tasks"]] == list(builtin_tasks())
+    status, out, _ = run("robots")
+    assert out.splitlines()[0].startswith("hyq2max  ")
+    status, out, _ = run("robots", "--json")
+    assert (status, out.count("\n")) == (0, 1)
+    assert [(r["name"], r["description"]) for r in json.loads(out)["robots"]] == builtin_robots()
+
+
+def test_as_a_process_in_a_pipe(tmp_path: Path) -> None:
+    """Once from outside: status, plain text, and a reader who leaves early."""
+    command = [sys.executable, "-m", "levade", "solve", "rearing", *QUICK, *LOOSE]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "\x1b" not in done.stdout
+    assert done.stdout.isprintable() or set(done.stdout) - {"\n"}
+    early = subprocess.run(f"'{sys.executable}' -m levade tasks | true", shell=True, capture_output=True, check=False)
+    assert early.stderr == b""
+
+
+def test_on_a_terminal_the_display_is_live_and_leaves_the_tables(tmp_path: Path) -> None:
+    """A pseudo-terminal of 80 columns."""
+    shown = bytearray()
+
+    def read(descriptor: int) -> bytes:
+        data = os.read(descriptor, 4096)
+        shown.extend(data)
+        return b"."  # pytest keeps what is echoed
+
+    command = ["env", "TERM=xterm-256color", "COLUMNS=80", "LINES=40", sys.executable, "-m", "levade"]
+    status = pty.spawn(
+        [*command, "solve", "posture-recovery", "--trials", "300", "--set", "search.population=8", "--set", "hold=0.1"],
+        read,
+        lambda descriptor: b"",
+    )
+    text = shown.decode()
+    assert os.waitstatus_to_exitcode(status) in (0, 1)
+    assert "Traceback" not in text
+    assert "\x1b[" in text
+    for word in (
+        "generation",
+        "trials/s",
+        "best cost",
+        "criterion",
+        "weighted",
+        "Written: posture-recovery/motion.npz",
+    ):
+        assert word in text, word

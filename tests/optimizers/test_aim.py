@@ -1,0 +1,70 @@
+"""Aimed candidates: on a linear problem the first proposal is the answer."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from levade.optimizers import Aim
+
+
+def told(slope: np.ndarray, offset: np.ndarray, *, spread: float = 0.1, n: int = 60) -> Aim:
+    candidates = spread * np.random.default_rng(1).standard_normal((n, slope.shape[0]))
+    errors = candidates @ slope + offset
+    aim = Aim()
+    aim.tell(candidates, errors, (errors**2).sum(axis=1))
+    return aim
+
+
+def test_errors_that_are_linear_vanish_at_the_proposal() -> None:
+    slope = np.random.default_rng(0).standard_normal((20, 3))
+    offset = np.array([0.9, -0.7, 1.1])
+    proposal = told(slope, offset).propose()
+    assert proposal is not None
+    assert np.abs(proposal @ slope + offset).max() < 0.02
+
+
+def test_an_error_well_within_its_bounds_is_left_alone() -> None:
+    slope = np.eye(20)[:, :2]
+    aim = Aim()
+    candidates = 0.1 * np.random.default_rng(1).standard_normal((60, 20))
+    errors = candidates @ slope + np.array([5.0, 0.0])
+    aim.tell(candidates, errors, np.abs(errors[:, 0]))
+    proposal = aim.propose()
+    assert proposal is not None
+    best = candidates[np.argmin(np.abs(errors[:, 0]))]
+    assert abs(proposal[1] - best[1]) < 0.01
+    assert proposal[0] < best[0]
+
+
+def test_the_step_stays_near_the_trials_that_it_was_learnt_from() -> None:
+    slope = np.random.default_rng(0).standard_normal((20, 2))
+    aim = told(slope, np.array([1e6, 0.0]))
+    proposal = aim.propose()
+    assert proposal is not None
+    assert np.linalg.norm(proposal) < 10 * 0.1 * np.sqrt(20)
+
+
+def test_no_proposal_without_enough_trials_or_once_all_is_well() -> None:
+    slope = np.random.default_rng(0).standard_normal((20, 3))
+    assert Aim().propose() is None
+    assert told(slope, np.ones(3), n=4).propose() is None
+    assert told(1e-3 * slope, np.zeros(3)).propose() is None
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf])
+def test_trials_with_unknown_errors_are_left_out(bad: float) -> None:
+    slope = np.random.default_rng(0).standard_normal((20, 3))
+    offset = np.array([0.9, -0.7, 1.1])
+    aim = told(slope, offset)
+    before = aim.propose()
+    aim.tell(np.full((5, 20), 9.0), np.full((5, 3), bad), np.zeros(5))
+    after = aim.propose()
+    assert before is not None
+    np.testing.assert_array_equal(before, after)
+
+
+def test_a_change_of_what_is_looked_at_starts_anew() -> None:
+    aim = told(np.random.default_rng(0).standard_normal((20, 3)), np.ones(3))
+    aim.tell(np.zeros((2, 20)), np.zeros((2, 5)), np.zeros(2))
+    assert aim.propose() is None

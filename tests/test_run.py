@@ -1,0 +1,424 @@
+"""Runs: a directory that keeps everything, whatever happens to the process or the disk."""
+
+from __future__ import annotations
+
+import csv
+import dataclasses
+import errno
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import levade.run as run_module
+from levade.errors import LevadeError
+from levade.motion import ARRAYS, Motion
+from levade.run import CHECKPOINT, MOTION, PROGRESS, TASK, Outcome, read_run, resume, run, unfinished
+from levade.solve import Generation, Objective
+from levade.tasks import load_task
+
+GENERATIONS = 10
+CHANGES = ["search.population=8", "search.trials=80", "horizon=0.1", "success.height.tolerance=0"]
+
+
+@pytest.fixture(scope="module")
+def objective() -> Objective:
+    return Objective(load_task("rearing", changes=CHANGES), threads=1)
+
+
+@pytest.fixture(scope="module")
+def whole(objective: Objective, tmp_path_factory: pytest.TempPathFactory) -> Outcome:
+    """A run that nothing interrupted."""
+    return run(objective, seed=3, directory=tmp_path_factory.mktemp("runs") / "deep" / "whole")
+
+
+def stop_after(generations: int) -> Callable[[Generation], None]:
+    def observe(generation: Generation) -> None:
+        if generation.generation == generations:
+            raise KeyboardInterrupt
+
+    return observe
+
+
+def assert_same_end(directory: Path, whole: Outcome) -> None:
+    one, other = Motion.load(directory / MOTION), Motion.load(whole.directory / MOTION)
+    for name in ARRAYS:
+        assert one[name].tobytes() == other[name].tobytes(), name
+    assert one.meta == other.meta
+    for name in (TASK, PROGRESS, CHECKPOINT):
+        assert (directory / name).read_bytes() == (whole.directory / name).read_bytes(), name
+
+
+def test_what_a_run_leaves(whole: Outcome, objective: Objective) -> None:
+    directory = whole.directory
+    assert sorted(path.name for path in directory.iterdir()) == sorted([TASK, MOTION, PROGRESS, CHECKPOINT])
+    assert load_task(directory / TASK) == objective.task
+    assert Motion.load(directory / MOTION).meta == whole.motion.meta
+    assert (whole.solution.trials, whole.solution.stopped, whole.seed) == (80, "budget", 3)
+    with (directory / PROGRESS).open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [int(row["trials"]) for row in rows] == list(range(8, 81, 8))
+    best = [float(row["cost_best"]) for row in rows]
+    assert best == sorted(best, reverse=True)
+    assert best[-1] == pytest.approx(whole.solution.best.cost, rel=1e-8)
+    last = rows[-1]
+    assert float(last["error_pitch"]) == pytest.approx(whole.solution.best.errors["pitch"], rel=1e-8)
+    assert float(last["term_effort"]) == pytest.approx(whole.solution.best.terms["effort"], rel=1e-8)
+    assert {row["stage"] for row in rows} <= {stage.name for stage in objective.task.stages}
+    for row in rows:
+        low, middle, high = (float(row[f"cost_generation_{name}"]) for name in ("best", "median", "worst"))
+        assert low <= middle <= high
+
+
+def test_the_task_that_is_left_gives_the_run_again(whole: Outcome, tmp_path: Path) -> None:
+    run(load_task(whole.directory / TASK), seed=3, threads=2, directory=tmp_path / "again")
+    assert_same_end(tmp_path / "again", whole)
+
+
+@pytest.mark.parametrize("generations", [1, 4, 9, 10])
+def test_an_interrupted_run_goes_on_to_the_same_end(
+    objective: Objective, whole: Outcome, tmp_path: Path, generations: int
+) -> None:
+    part = run(objective, seed=3, directory=tmp_path, observe=stop_after(generations))
+    assert part.solution.stopped == "interrupted"
+    assert Motion.load(tmp_path / MOTION).meta["trials"] == 8 * generations
+    assert len(read_run(tmp_path)[2]) == generations
+    resume(tmp_path, threads=2)
+    assert_same_end(tmp_path, whole)
+
+
+def test_it_may_be_interrupted_again_and_again(objective: Objective, whole: Outcome, tmp_path: Path) -> None:
+    run(objective, seed=3, directory=tmp_path, observe=stop_after(2))
+    for generations in (2, 3, 7):  # the first of them before anything new
+        assert resume(tmp_path, observe=stop_after(generations)).solution.stopped == "interrupted"
+    simulated: list[bool] = []
+    resume(tmp_path, observe=lambda g: simulated.append(not g.replayed))
+    assert simulated == [False] * 7 + [True] * 3
+    assert_same_end(tmp_path, whole)
+
+
+def test_a_finished_run_resumed_is_the_run(whole: Outcome, objective: Objective, tmp_path: Path) -> None:
+    run(objective, seed=3, directory=tmp_path)
+    resume(tmp_path)
+    assert_same_end(tmp_path, whole)
+
+
+@pytest.mark.parametrize("cut", [1, 7, 200, 201])
+def test_a_line_that_was_cut_off_is_computed_anew(
+    objective: Objective, whole: Outcome, tmp_path: Path, cut: int
+) -> None:
+    run(objective, seed=3, directory=tmp_path, observe=stop_after(5))
+    path = tmp_path / CHECKPOINT
+    path.write_bytes(path.read_bytes()[:-cut])
+    with (tmp_path / PROGRESS).open("a") as file:
+        file.write("6,4")
+    assert len(read_run(tmp_path)[2]) == 5 - (cut > 1)  # without its line break a line is whole
+    resume(tmp_path)
+    assert_same_end(tmp_path, whole)
+
+
+@pytest.mark.parametrize(
+    "line",
+    ["", "{}", "[]", "3", '"text"', "null", '{"generation": 6, "checksum": 1, "terms": [], "errors": []}', "\0\0\0"],
+)
+def test_rubbish_after_the_last_line_is_left_out(
+    objective: Objective, whole: Outcome, tmp_path: Path, line: str
+) -> None:
+    run(objective, seed=3, directory=tmp_path, observe=stop_after(3))
+    with (tmp_path / CHECKPOINT).open("a") as file:
+        file.write(line + "\n")
+    resume(tmp_path)
+    assert_same_end(tmp_path, whole)
+
+
+@pytest.mark.parametrize(
+    ("first", "message"),
+    [
+        ("", "damaged, its first line is no header; start anew"),
+        ("{}", "damaged, its first line is no header"),
+        ("[1]", "damaged, its first line is no header"),
+        ('{"seed": "x", "versions": {}}', "damaged, its first line is no header"),
+        ('{"seed": 1, "versions": [1]}', "damaged, its first line is no header"),
+        ('{"seed": 3, "versions": {"mujoco": "1.0"}}', r"was started with mujoco 1\.0, this is .*install mujoco==1\.0"),
+    ],
+)
+def test_headers_that_do_not_fit(objective: Objective, tmp_path: Path, first: str, message: str) -> None:
+    run(objective, seed=3, directory=tmp_path, observe=stop_after(2))
+    path = tmp_path / CHECKPOINT
+    path.write_text("\n".join([first, *path.read_text().splitlines()[1:]]))
+    before = path.read_bytes()
+    with pytest.raises(LevadeError, match=message):
+        resume(tmp_path)
+    assert path.read_bytes() == before
+
+
+def test_a_task_that_was_changed_in_between_is_refused(objective: Objective, tmp_path: Path) -> None:
+    """Stored costs of trials would be mixed with new ones."""
+    run(objective, seed=3, directory=tmp_path, observe=stop_after(3))
+    text = (tmp_path / TASK).read_text()
+    assert "weight: 0.1" in text
+    (tmp_path / TASK).write_text(text.replace("weight: 0.1", "weight: 0.2"))
+    with pytest.raises(LevadeError, match=r"task.yaml: has changed since the run began, .* start anew: levade solve"):
+        resume(tmp_path)
+    (tmp_path / TASK).write_text("horizon: [")
+    with pytest.raises(LevadeError, match=r"task.yaml: not YAML"):
+        resume(tmp_path)
+
+
+def test_records_of_another_seed_are_refused(objective: Objective, tmp_path: Path) -> None:
+    run(objective, seed=3, directory=tmp_path, observe=stop_after(3))
+    path = tmp_path / CHECKPOINT
+    text = path.read_text()
+    path.write_text(text.replace('"seed": 3', '"seed": 4', 1))
+    with pytest.raises(LevadeError, match="generation 1 of the records is of another search"):
+        resume(tmp_path)
+
+
+def test_there_has_to_be_a_run(tmp_path: Path, whole: Outcome) -> None:
+    with pytest.raises(
+        LevadeError, match=r"no run to resume, task.yaml or checkpoint.jsonl is missing; give the --out"
+    ):
+        resume(tmp_path)
+    with pytest.raises(LevadeError, match="no run to resume"):
+        resume(whole.directory / MOTION)
+
+
+def test_an_interrupted_run_is_not_replaced_unasked(objective: Objective, whole: Outcome, tmp_path: Path) -> None:
+    unfinished(tmp_path / "new")
+    unfinished(whole.directory)  # finished: solving again replaces it
+    run(objective, seed=3, directory=tmp_path, observe=stop_after(3))
+    with pytest.raises(
+        LevadeError, match=r"holds an interrupted run \(seed 3, 3 generations\); go on with it: levade so"
+    ):
+        unfinished(tmp_path)
+
+
+@pytest.mark.parametrize("name", [TASK, MOTION, PROGRESS])
+def test_files_of_ones_own_are_not_replaced_unasked(tmp_path: Path, name: str) -> None:
+    (tmp_path / name).write_text("mine")
+    with pytest.raises(LevadeError, match=f"{name}: is of no run here, and would be replaced; .*--out DIR, .*--force"):
+        unfinished(tmp_path)
+
+
+def test_a_run_replaces_a_run(objective: Objective, whole: Outcome, tmp_path: Path) -> None:
+    run(objective, seed=9, directory=tmp_path, observe=stop_after(3))
+    run(objective, seed=3, directory=tmp_path)
+    assert_same_end(tmp_path, whole)
+
+
+@pytest.mark.parametrize("where", ["file/below", "/proc/levade", "/dev/null/levade"])
+def test_a_directory_that_cannot_be_written(objective: Objective, tmp_path: Path, where: str) -> None:
+    (tmp_path / "file").write_text("x")
+    with pytest.raises(LevadeError, match=r"cannot be written \(.+\); give a directory that can: --out DIR"):
+        run(objective, directory=tmp_path / where)
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
+class FullDisk:
+    """Writes fail once so many bytes have been taken; what fits of the last one is written, as the system does it."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, room: int) -> None:
+        self.room = room
+        self._open = Path.open
+        monkeypatch.setattr(Path, "open", lambda path, *args, **options: self.open(path, *args, **options))
+        monkeypatch.setattr(Path, "write_text", lambda path, text, **options: self.write_text(path, text, **options))
+
+    def open(self, path: Path, mode: str = "r", *args: Any, **options: Any) -> Any:
+        file = self._open(path, mode, *args, **options)
+        if set(mode) & {"w", "a"}:
+            write, close, flush, pending = file.write, file.close, file.flush, []
+
+            def full_write(data: Any) -> int:
+                pending.append(data)
+                return len(data)
+
+            def full_flush() -> None:
+                while pending:
+                    if len(pending[0]) > self.room:
+                        write(pending[0][: self.room])
+                        pending[0], self.room = pending[0][self.room :], 0
+                        flush()
+                        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+                    self.room -= len(pending[0])
+                    write(pending.pop(0))
+                flush()
+
+            def full_close() -> None:
+                try:
+                    full_flush()
+                finally:
+                    close()
+
+            class Proxy:
+                def __getattr__(self, name: str) -> Any:
+                    known = {"write": full_write, "flush": full_flush, "close": full_close}
+                    return known[name] if name in known else getattr(file, name)
+
+                def __enter__(self) -> Proxy:
+                    return self
+
+                def __exit__(self, *_: object) -> None:
+                    full_close()
+
+                def __iter__(self) -> Any:
+                    return iter(file)
+
+            return Proxy()
+        return file
+
+    def write_text(self, path: Path, text: str, **options: Any) -> None:
+        with self.open(path, "w", **options) as file:
+            file.write(text)
+
+
+@pytest.mark.parametrize("room", [0, 500, 3000])
+def test_a_disk_that_is_full_at_the_start(
+    objective: Objective, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, room: int
+) -> None:
+    """Nothing of an earlier run is lost, and no new directory is left behind."""
+    run(objective, seed=9, directory=tmp_path / "old")
+    before = {path.name: path.read_bytes() for path in (tmp_path / "old").iterdir()}
+    with monkeypatch.context() as patch:
+        FullDisk(patch, room if room < 3000 else len(before[TASK]))
+        with pytest.raises(LevadeError, match=r"cannot be written \(No space left on device\)"):
+            run(objective, seed=3, directory=tmp_path / "new")
+        if room < 3000:
+            with pytest.raises(LevadeError, match=r"cannot be written \(No space left on device\)"):
+                run(objective, seed=3, directory=tmp_path / "old")
+    assert {path.name: path.read_bytes() for path in (tmp_path / "old").iterdir()} == before
+    if room < 3000:
+        assert not (tmp_path / "new").exists()
+
+
+@pytest.mark.parametrize("room", [5_000, 9_000, 14_000])
+def test_a_disk_that_fills_up_on_the_way(
+    objective: Objective, whole: Outcome, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, room: int
+) -> None:
+    """One line says so, and when there is room again the run goes on to the same end."""
+    generations: list[int] = []
+    with monkeypatch.context() as patch:
+        FullDisk(patch, room)
+        with pytest.raises(
+            LevadeError, match=r"cannot be written.* \(No space left on device\).*levade solve --resume"
+        ) as e:
+            run(objective, seed=3, directory=tmp_path, observe=lambda g: generations.append(g.generation))
+    assert "\n" not in str(e.value)
+    assert len(read_run(tmp_path)[2]) >= len(generations)
+    resume(tmp_path)
+    assert_same_end(tmp_path, whole)
+
+
+def test_a_motion_that_does_not_fit_at_the_end(
+    objective: Objective, whole: Outcome, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*_: object, **__: object) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    with monkeypatch.context() as patch:
+        patch.setattr(np, "savez_compressed", full)
+        with pytest.raises(LevadeError, match=r"motion.npz: cannot be written \(No space left on device\); make room"):
+            run(objective, seed=3, directory=tmp_path)
+    assert not (tmp_path / MOTION).exists()
+    with pytest.raises(LevadeError, match="holds an interrupted run"):
+        unfinished(tmp_path)
+    resume(tmp_path)
+    assert_same_end(tmp_path, whole)
+
+
+def test_a_progress_file_that_cannot_be_written(objective: Objective, tmp_path: Path) -> None:
+    (tmp_path / PROGRESS).mkdir()
+    with pytest.raises(LevadeError, match=r"progress.csv: cannot be written \(Is a directory\)"):
+        run(objective, directory=tmp_path)
+
+
+def test_the_best_so_far_is_written_on_the_way(
+    objective: Objective, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(run_module, "_SAVE_EVERY", 0.0)
+    best: list[float] = []
+
+    def observe(generation: Generation) -> None:
+        motion = Motion.load(tmp_path / MOTION)
+        assert motion.meta["cost"] == generation.best.cost
+        assert motion.meta["stopped"] == "running"
+        best.append(generation.best.cost)
+
+    run(objective, seed=3, directory=tmp_path, observe=observe)
+    assert len(best) == GENERATIONS
+
+
+def solve_in_a_process(directory: Path, *more: str) -> subprocess.Popen[str]:
+    arguments = [f"--set={change}" for change in LONG]
+    command = [sys.executable, "-m", "levade", "solve", "rearing", "--seed=3", f"--out={directory}", *arguments, *more]
+    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+LONG = ["search.population=8", "search.trials=4000", "success.height.tolerance=0", "horizon=0.6"]
+
+
+def wait_for_generations(directory: Path, process: subprocess.Popen[str], count: int) -> None:
+    for _ in range(6000):
+        if (directory / CHECKPOINT).exists() and (directory / CHECKPOINT).read_bytes().count(b"\n") > count:
+            return
+        assert process.poll() is None, process.communicate()
+        time.sleep(0.01)
+    raise AssertionError("no generations within a minute")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
+def test_a_process_that_is_stopped_can_be_gone_on_with(tmp_path: Path, number: signal.Signals) -> None:
+    """The real thing: a signal in the middle, then as far as a run that was cut at the same place in its budget."""
+    directory = tmp_path / "stopped"
+    process = solve_in_a_process(directory)
+    wait_for_generations(directory, process, 12)
+    process.send_signal(number)
+    out, err = process.communicate(timeout=60)
+    assert err == ""
+    if number == signal.SIGKILL:
+        assert process.returncode == -signal.SIGKILL
+    else:
+        assert process.returncode == 1
+        assert f"Interrupted after {8 * len(read_run(directory)[2])} trials" in out
+        assert f"To go on: levade solve --resume {directory}" in out
+        assert Motion.load(directory / MOTION).meta["stopped"] == "interrupted"
+    task, _, records = read_run(directory)
+    done = len(records)
+    assert 12 <= done < 500
+    refused = subprocess.run(
+        [sys.executable, "-m", "levade", "solve", "rearing", f"--out={directory}"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (refused.returncode, refused.stdout) == (2, "")
+    assert f"holds an interrupted run (seed 3, {done} generations)" in refused.stderr
+
+    # both for twenty generations more, one of them from the start
+    objective = Objective(task)
+    further = resume(directory, observe=stop_after(done + 20))
+    straight = run(objective, seed=3, directory=tmp_path / "straight", observe=stop_after(done + 20))
+    for name in ARRAYS:
+        assert further.motion[name].tobytes() == straight.motion[name].tobytes(), name
+    assert (directory / CHECKPOINT).read_bytes() == (tmp_path / "straight" / CHECKPOINT).read_bytes()
+
+
+def test_an_interrupted_process_resumes_to_its_end(tmp_path: Path) -> None:
+    """On the command line, to the end of the budget."""
+    changes = [*CHANGES[:-1], "success.height.tolerance=0", "search.trials=400"]
+    objective = Objective(load_task("rearing", changes=changes), threads=1)
+    run(objective, seed=3, directory=tmp_path / "one", observe=stop_after(20))
+    command = [sys.executable, "-m", "levade", "solve", "--resume", str(tmp_path / "one"), "--json"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (1, "")
+    straight = run(objective, seed=3, directory=tmp_path / "two")
+    assert json.loads(done.stdout)["trials"] == straight.solution.trials == 400
+    assert_same_end(tmp_path / "one", dataclasses.replace(straight, directory=tmp_path / "two"))
