@@ -18,10 +18,10 @@ def told(slope: np.ndarray, offset: np.ndarray, *, spread: float = 0.1, n: int =
 
 def test_errors_that_are_linear_vanish_at_the_proposal() -> None:
     slope = np.random.default_rng(0).standard_normal((20, 3))
-    offset = np.array([0.9, -0.7, 1.1])
-    proposal = told(slope, offset).propose()
+    offset = np.array([9.0, -7.0, 11.0])  # far beyond what any of the trials makes up for
+    proposal = told(slope, offset, spread=0.5).propose()
     assert proposal is not None
-    assert np.abs(proposal @ slope + offset).max() < 0.02
+    assert np.abs(proposal @ slope + offset).max() < 0.1
 
 
 def test_an_error_well_within_its_bounds_is_left_alone() -> None:
