@@ -22,15 +22,19 @@ from levade.errors import LevadeError, did_you_mean
 T = TypeVar("T")
 
 
-def read_yaml(path: Path) -> dict[str, Any]:
-    """The table in a YAML file. Raises LevadeError if it cannot be read, is not YAML or not a table."""
+def read_yaml(path: Path, *, like: str = "") -> dict[str, Any]:
+    """The table in a YAML file. Raises LevadeError if it cannot be read, is not YAML or not a table.
+
+    like: some of its keys, for the message.
+    """
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise LevadeError(f"{path}: cannot be read ({getattr(error, 'strerror', None) or 'not UTF-8 text'})") from None
     content = parse_yaml(text, where=str(path))
     if not isinstance(content, dict):
-        raise LevadeError(f"{path}: should be a table of keys and values, is {kind_of(content)}")
+        expected = f"keys like {like};" if like else "keys and values,"
+        raise LevadeError(f"{path}: should be a table of {expected} is {kind_of(content)}")
     return content
 
 

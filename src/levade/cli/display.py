@@ -75,15 +75,15 @@ class Display:
         left = "" if not rate else f"   at most {_duration((budget - g.trials) / rate)} left"
         bar = Table.grid(padding=(0, 1))
         bar.add_row(
-            ProgressBar(total=budget, completed=g.trials, width=32),
-            f"trial {g.trials} of {budget}   generation {g.generation}   stage {g.stage_name}"
-            f"   {rate:.0f} trials/s{left}",
+            ProgressBar(total=budget, completed=g.trials, width=24),
+            f"trial {g.trials} of {budget}   {rate:.0f} trials/s{left}",
         )
         found = Text("success", style="green") if g.best.success else Text("not yet", style="dim")
         head = Table.grid(padding=(0, 3))
         head.add_row(
+            f"generation {g.generation}",
+            f"stage {g.stage_name}",
             f"best cost {g.best.cost:.4g}",
-            f"this generation {np.min(g.cost):.4g}",
             f"step {g.step:.3g}",
             f"diverged {g.diverged}",
             found,

@@ -14,9 +14,9 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import numpy as np
-import yaml
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
+from levade.document import kind_of, read_yaml
 from levade.errors import LevadeError, did_you_mean
 from levade.trajectory import Array
 
@@ -123,16 +123,7 @@ class RobotForm(_Form):
 
 def read_description(path: Path) -> RobotForm:
     """The checked content of a robot.yaml; `LevadeError` says which key is wrong and what would be right."""
-    try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise LevadeError(f"{path}: cannot be read ({getattr(error, 'strerror', None) or 'not UTF-8 text'})") from None
-    try:
-        content = yaml.load(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-    except yaml.YAMLError as error:
-        raise LevadeError(f"{path}: not YAML: {' '.join(str(error).split())}") from None
-    if not isinstance(content, dict):
-        raise LevadeError(f"{path}: should be a table of keys like name, model, trunk, legs; is {_kind(content)}")
+    content = read_yaml(path, like="name, model, trunk, legs")
     try:
         return RobotForm.model_validate(content)
     except ValidationError as error:
@@ -186,7 +177,7 @@ def _first(error: ValidationError) -> str:
         context = mistake.get("ctx", {})
         valid = [name.strip(" '") for name in context["expected_tags"].split(",")]
         return f"{where}.kind: no kind {context['tag']!r}; {did_you_mean(context['tag'], valid)}"
-    return f"{where}: {message[0].lower()}{message[1:]}, is {_kind(mistake['input'])}"
+    return f"{where}: {message[0].lower()}{message[1:]}, is {kind_of(mistake['input'])}"
 
 
 def _forms_along(location: tuple[int | str, ...]) -> tuple[list[str], list[str]]:
@@ -227,8 +218,3 @@ def _bare(annotation: Any) -> Any:
         if len(options) == 1:
             return _bare(options[0])
     return annotation
-
-
-def _kind(value: Any) -> str:
-    names = {type(None): "empty", dict: "a table", list: "a list", bool: "true or false"}
-    return names.get(type(value)) or repr(value)
