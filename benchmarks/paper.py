@@ -1,6 +1,6 @@
 """The paper's two experiments with the paper's own method, and docs/paper.md with what came of them.
 
-    python benchmarks/paper.py            # ten seeds, both tasks, both horizons; about 25 minutes on two cores
+    python benchmarks/paper.py            # ten seeds, both tasks, both horizons: 54 core-minutes
     python benchmarks/paper.py --write    # only write docs/paper.md anew, from benchmarks/results/paper.json
 
 Plain CMA-ES: default population (17 and 19), one stage with the paper's weights, weights sampled independently (no smooth
