@@ -35,11 +35,6 @@ class Display:
             self._live = Live(get_renderable=self._render, console=console, refresh_per_second=8, transient=True)
 
     def __enter__(self) -> Display:
-        if not self._quiet:
-            robot = escape(self._task.robot.name)
-            self._console.print(
-                f"[bold]{escape(self._task.name)}[/] on {robot}: up to {self._task.search.trials} trials"
-            )
         if self._live is not None:
             self._live.__enter__()
         return self
@@ -50,6 +45,10 @@ class Display:
 
     def update(self, generation: Generation) -> None:
         """Take in a generation; drawing it happens elsewhere, a few times a second."""
+        if self._latest is None and not self._quiet:  # nothing can be wrong with the input any more
+            robot = escape(self._task.robot.name)
+            budget = self._task.search.trials
+            self._console.print(f"[bold]{escape(self._task.name)}[/] on {robot}: up to {budget} trials")
         self._latest = generation
         if not generation.replayed:
             self._recent.append((time.perf_counter(), generation.trials))

@@ -107,6 +107,8 @@ def _tell(console: Console, outcome: Outcome) -> None:
             f"[red]No success[/] within {spent}. Another --seed or more --trials may find one;"
             f" {directory}/progress.csv shows how the search went."
         )
+    if solution.diverged:
+        console.print(f"[yellow]{solution.diverged} trials diverged[/]: their simulations broke down, and rank last.")
     console.print(f"Written: {directory}/motion.npz, task.yaml, progress.csv, checkpoint.jsonl")
 
 
