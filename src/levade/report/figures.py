@@ -414,7 +414,7 @@ def _stages(axes: Any, progress: Progress) -> None:
         start = float(trials[i - 1]) if i else 0.0
         if i:
             axes.axvline(start, color=LIGHT.muted, linewidth=0.7, dashes=(1, 2))
-        width = 0.026 * (len(stages[i]) + 1)
+        width = 0.018 * (len(stages[i]) + 1)
         if start / last >= taken:
             edge = start / last + width > 1.0
             axes.text(
