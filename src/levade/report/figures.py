@@ -212,9 +212,7 @@ def _trunk(motions: Mapping[str, Motion]) -> Any:
     ((_, motion),) = motions.items()
     figure, grid = _figure(COLUMN, 3.7, 2, 1, sharex=True)
     targets = goals(motion)
-    for row, (values, unit) in enumerate(
-        zip(trunk_values(motion), ("position [m]", "orientation [rad]"), strict=True)
-    ):
+    for row, (values, unit) in enumerate(zip(trunk_values(motion), ("position [m]", "orientation [rad]"), strict=True)):
         axes = grid[row, 0]
         _time_axis(axes, motion, label=row == 1)
         wanted: list[float] = []

@@ -55,8 +55,10 @@ def write_page(
     """
     path = Path(path)
     if not _replaceable(path):
-        raise LevadeError(f"{path}: is there, and no report of levade's; move it away, or leave the report: --no-report")
-    with writing(path) as partial:
+        raise LevadeError(
+            f"{path}: is no report of levade's and would be replaced; move it away, or write none: --no-report"
+        )
+    with writing(path, instead="write none: --no-report") as partial:
         text = page(motion, progress_csv=progress_csv, source=source)
         partial.write_text(text, encoding="utf-8", newline="\n")
     return path

@@ -1,7 +1,7 @@
 """What a motion's figures and page draw, as numbers: curves over time, goals, limits, the search, the policies.
 
-    series_data(motion, progress)      # JSON for the page; web/src/plots.js draws it
-    trunk_values(motion), goals(motion), read_progress(path), policy_names(motion, kernels, weights)
+series_data(motion, progress)      # JSON for the page; web/src/plots.js draws it
+trunk_values(motion), goals(motion), read_progress(path), policy_names(motion, kernels, weights)
 """
 
 from __future__ import annotations
@@ -144,8 +144,7 @@ def _policy_data(motion: Motion) -> dict[str, Any]:
         "kernels": pack(phi),
         "means": pack(kernels.means * horizon),
         "policies": [
-            {"name": name, "weights": pack(w), "angle": pack(phi @ w)}
-            for name, w in zip(names, weights, strict=True)
+            {"name": name, "weights": pack(w), "angle": pack(phi @ w)} for name, w in zip(names, weights, strict=True)
         ],
     }
 

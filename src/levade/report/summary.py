@@ -24,7 +24,9 @@ WHEN = {"horizon": "at T", "end": "at the end", "max": "largest", "min": "smalle
 def summary_data(motion: Motion) -> dict[str, Any]:
     """Goal against result, peaks against limits, cost terms; SI units, null where there is no number."""
     meta = motion.meta
-    criteria = [_criterion(name, criterion, meta["errors"][name]) for name, criterion in meta["task"]["success"].items()]
+    criteria = [
+        _criterion(name, criterion, meta["errors"][name]) for name, criterion in meta["task"]["success"].items()
+    ]
     terms = [
         {"name": name, "value": value, "weight": meta["task"]["costs"][name]["weight"]}
         for name, value in meta["cost_terms"].items()
