@@ -7,6 +7,7 @@ import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 import { Track, unpack } from "./player-data.js";
+import { ghostShader } from "./player-shaders.js";
 
 const UP = new THREE.Vector3(0, 1, 0);
 
@@ -14,24 +15,8 @@ const UP = new THREE.Vector3(0, 1, 0);
 export class Ghost {
   constructor(strength = 1) {
     this.skin = new THREE.ShaderMaterial({
+      ...ghostShader,
       uniforms: { colour: { value: new THREE.Color() }, strength: { value: strength } },
-      vertexShader: `
-        varying vec3 direction, towards;
-        void main() {
-          vec4 there = modelViewMatrix * vec4(position, 1.0);
-          direction = normalMatrix * normal;
-          towards = -there.xyz;
-          gl_Position = projectionMatrix * there;
-        }`,
-      fragmentShader: `
-        uniform vec3 colour;
-        uniform float strength;
-        varying vec3 direction, towards;
-        void main() {
-          float edge = 1.0 - abs(dot(normalize(direction), normalize(towards)));
-          gl_FragColor = vec4(colour, strength * (0.22 + 0.7 * edge * edge));
-          #include <colorspace_fragment>
-        }`,
       transparent: true,
       depthWrite: false,
       polygonOffset: true,
