@@ -1,5 +1,4 @@
-// Play, time, speed and layers of a player: createControls(element, player, {horizon, end, stage}) -> {setTime(t)}.
-// stage: where the picture is.
+// Play, time, speed and layers of a player: createControls(element, player, {horizon, end}) -> {setTime(t)}.
 
 import { timeScale } from "./chart.js";
 import { el, fixed, svg } from "./dom.js";
@@ -7,7 +6,7 @@ import { el, fixed, svg } from "./dom.js";
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2];
 const FINE = 1000;
 
-export function createControls(element, player, { horizon, end, stage }) {
+export function createControls(element, player, { horizon, end }) {
   const scale = timeScale(horizon, end);
   const play = el("button", { class: "play", type: "button", "aria-label": "Play", title: "Play or pause (space)", onclick: toggle });
   const slider = el("input", { type: "range", min: 0, max: FINE, step: "any", value: 0, "aria-label": "Time", oninput: () => { const t = scale.inverse(slider.value / FINE); player.pause(); player.seek(t); } });
@@ -36,12 +35,11 @@ export function createControls(element, player, { horizon, end, stage }) {
     toggles.append(el("label", {}, box, el("span", {}, title)));
     if (detail) details.push([box, `${title}: ${detail}`]);
   }
-  // what the layers that are shown mean, over the picture
-  const legend = el("p", { class: "legend3d" });
+  // what the layers that are shown mean
+  const legend = el("p", { class: "meanings" });
   const explain = () => { legend.textContent = details.filter(([box]) => box.checked).map(([, text]) => text).join("  \u00b7  "); };
-  stage?.append(legend);
   explain();
-  element.append(el("div", { class: "transport" }, play, track, now), el("div", { class: "options" }, speeds, toggles));
+  element.append(el("div", { class: "transport" }, play, track, now), el("div", { class: "options" }, speeds, toggles, legend));
 
   function toggle() {
     if (player.playing) player.pause();

@@ -259,7 +259,7 @@ function policy(context, host) {
   for (const { name, weights, angle } of series.policy.policies) {
     const w = unpack(weights).data, curve = unpack(angle).data;
     plot(grid, inner, {
-      title: name, unit: "rad", small: true, height: 118, margin: { left: 36 },
+      title: name, small: true, height: 118, margin: { left: 36 },
       lines: [{ x: times, y: curve, colour: "var(--ink)", width: 1.5 }],
       marks: Array.from(w, (value, i) => ({ x: means[i], y: value, colour: "var(--x)" })),
       y: linearScale(...bounds([curve, w], 0.1), 3),
