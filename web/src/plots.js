@@ -214,7 +214,7 @@ function speeds(context, host) {
 function feet(context, host) {
   const { series, times, x } = context;
   const { legs } = series;
-  const grid = section(host, "feet", "Feet", `Contact force on each foot, and when each foot is on the ground (more than ${significant(series.feet.touches)} N). ${holdNote(context)}`, "two");
+  const grid = section(host, "feet", "Feet", `Contact force on each foot, and when each foot is in contact (more than ${significant(series.feet.touches)} N). ${holdNote(context)}`, "two");
   const forces = {};
   for (const [what, title] of [["vertical", "Vertical force"], ["horizontal", "Horizontal force"]]) {
     const values = unpack(series.feet[what]);
@@ -231,7 +231,7 @@ function feet(context, host) {
   const y = { ...linearScale(-0.6, legs.length - 0.4), ticks: [], names: legs.map((leg) => leg.name.toUpperCase()).reverse() };
   const wide = el("div", { class: "wide" });
   grid.append(wide);
-  plot(wide, context, { title: "On the ground", bars, y, x, height: 34 + 20 * legs.length, follow: false, margin: { left: 46 } });
+  plot(wide, context, { title: "In contact", bars, y, x, height: 34 + 20 * legs.length, follow: false, margin: { left: 46 } });
 }
 
 function spans(times, on) {
