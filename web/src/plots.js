@@ -1,4 +1,4 @@
-// All plots of a motion: createPlots(element, series) -> {setTime(t), onSeek(fn), update(series)}.
+// All plots of a motion: createPlots(element, series) -> {setTime(t), onSeek(fn), update(series)}. onSeek: of clicks in plots.
 // series: what levade.report.series.series_data gives; parts that are missing are left out.
 
 import { bounds, createChart, linearScale, logScale, nearest, timeScale } from "./chart.js";
@@ -8,37 +8,47 @@ const AXES = ["var(--x)", "var(--y)", "var(--z)"];
 const AXIS_DASHES = ["", "dashed", "dashdot"];
 const LEG_DASHES = ["", "dashed", "dashdot", "dotted"];
 
+// What is drawn of which part of the series, in the order of the page.
+const PARTS = { trunk: [trunk], cost: [cost], joints: [angles, torques, speeds], feet: [feet], policy: [policy] };
+
 export function createPlots(element, series) {
-  let charts = [], seek = () => {}, time = null;
-  const onSeek = (t) => seek(t);
+  const holders = {}, charts = {};
+  let seek = () => {}, time = null;
 
-  function build() {
-    for (const chart of charts) chart.destroy();
-    charts = [];
-    const context = { series, onSeek, x: series.time ? timeScale(series.horizon, series.end) : null, add: (chart) => (charts.push(chart), chart) };
-    if (series.time) context.times = unpack(series.time).data;
-    const parts = [];
-    if (series.trunk) parts.push(trunk);
-    if (series.cost) parts.push(cost);
-    if (series.joints) parts.push(angles, torques, speeds);
-    if (series.feet) parts.push(feet);
-    if (series.policy) parts.push(policy);
-    // a section is in the page before its plots are drawn: they need its width
-    element.replaceChildren();
-    for (const part of parts) part(context, element);
-    if (time !== null) setTime(time);
+  for (const part of Object.keys(PARTS)) {
+    holders[part] = el("div", { class: "part" });
+    charts[part] = [];
+  }
+  element.replaceChildren(...Object.values(holders));
+
+  function build(part) {
+    const height = element.offsetHeight;
+    element.style.minHeight = `${height}px`; // what the reader looks at stays where it is
+    for (const chart of charts[part]) chart.destroy();
+    charts[part] = [];
+    holders[part].replaceChildren();
+    if (series[part]) {
+      const context = { series, onSeek: (t) => seek(t), x: null, times: null, add: (chart) => (charts[part].push(chart), chart) };
+      if (series.time) Object.assign(context, { x: timeScale(series.horizon, series.end), times: unpack(series.time).data });
+      for (const draw of PARTS[part]) draw(context, holders[part]);
+      if (time !== null) for (const chart of charts[part]) chart.setTime?.(time);
+    }
+    element.style.minHeight = "";
   }
 
-  function setTime(t) {
-    time = t;
-    for (const chart of charts) chart.setTime?.(t);
-  }
-
-  build();
+  Object.keys(PARTS).forEach(build);
   return {
-    setTime,
+    setTime(t) {
+      time = t;
+      for (const chart of Object.values(charts).flat()) chart.setTime?.(t);
+    },
     onSeek(fn) { seek = fn; },
-    update(next) { series = { ...series, ...next }; build(); },
+    // a new motion draws all anew; a new part, such as {cost}, only that
+    update(next) {
+      series = { ...series, ...next };
+      const all = ["time", "horizon", "end", "legs"].some((key) => key in next);
+      Object.keys(PARTS).filter((part) => all || part in next).forEach(build);
+    },
   };
 }
 
