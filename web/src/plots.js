@@ -126,6 +126,8 @@ function cost(context, host) {
   ];
   const band = { x: trials, low: positive(low), high: positive(high), colour: "var(--reference)" };
   const finite = [...lines.flatMap((line) => line.y), ...band.low, ...band.high].filter(Number.isFinite);
+  if (!finite.length) finite.push(1);
+  const across = linearScale(0, trials[trials.length - 1], 6);
   const grid = section(host, "search", "Search", "Cost over the trials, a generation at a time; dotted lines are where a stage begins and the cost changes.", "one");
   const readout = el("output", { class: "readout" });
   const value = (v) => significant(v ?? NaN, 4);
@@ -145,7 +147,7 @@ function cost(context, host) {
     margin: { left: 52 },
     legend: [{ name: "generation, best to worst", swatch: bandSwatch() }, ...(marks.length ? [{ name: `first success, trial ${first}`, swatch: starSwatch() }] : [])],
     rules: stages.map((stage) => ({ x: stage.start, text: stages.length > 1 ? stage.name : "" })),
-    x: { ...linearScale(0, trials[trials.length - 1], 6), unit: "trials" },
+    x: { ...across, ticks: across.ticks.filter(Number.isInteger), unit: "trials" },
     y: logScale(Math.min(...finite) / 1.3, Math.max(...finite) * 1.3),
     onHover: show,
   });
