@@ -17,7 +17,7 @@ export class Pace {
   // passed: seconds since the picture before, 0 if that is long ago. The ratio for the next one.
   next(passed, moving) {
     this.moving = moving;
-    if (passed > SLOW) this.run = Math.max(this.run, 0) + 1;
+    if (passed > SLOW) this.run = Math.max(this.run, 0) + (passed > 3 * SLOW ? 2 : 1);
     else if (passed > 0 && passed < FAST) this.run = Math.min(this.run, 0) - 1;
     if (this.run >= 4) this.change(0.75);
     else if (this.run <= -120) this.change(1 / 0.75);

@@ -5,7 +5,7 @@ import * as THREE from "three";
 // A studio as a formula instead of a picture: nothing to load or to filter, and cheap where the graphics are software.
 // Direction in world axes; a soft box overhead, a strip on either side, a bright horizon, a darker floor.
 const STUDIO = `
-  uniform float studio;
+  uniform float studio, outline;
   vec3 studioLight(vec3 to, float rough) {
     float soft = 0.08 + 0.75 * rough;
     float light = mix(0.34, 0.78, smoothstep(-0.25 - soft, 0.15 + soft, to.z));
@@ -21,12 +21,13 @@ const STUDIO = `
   }`;
 
 export const studio = { value: 0.7 }; // its strength, the same everywhere
+export const outline = { value: 0 }; // light from behind, that lifts dark parts off a dark page
 
 // three's standard material, lit by the sun and this studio.
 export function solid({ color, opacity, roughness, metalness }) {
-  const material = new THREE.MeshStandardMaterial({ color, opacity, roughness, metalness, transparent: opacity < 1 });
+  const material = new THREE.MeshStandardMaterial({ color: lifted(color), opacity, roughness, metalness, transparent: opacity < 1 });
   material.onBeforeCompile = (shader) => {
-    shader.uniforms.studio = studio;
+    Object.assign(shader.uniforms, { studio, outline });
     shader.fragmentShader = shader.fragmentShader
       .replace("void main() {", `${STUDIO}\nvoid main() {`)
       .replace(
@@ -35,12 +36,22 @@ export function solid({ color, opacity, roughness, metalness }) {
         vec3 upwards = toWorld(geometryNormal);
         iblIrradiance += PI * studio * mix(0.42, 0.85, 0.5 + 0.5 * upwards.z);
         vec3 mirrored = toWorld(reflect(-geometryViewDir, geometryNormal));
-        radiance += studio * studioLight(mirrored, material.roughness);`,
+        radiance += studio * studioLight(mirrored, material.roughness);
+        float facing = saturate(dot(geometryNormal, geometryViewDir));
+        totalEmissiveRadiance += outline * pow(1.0 - facing, 3.0) * (0.35 + 0.65 * smoothstep(-0.6, 0.8, upwards.z));`,
       );
   };
   material.customProgramCacheKey = () => "studio";
   return material;
 }
+
+// Black reflects something too: what is given as almost black keeps its form this way.
+function lifted(color) {
+  const given = new THREE.Color(color);
+  return given.lerp(LEAST, 1 - Math.min(1, Math.max(given.r, given.g, given.b) / LEAST.r));
+}
+
+const LEAST = new THREE.Color("#2a2e33");
 
 export const groundShader = {
   vertexShader: `

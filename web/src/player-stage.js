@@ -1,7 +1,7 @@
 // What is around the robot: light, and ground with a grid that fades into the sky and takes the shadow.
 
 import * as THREE from "three";
-import { groundShader } from "./player-shaders.js";
+import { groundShader, outline, studio } from "./player-shaders.js";
 
 const SUN = new THREE.Vector3(1.3, -1.7, 3.4).normalize(); // from where
 const SHADOW = 1024; // pixels
@@ -85,7 +85,9 @@ export class Stage {
     this.look.uniforms.line.value.set(palette.ground_line);
     this.look.uniforms.shade.value = dark ? 0.62 : 0.34;
     this.sun.intensity = 2.2;
-    this.rim.intensity = dark ? 1.5 : 0.6;
+    this.rim.intensity = dark ? 1.6 : 0.6;
+    studio.value = dark ? 0.8 : 0.7;
+    outline.value = dark ? 0.24 : 0.02;
   }
 
   dispose() {

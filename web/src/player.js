@@ -11,7 +11,7 @@
 import * as THREE from "three";
 import { Clock } from "./player-clock.js";
 import { locate, unpack } from "./player-data.js";
-import { Forces, Goal, Path } from "./player-overlays.js";
+import { Forces, Goal, goalCorners, Path } from "./player-overlays.js";
 import { cornersOf, Robot } from "./player-robot.js";
 import { Stage } from "./player-stage.js";
 import { Pace } from "./player-pace.js";
@@ -247,6 +247,7 @@ class Picture {
       this.robot.at({ row: Math.round((last * i) / (STILL - 1)), share: 0 });
       points.push(...this.robot.corners());
     }
+    if (scene.motion.goal) points.push(...goalCorners(scene.motion.goal));
     for (const box of this.robot.obstacles) {
       const half = box.getSize(new THREE.Vector3()).multiplyScalar(0.5);
       if (Math.max(half.x, half.y, half.z) < LARGE) points.push(...cornersOf(box));
