@@ -118,7 +118,7 @@ export function createChart(host, spec) {
     for (const bar of state.bars ?? []) back.append(svg("rect", { class: "span", fill: bar.colour, x: px(bar.from), y: py(bar.row) - 6, width: Math.max(1, px(bar.to) - px(bar.from)), height: 12, rx: 2 }));
     const dots = [];
     for (const line of state.lines ?? []) {
-      const look = { class: `line ${line.dash ?? ""}`, stroke: line.colour, "stroke-width": line.width };
+      const look = { class: `line ${line.dash ?? ""}`, stroke: line.colour, style: line.width ? `stroke-width:${line.width}` : null };
       back.append(svg("path", { ...look, d: path(line, px, py, inner.w) }));
       if (state.follow !== false && line.follow !== false) {
         const dot = svg("circle", { r: 3, fill: line.colour });

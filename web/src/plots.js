@@ -131,7 +131,7 @@ function cost(context, host) {
   const grid = section(host, "search", "Search", "Cost over the trials, a generation at a time; dotted lines are where a stage begins and the cost changes.", "one");
   const readout = el("output", { class: "readout" });
   const value = (v) => significant(v ?? NaN, 4);
-  const marks = [];
+  const marks = trials.length === 1 ? [{ x: trials[0], y: lines[0].y[0], colour: "var(--best)" }] : [];
   if (first !== null && first !== undefined) {
     const k = Math.max(0, trials.findIndex((count) => count >= first));
     marks.push({ shape: "star", x: first, y: lines[0].y[k], colour: "var(--good)" });
@@ -145,7 +145,7 @@ function cost(context, host) {
   chart = plot(grid, context, {
     title: "Cost", lines, timed: false, height: 240, bands: [band], marks,
     margin: { left: 52 },
-    legend: [{ name: "generation, best to worst", swatch: bandSwatch() }, ...(marks.length ? [{ name: `first success, trial ${first}`, swatch: starSwatch() }] : [])],
+    legend: [{ name: "generation, best to worst", swatch: bandSwatch() }, ...(first ? [{ name: `first success, trial ${first}`, swatch: starSwatch() }] : [])],
     rules: stages.map((stage) => ({ x: stage.start, text: stages.length > 1 ? stage.name : "" })),
     x: { ...across, ticks: across.ticks.filter(Number.isInteger), unit: "trials" },
     y: logScale(Math.min(...finite) / 1.3, Math.max(...finite) * 1.3),
