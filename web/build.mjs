@@ -1,5 +1,5 @@
 // Bundles web/src/report.js into the package's report.js: `npm ci && npm run build`, in web/. Its first line says of which
-// sources it was made; a test compares (tests/report/test_bundle.py).
+// sources it was made, which a test compares (tests/report/test_bundle.py), and its last ones are the licence of three.js.
 
 import { createHash } from "node:crypto";
 import { readdirSync, readFileSync } from "node:fs";
@@ -21,6 +21,11 @@ export function sourcesHash() {
   return hash.digest("hex");
 }
 
+function licence(name) {
+  return readFileSync(join(here, "node_modules", name, "LICENSE"), "utf8").trim();
+}
+
+const three = JSON.parse(readFileSync(join(here, "node_modules/three/package.json"), "utf8"));
 const [entry = "src/report.js", outfile = "../src/levade/report/web/report.js"] = process.argv.slice(2);
 await build({
   absWorkingDir: here,
@@ -31,6 +36,7 @@ await build({
   format: "iife",
   target: ["chrome109", "firefox115", "safari16"],
   legalComments: "eof",
+  footer: { js: `/*! three.js ${three.version}:\n${licence("three")}\n*/` },
   banner: { js: `/* levade report, made of web/ by its build.mjs; sources ${sourcesHash()} */` },
   logLevel: "info",
 });
