@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+import functools
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -24,8 +26,9 @@ from levade.costs import (
 from levade.costs.success import QUANTITIES
 from levade.document import build, kind_of, parse_yaml, read_yaml
 from levade.errors import LevadeError, did_you_mean
-from levade.tasks.task import Cost, Task
-from levade.tasks.units import to_si
+from levade.robots import Dimensions, dimensions, load_robot
+from levade.tasks.task import Cost, RobotChoice, Task
+from levade.tasks.units import measure_of, to_si
 
 TERMS = {
     "orientation": Orientation,
@@ -62,24 +65,51 @@ def load_task(name_or_path: str | Path, *, robot: str | None = None, changes: Se
     "costs.effort.weight=0.5"; the path has to exist in the task with all its defaults. Raises LevadeError.
     """
     path = _find(str(name_or_path))
-    task = task_from_dict(read_yaml(path), where=str(path))
-    if robot is not None:
-        task = dataclasses.replace(
-            task, robot=dataclasses.replace(task.robot, name=robot, actuation=None, variant=None)
-        )
-    if changes:
+    content = read_yaml(path)
+    with_robot = [change for change in changes if change.partition("=")[0].startswith("robot.")]
+    if robot is not None or with_robot:  # first, as numbers in units of the robot are those of this one
+        content["robot"] = _other_robot(content.get("robot"), robot, with_robot, where=str(path))
+    task = task_from_dict(content, where=str(path))
+    rest = [change for change in changes if change not in with_robot]
+    if rest:
         content = task_to_dict(task)
-        for change in changes:
+        for change in rest:
             _apply(content, change)
-        try:
-            task = task_from_dict(content, where="--set")
-        except LevadeError as error:
-            raise LevadeError(f"--set {str(error).removeprefix('--set').lstrip('.: ')}") from None
+        task = _changed(content)
     return task
 
 
+def _other_robot(content: Any, name: str | None, changes: Sequence[str], *, where: str) -> dict[str, Any]:
+    """The table of the robot, with another one's name in it and the changes made."""
+    choice = build(RobotChoice, content or {}, where=f"{where}.robot")
+    if name is not None:
+        choice = dataclasses.replace(choice, name=name, actuation=None, variant=None)
+    table: dict[str, Any] = {"robot": dataclasses.asdict(choice)}
+    for change in changes:
+        _apply(table, change)
+    with _set():
+        return dataclasses.asdict(build(RobotChoice, table["robot"], where="--set.robot"))
+
+
+def _changed(content: Mapping[str, Any]) -> Task:
+    with _set():
+        return task_from_dict(content, where="--set")
+
+
+@contextmanager
+def _set() -> Iterator[None]:
+    """Errors about values that ``--set`` gave."""
+    try:
+        yield
+    except LevadeError as error:
+        raise LevadeError(f"--set {str(error).removeprefix('--set').lstrip('.: ')}") from None
+
+
 def task_from_dict(content: Mapping[str, Any], *, where: str) -> Task:
-    """A task from the tables of its YAML file; LevadeErrors start with ``where``."""
+    """A task from the tables of its YAML file; LevadeErrors start with ``where``.
+
+    The robot is loaded if a number is in units of it, such as ``1.5 heights``.
+    """
     content = dict(content)
     success = content.get("success")
     if isinstance(success, Mapping):  # a criterion's name is its quantity unless it says otherwise
@@ -98,12 +128,38 @@ def task_from_dict(content: Mapping[str, Any], *, where: str) -> Task:
         content["costs"] = {
             name: {"term": name, **value} if isinstance(value, Mapping) else value for name, value in costs.items()
         }
-    content = dict(to_si(content, where=where))
+
+    @functools.cache
+    def robot() -> Dimensions:
+        choice = build(RobotChoice, content.get("robot", {}), where=f"{where}.robot")
+        return dimensions(load_robot(choice.name, variant=choice.variant))
+
+    if isinstance(content.get("stages"), list):
+        content["stages"] = [
+            _tolerances(stage, content["success"], f"{where}.stages.{i}", robot)
+            if isinstance(stage, Mapping) and isinstance(content.get("success"), Mapping)
+            else stage
+            for i, stage in enumerate(content["stages"])
+        ]
+    content = dict(to_si(content, where=where, robot=robot))
     if isinstance(costs, Mapping):
         content["costs"] = {
             name: _cost(str(name), value, where=f"{where}.costs.{name}") for name, value in content["costs"].items()
         }
     return build(Task, content, where=where)
+
+
+def _tolerances(
+    stage: Mapping[str, Any], success: Mapping[str, Any], where: str, robot: Callable[[], Dimensions]
+) -> dict[str, Any]:
+    """A stage whose tolerances for promotion, each in the unit of its criterion, are SI."""
+    if not isinstance(stage.get("promote"), Mapping):
+        return dict(stage)
+    promote = {
+        name: to_si(value, where=f"{where}.promote.{name}", measures=measure_of(success.get(name)), robot=robot)
+        for name, value in stage["promote"].items()
+    }
+    return {**stage, "promote": promote}
 
 
 def task_to_dict(task: Task) -> dict[str, Any]:
