@@ -13,4 +13,15 @@ from levade.robots.loading import builtin_robots, load_robot
 from levade.robots.robot import Leg, Robot
 from levade.robots.symmetry import mirror_signs
 
-__all__ = ["PID", "Actuation", "DCMotor", "Dimensions", "Leg", "Robot", "builtin_robots", "dimensions", "load_robot", "mirror_signs"]
+__all__ = [
+    "PID",
+    "Actuation",
+    "DCMotor",
+    "Dimensions",
+    "Leg",
+    "Robot",
+    "builtin_robots",
+    "dimensions",
+    "load_robot",
+    "mirror_signs",
+]

@@ -6,6 +6,7 @@ Two robots that differ in size alone, driven by shares of their own limits, do t
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass
 
@@ -52,7 +53,7 @@ def dimensions(robot: Robot) -> Dimensions:
 
 def _length(axes: dict[str, tuple[Array, Array]], leg: Leg, foot: Array) -> float:
     lines = [axes[joint] for joint in leg.joints]
-    links = [_distance(*one, *other) for one, other in zip(lines, lines[1:], strict=False)]
+    links = [_distance(*one, *other) for one, other in itertools.pairwise(lines)]
     anchor, axis = lines[-1]
     return sum(links) + float(np.linalg.norm(np.cross(axis, foot - anchor)))
 

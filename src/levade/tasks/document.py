@@ -16,6 +16,7 @@ from levade.costs import (
     JointLimitExcess,
     JointVelocity,
     LinearVelocity,
+    Miss,
     Orientation,
     Position,
     Posture,
@@ -27,12 +28,14 @@ from levade.costs.success import QUANTITIES
 from levade.document import build, kind_of, parse_yaml, read_yaml
 from levade.errors import LevadeError, did_you_mean
 from levade.robots import Dimensions, dimensions, load_robot
+from levade.scenes import read_heights
 from levade.tasks.task import Cost, RobotChoice, Task
 from levade.tasks.units import measure_of, to_si
 
 TERMS = {
     "orientation": Orientation,
     "position": Position,
+    "miss": Miss,
     "linear_velocity": LinearVelocity,
     "angular_velocity": AngularVelocity,
     "joint_velocity": JointVelocity,
@@ -50,6 +53,7 @@ _ORDER = (
     *("name", "description", "robot", "scene", "physics", "start", "horizon", "hold"),
     *("policy", "costs", "stages", "success", "search"),
 )
+_SEQUENCE = "tag:yaml.org,2002:seq"
 _BUILT_IN = Path(__file__).parent / "data"
 
 
@@ -66,6 +70,7 @@ def load_task(name_or_path: str | Path, *, robot: str | None = None, changes: Se
     """
     path = _find(str(name_or_path))
     content = read_yaml(path)
+    _with_folder(content, path.parent)
     with_robot = [change for change in changes if change.partition("=")[0].startswith("robot.")]
     if robot is not None or with_robot:  # first, as numbers in units of the robot are those of this one
         content["robot"] = _other_robot(content.get("robot"), robot, with_robot, where=str(path))
@@ -142,11 +147,41 @@ def task_from_dict(content: Mapping[str, Any], *, where: str) -> Task:
             for i, stage in enumerate(content["stages"])
         ]
     content = dict(to_si(content, where=where, robot=robot))
+    content["scene"] = _with_heights(content.get("scene", {}), f"{where}.scene.terrain")
     if isinstance(costs, Mapping):
         content["costs"] = {
             name: _cost(str(name), value, where=f"{where}.costs.{name}") for name, value in content["costs"].items()
         }
     return build(Task, content, where=where)
+
+
+def _with_folder(content: dict[str, Any], folder: Path) -> None:
+    """The path of a terrain's file, as its task file gives it, from here."""
+    scene = content.get("scene")
+    if not isinstance(scene, Mapping):
+        return
+    terrain = scene.get("terrain")
+    if isinstance(terrain, Mapping) and isinstance(terrain.get("file"), str):
+        content["scene"] = {**scene, "terrain": {**terrain, "file": str(folder / terrain["file"])}}
+
+
+def _with_heights(scene: Any, where: str) -> Any:
+    """The scene with its terrain's heights instead of the file that they are in: a task is complete without it."""
+    terrain = scene.get("terrain") if isinstance(scene, Mapping) else None
+    if not isinstance(terrain, Mapping) or "file" not in terrain:
+        return scene
+    terrain = dict(terrain)
+    file, height = terrain.pop("file"), terrain.pop("height", None)
+    if "heights" in terrain:
+        raise LevadeError(f"{where}: give heights or a file of them, not both")
+    if not isinstance(file, str):
+        raise LevadeError(f"{where}.file: should be the path of a file, is {kind_of(file)}")
+    if height is not None and (isinstance(height, bool) or not isinstance(height, (int, float)) or not height > 0):
+        raise LevadeError(f"{where}.height: should be a positive height, that of white, is {kind_of(height)}")
+    try:
+        return {**scene, "terrain": {**terrain, "heights": read_heights(Path(file), height)}}
+    except LevadeError as error:
+        raise LevadeError(f"{where}.file: {error}") from None
 
 
 def _tolerances(
@@ -187,7 +222,18 @@ def task_to_yaml(task: Task) -> str:
     """The text of a task file with every default filled in."""
     import yaml
 
-    return yaml.safe_dump(task_to_dict(task), sort_keys=False, width=120, allow_unicode=True)
+    class Dumper(yaml.SafeDumper):
+        pass
+
+    Dumper.add_representer(_Row, lambda dumper, row: dumper.represent_sequence(_SEQUENCE, row, flow_style=True))
+    content = task_to_dict(task)
+    if content["scene"]["terrain"] is not None:  # a line for each row, not for each number
+        content["scene"]["terrain"]["heights"] = [_Row(row) for row in content["scene"]["terrain"]["heights"]]
+    return yaml.dump(content, Dumper=Dumper, sort_keys=False, width=120, allow_unicode=True)
+
+
+class _Row(list[float]):
+    """A list that is written in one go."""
 
 
 def _cost(name: str, content: Any, *, where: str) -> Cost:

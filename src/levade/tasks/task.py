@@ -204,10 +204,10 @@ class Task:
 
 
 def looks_at_hold(term: object) -> bool:
-    """Whether a term or criterion needs the rows after the horizon."""
-    if getattr(term, "at", "horizon") != "horizon":
-        return True
-    return getattr(term, "over", "horizon") == "all"
+    """Whether a term or criterion needs the rows after the horizon. One that looks at the largest or smallest value of
+    all takes what there is.
+    """
+    return getattr(term, "at", "horizon") in ("end", "hold") or getattr(term, "over", "horizon") == "all"
 
 
 def _check_hold(where: str, term: object, hold: float) -> None:

@@ -49,10 +49,10 @@ _PLURALS = {
 
 _KEYS: dict[str, str] = {
     **dict.fromkeys(("roll", "pitch", "yaw", "slope", "spread"), "an angle"),
-    **dict.fromkeys(("x", "y", "z", "height", "position", "size"), "a length"),
+    **dict.fromkeys(("x", "y", "z", "height", "heights", "position", "size", "width", "depth"), "a length"),
     **dict.fromkeys(("horizon", "hold", "timestep", "time"), "a duration"),
 }
-_BOUNDS = ("target", "tolerance", "minimum", "maximum")
+_BOUNDS = ("target", "tolerance", "minimum", "maximum", "scale")
 _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-z°][\w°/²^]*)\s*")
 
 
@@ -71,9 +71,7 @@ def to_si(
             for key, value in content.items()
         }
     if isinstance(content, (list, tuple)):
-        return [
-            to_si(value, where=f"{where}.{i}", measures=measures, robot=robot) for i, value in enumerate(content)
-        ]
+        return [to_si(value, where=f"{where}.{i}", measures=measures, robot=robot) for i, value in enumerate(content)]
     match = _NUMBER.fullmatch(content) if isinstance(content, str) and not _is_number(content) else None
     if match is None:
         return content
