@@ -38,7 +38,14 @@ class Miss:
     scale: float = 1.0
 
     def __post_init__(self) -> None:
-        self._criterion  # noqa: B018  # its mistakes are this term's
+        if self.at not in ("horizon", "end", "hold", "max", "min", "motion"):
+            raise LevadeError(
+                f"miss.{self.quantity}.at: {self.at!r} is unknown; horizon, end, max, min, hold or motion"
+            )
+        try:
+            self._criterion  # noqa: B018
+        except LevadeError as error:
+            raise LevadeError(f"miss{str(error).removeprefix('success')}") from None
         if not (math.isfinite(self.scale) and self.scale > 0):
             raise LevadeError(f"miss.scale: {self.scale} should be a positive number, the distance that costs 1")
 
