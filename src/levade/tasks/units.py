@@ -39,7 +39,7 @@ ROBOT_UNITS: dict[str, tuple[str, Callable[[Dimensions], float]]] = {
 }
 """Unit of the robot -> what it measures, and its size in SI."""
 
-_PLURALS = {
+PLURALS = {  # of units of the robot
     "heights": "height",
     "legs": "leg",
     "trunks": "trunk",
@@ -67,7 +67,7 @@ def to_si(
     """
     if isinstance(content, Mapping):
         return {
-            key: to_si(value, where=f"{where}.{key}", measures=_measured(str(key), content), robot=robot)
+            key: to_si(value, where=f"{where}.{key}", measures=measured(str(key), content), robot=robot)
             for key, value in content.items()
         }
     if isinstance(content, (list, tuple)):
@@ -76,7 +76,7 @@ def to_si(
     if match is None:
         return content
     number, unit = match.groups()
-    name = _PLURALS.get(unit, unit)
+    name = PLURALS.get(unit, unit)
     kinds = {name: kind for name, (kind, _) in (UNITS | (ROBOT_UNITS if robot else {})).items()}
     fitting = [name for name, kind in kinds.items() if kind == measures]
     if name not in kinds:
@@ -109,7 +109,7 @@ def measure_of(criterion: Any) -> str | None:
     return UNITS[unit][0] if unit in UNITS else None
 
 
-def _measured(key: str, siblings: Mapping[str, Any]) -> str | None:
+def measured(key: str, siblings: Mapping[str, Any]) -> str | None:
     term = siblings.get("term")
     if key in _BOUNDS and (kind := measure_of(siblings)):
         return kind
