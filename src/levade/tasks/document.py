@@ -25,7 +25,7 @@ from levade.costs import (
     TorqueLimitExcess,
 )
 from levade.costs.success import QUANTITIES
-from levade.document import build, kind_of, parse_yaml, read_yaml
+from levade.document import build, kind_of, parse_yaml, read_text, read_yaml
 from levade.errors import LevadeError, did_you_mean
 from levade.robots import Dimensions, dimensions, load_robot
 from levade.scenes import read_heights
@@ -60,6 +60,11 @@ _BUILT_IN = Path(__file__).parent / "data"
 def builtin_tasks() -> dict[str, Path]:
     """Name -> file of every built-in task, by name."""
     return {path.stem: path for path in sorted(_BUILT_IN.glob("*.yaml"), key=lambda path: path.stem)}
+
+
+def task_text(name_or_path: str | Path) -> str:
+    """A task file as it was written, comments and all."""
+    return read_text(_find(str(name_or_path)))
 
 
 def load_task(name_or_path: str | Path, *, robot: str | None = None, changes: Sequence[str] = ()) -> Task:
