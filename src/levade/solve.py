@@ -24,7 +24,7 @@ from levade.costs import DIVERGED, errors, evaluate, total
 from levade.engines import MujocoEngine
 from levade.errors import LevadeError, did_you_mean
 from levade.optimizers import OPTIMIZERS, Aim, Optimizer
-from levade.policies import Follower, GaussianKernels, Group, Policy, smoothness_factor
+from levade.policies import Ends, Follower, GaussianKernels, Group, Policy, smoothness_factor
 from levade.robots import Leg, Robot, load_robot, mirror_signs
 from levade.tasks import PolicyChoice, Stage, Task, looks_at_hold
 from levade.trajectory import Array, Trajectories
@@ -55,7 +55,6 @@ class Objective:
         choice = asdict(task.robot)
         self.robot = load_robot(choice.pop("name"), **choice)
         self.engine = MujocoEngine(self.robot, task.scene, task.physics, threads=threads)
-        self.policy = make_policy(task, self.robot)
         self.terms = {name: cost.term for name, cost in task.costs.items()}
         bodies = {name: getattr(term, "bodies", ()) for name, term in self.terms.items()}
         for name, body in ((term, body) for term in bodies for body in bodies[term]):
@@ -64,6 +63,7 @@ class Objective:
                 raise LevadeError(f"costs.{name}.bodies: no body {body!r} in {self.robot.name}; {hint}")
         self._bodies = tuple(sorted({body for named in bodies.values() for body in named}))
         self.state = self.engine.start(task.start.choice)
+        self.policy = make_policy(task, self.robot, start=self.state.joint_reference)
         self.evaluate(self.initial_weights[None])  # terms that cannot be evaluated say so now
 
     @cached_property
@@ -72,9 +72,7 @@ class Objective:
         choice = self.task.policy
         if choice.initial == "hold":
             return self.policy.hold(self.state.joint_reference)
-        with _at("policy.goal: "):
-            goal = self.robot.posture(choice.goal)
-        return self.policy.interpolate(self.state.joint_position, goal)
+        return self.policy.interpolate(self.state.joint_position, _goal(choice, self.robot))
 
     def rollout(self, weights: Array, *, hold_steps: int | None = None, feet: bool = False) -> Trajectories:
         """Simulate trials (n, d), through ``hold_steps`` of the hold; through all of it if None."""
@@ -119,12 +117,25 @@ class Objective:
         )
 
 
-def make_policy(task: Task, robot: Robot) -> Policy:
-    """The task's policy on the robot's joints; LevadeError where its groups do not fit the robot's legs."""
+def make_policy(task: Task, robot: Robot, *, start: Array | None = None) -> Policy:
+    """The task's policy on the robot's joints; LevadeError where its groups do not fit the robot's legs.
+
+    start: (joints,) [rad], what the joints were told last; the policy's goal if None.
+    """
     choice = task.policy
+    ends = None
     with _at("policy."):
         kernels = GaussianKernels(choice.kernels, choice.variance, choice.time)
-    return Policy(kernels, leg_groups(choice, robot), task.horizon, task.physics.timestep, task.hold_steps)
+    if choice.depart or choice.settle:
+        goal = _goal(choice, robot)
+        with _at("policy."):
+            ends = Ends(goal if start is None else start, goal, choice.depart, choice.settle)
+    return Policy(kernels, leg_groups(choice, robot), task.horizon, task.physics.timestep, task.hold_steps, ends)
+
+
+def _goal(choice: PolicyChoice, robot: Robot) -> Array:
+    with _at("policy.goal: "):
+        return robot.posture(choice.goal)
 
 
 def leg_groups(choice: PolicyChoice, robot: Robot) -> tuple[Group, ...]:

@@ -72,6 +72,9 @@ def test_help_and_version(run) -> None:
         ("solve rearing --robot hyq2", "no robot 'hyq2'; did you mean hyq2max?"),
         ("solve rearing --robot my/robot.yaml", "my/robot.yaml: no such file"),
         ("solve rearing --optimizer cmaes", "--set search.optimizer: no optimizer 'cmaes'; did you mean cma?"),
+        ("tasks show rearin", "no task 'rearin'; did you mean rearing?"),
+        ("tasks show rearing --robot hyq2max", "tasks show: --robot goes with --full, which gives numbers for a robot"),
+        ("tasks shw", "No such command 'shw'."),
         ("solve rearing --trials 0", "--set search.trials: 0 should be at least 1; the paper has about 3000"),
         ("solve rearing --set horizn=1", "--set horizn: no 'horizn' in the task; did you mean horizon?"),
         ("solve rearing --set horizon=0", "--set horizon: 0.0 s should be at least one time step (0.002 s)"),
@@ -234,6 +237,20 @@ def test_listings(run) -> None:
     status, out, _ = run("robots", "--json")
     assert (status, out.count("\n")) == (0, 1)
     assert [(r["name"], r["description"]) for r in json.loads(out)["robots"]] == builtin_robots()
+
+
+def test_a_task_to_start_from(run, tmp_path: Path) -> None:
+    from levade.tasks import builtin_tasks, load_task
+
+    status, out, err = run("tasks", "show", "rearing")
+    assert (status, err) == (0, "")
+    assert out == builtin_tasks()["rearing"].read_text(encoding="utf-8")
+    status, out, err = run("tasks", "show", "rearing", "--full", "--robot", "hyq2max")
+    assert (status, err) == (0, "")
+    (tmp_path / "full.yaml").write_text(out)
+    assert load_task(tmp_path / "full.yaml") == load_task("rearing")
+    status, out, err = run("tasks", "schema")
+    assert (status, err, json.loads(out)["title"]) == (0, "", "levade task")
 
 
 def test_as_a_process_in_a_pipe(tmp_path: Path) -> None:

@@ -14,6 +14,7 @@ import yaml
 from levade.costs import Effort, JointLimitExcess, Orientation, Position
 from levade.engines import Fall, Settled
 from levade.errors import LevadeError
+from levade.robots import dimensions, load_robot
 from levade.solve import Objective, make_optimizer
 from levade.tasks import Cost, Search, Task, builtin_tasks, load_task, task_from_dict, task_to_dict, task_to_yaml
 from levade.tasks.units import UNITS, to_si
@@ -359,3 +360,93 @@ def test_a_python_function_is_a_cost_that_no_file_holds() -> None:
     assert objective.evaluate(objective.initial_weights[None]).terms["mine"][0] > 10
     with pytest.raises(LevadeError, match=r"costs.mine: a Python function cannot be written to a task file"):
         task_to_yaml(mine)
+
+
+def test_units_of_the_robot_are_its_own_size() -> None:
+    """HyQ2Max: links of 0.36 and 0.38 m, hips 0.4435 m before and behind (data sheet); the rest by definition."""
+    size = dimensions(load_robot("hyq2max"))
+    assert (size.leg, size.trunk) == pytest.approx((0.74, 0.887))
+    assert size.fall == pytest.approx(math.sqrt(2 * size.height / 9.81))
+    task = task_from_dict(
+        minimal(
+            horizon="6 falls",
+            scene={"boxes": [{"position": ["1 trunk", 0, "0.25 heights"], "size": [1, 2, "0.5 heights"]}]},
+            start={"settled": {"x": "-0.5 legs"}},
+            success={
+                "apex": {"quantity": "height", "minimum": "1.5 heights", "at": "max"},
+                "still": {"quantity": "speed", "maximum": "0.1 heights/fall"},
+                "calm": {"quantity": "angular_speed", "maximum": "1 rad/fall"},
+            },
+            stages=[{"promote": {"apex": "0.1 heights"}}, {}],
+        ),
+        where="mine.yaml",
+    )
+    assert task.horizon == pytest.approx(6 * size.fall)
+    assert task.scene.boxes[0].position == pytest.approx((0.887, 0, 0.25 * size.height))
+    assert task.scene.boxes[0].size == pytest.approx((1, 2, 0.5 * size.height))
+    assert dataclasses.asdict(task.start.choice)["x"] == pytest.approx(-0.37)
+    assert task.success["apex"].minimum == pytest.approx(1.5 * size.height)
+    assert task.success["still"].maximum == pytest.approx(0.1 * size.height / size.fall)
+    assert task.success["calm"].maximum == pytest.approx(1 / size.fall)
+    assert task.stages[0].promote["apex"] == pytest.approx(0.1 * size.height)
+    assert task_from_dict(task_to_dict(task), where="x") == task
+
+
+def test_the_robot_is_changed_before_its_units_are_read(tmp_path: Path) -> None:
+    content = minimal(horizon="2 falls", robot={"name": "hyq2max", "kp": 500.0})
+    (tmp_path / "mine.yaml").write_text(yaml.safe_dump(content))
+    folder = Path(str(load_robot("hyq2max").source)).parent
+    (tmp_path / "long").mkdir()
+    (tmp_path / "long" / "hyq2max.xml").write_text((folder / "hyq2max.xml").read_text())
+    crouched = (
+        (folder / "robot.yaml").read_text().replace('"?f_hfe": 0.63, "?f_kfe": -1.32', '"?f_hfe": 1.0, "?f_kfe": -2')
+    )
+    crouched = crouched.replace('"?h_hfe": -0.63, "?h_kfe": 1.32', '"?h_hfe": -1.0, "?h_kfe": 2')
+    (tmp_path / "long" / "robot.yaml").write_text(crouched)
+    other = str(tmp_path / "long" / "robot.yaml")
+    fall, low = (dimensions(load_robot(name)).fall for name in ("hyq2max", other))
+    assert low < 0.95 * fall
+    assert load_task(tmp_path / "mine.yaml").horizon == pytest.approx(2 * fall)
+    assert load_task(tmp_path / "mine.yaml", robot=other).horizon == pytest.approx(2 * low)
+    by_path = load_task(tmp_path / "mine.yaml", changes=[f"robot.name={other}", "hold=1 falls", "robot.kp=400"])
+    assert (by_path.horizon, by_path.hold) == pytest.approx((2 * low, low))
+    assert by_path.robot.kp == 400.0
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"horizon": "5 heights"}, "horizon: '5 heights' is a length, but this is a duration; units here: s, ms, fall"),
+        ({"horizon": "5 hights"}, "horizon: unknown unit 'hights' in '5 hights'; units here: s, ms, fall"),
+        ({"robot": {"name": "hyq"}, "horizon": "5 falls"}, "no robot 'hyq'; did you mean hyq2max?"),
+        ({"robot": {"nam": "hyq"}, "horizon": "5 falls"}, "mine.yaml.robot: unknown key 'nam'; did you mean name?"),
+    ],
+)
+def test_units_of_the_robot_that_do_not_fit(changes: dict[str, object], message: str) -> None:
+    with pytest.raises(LevadeError) as caught:
+        task_from_dict(minimal(**changes), where="mine.yaml")
+    assert message in str(caught.value)
+
+
+def test_a_terrain_from_a_file_is_part_of_the_task(tmp_path: Path) -> None:
+    np.save(tmp_path / "hills.npy", np.linspace(0, 0.1, 12).reshape(3, 4))
+    content = minimal(scene={"terrain": {"file": "hills.npy", "size": ["2 trunks", 1]}})
+    (tmp_path / "mine.yaml").write_text(yaml.safe_dump(content))
+    task = load_task(tmp_path / "mine.yaml")
+    assert task.scene.terrain is not None
+    np.testing.assert_allclose(task.scene.terrain.heights, np.linspace(0, 0.1, 12).reshape(3, 4), rtol=1e-5)
+    (tmp_path / "hills.npy").unlink()
+    (tmp_path / "again.yaml").write_text(task_to_yaml(task))
+    assert load_task(tmp_path / "again.yaml") == task
+    with pytest.raises(LevadeError, match=r"scene.terrain.file: .*hills.npy: no such file"):
+        load_task(tmp_path / "mine.yaml")
+    for terrain, message in (
+        (
+            {"file": "hills.npy", "heights": [[0, 1], [1, 0]], "size": [1, 1]},
+            "give heights or a file of them, not both",
+        ),
+        ({"file": 3, "size": [1, 1]}, "terrain.file: should be the path of a file, is 3"),
+        ({"file": "a.png", "height": "low", "size": [1, 1]}, "terrain.height: should be a positive height"),
+    ):
+        with pytest.raises(LevadeError, match=message):
+            task_from_dict(minimal(scene={"terrain": terrain}), where="mine.yaml")

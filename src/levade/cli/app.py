@@ -141,17 +141,44 @@ def show(
     return show_motions(motions, pictures, report=not as_json if report is None else report, as_json=as_json)
 
 
-@app.command()
-def tasks(as_json: Json = False) -> None:
-    """List the built-in tasks."""
+_tasks = typer.Typer(help="List the built-in tasks; print one, or the form of them all.", rich_markup_mode=None)
+app.add_typer(_tasks, name="tasks")
+
+
+@_tasks.callback(invoke_without_command=True)
+def _list_tasks(context: typer.Context, as_json: Json = False) -> None:
     from levade.tasks import builtin_tasks, load_task
 
+    if context.invoked_subcommand is not None:
+        return
     loaded = [load_task(name) for name in builtin_tasks()]
     if as_json:
         rows = [{"name": task.name, "description": task.description, "robot": task.robot.name} for task in loaded]
         _print_json({"tasks": rows})
     else:
         _print_rows([(task.name, task.description) for task in loaded])
+
+
+@_tasks.command("show")
+def _show_task(
+    task: Annotated[str, typer.Argument(help="Name of a built-in task, or a YAML file.")],
+    robot: Annotated[str | None, typer.Option(help="Another robot, for --full.")] = None,
+    full: Annotated[bool, typer.Option("--full", help="With every default filled in, in SI, for its robot.")] = False,
+) -> None:
+    """Print TASK as it was written, to start your own from."""
+    from levade.tasks import load_task, task_text, task_to_yaml
+
+    if robot is not None and not full:
+        raise LevadeError("tasks show: --robot goes with --full, which gives numbers for a robot; add it")
+    print(task_to_yaml(load_task(task, robot=robot)) if full else task_text(task), end="")
+
+
+@_tasks.command("schema")
+def _schema() -> None:
+    """Print the JSON schema of task files, for editors."""
+    from levade.tasks.schema import task_schema
+
+    print(json.dumps(task_schema(), indent=2, ensure_ascii=False))
 
 
 @app.command()

@@ -7,7 +7,6 @@ replays a motion from its file simulates the same model to the last bit.
 from __future__ import annotations
 
 import copy
-import math
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import cached_property
@@ -61,8 +60,9 @@ class MujocoEngine:
         """
         if isinstance(start, Settled):
             posture = self._posture("start.settled.posture", start)
-            height = self.robot.standing_height(start.posture)
-            height += start.x * math.tan(self.scene.slope) + abs(math.tan(self.scene.slope)) * self._reach(posture)
+            feet = self.robot.foot_positions(posture)
+            ground = self.scene.ground_height(start.x + feet[:, 0], start.y + feet[:, 1])
+            height = self.robot.standing_height(start.posture) + float(ground.max())
             data = self._release((start.x, start.y, height), (0.0, 0.0, 0.0), posture, self.model)
             return self._let_go(self.model, data, posture, start.time)
         generator = np.random.default_rng(start.seed)
@@ -125,6 +125,7 @@ class MujocoEngine:
             trunk_com_offset=self.robot.trunk_com_offset,
             reference=reference,
             limits=self.robot.limits,
+            legs=self.robot.leg_geometry,
             timestep=self.physics.timestep,
             horizon_steps=reference.horizon_steps,
             diverged=diverged,
@@ -182,10 +183,6 @@ class MujocoEngine:
             return self.robot.posture(start.posture)
         except LevadeError as error:
             raise LevadeError(f"{where}: {error}") from None
-
-    def _reach(self, posture: Array) -> float:
-        """[m], how far the feet are from the trunk's origin along x."""
-        return float(np.abs(self.robot.foot_positions(posture)[:, 0]).max())
 
     def _release(
         self,

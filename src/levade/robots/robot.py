@@ -24,7 +24,7 @@ from levade.robots.actuation import Actuation
 from levade.robots.findings import Finding
 from levade.robots.shapes import support
 from levade.robots.understanding import Leg
-from levade.trajectory import Array, JointLimits
+from levade.trajectory import Array, JointLimits, LegGeometry
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,6 +143,27 @@ class Robot:
     def neutral_height(self) -> float:
         """[m], `standing_height` of the neutral posture."""
         return self.standing_height("neutral")
+
+    @cached_property
+    def leg_geometry(self) -> tuple[LegGeometry, ...]:
+        """The legs as costs and criteria see them, in leg order."""
+        stood, data = self.data_at(self.postures["neutral"]), self.data_at(np.zeros(len(self.joint_names)))
+        geometry = []
+        for leg in self.legs:
+            joints, indices = [data.joint(name) for name in leg.joints], self.joint_indices(leg)
+            geometry.append(
+                LegGeometry(
+                    name=leg.name,
+                    side=leg.side,
+                    end=leg.end,
+                    joints=tuple(range(indices.start, indices.stop)),
+                    anchors=np.array([joint.xanchor for joint in joints]),
+                    axes=np.array([joint.xaxis for joint in joints]),
+                    foot=data.geom(leg.foot).xpos.copy(),
+                    sole=_depth(self.model, stood, leg.foot) + float(stood.geom(leg.foot).xpos[2]),
+                )
+            )
+        return tuple(geometry)
 
     @cached_property
     def mass(self) -> float:

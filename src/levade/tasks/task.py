@@ -54,6 +54,8 @@ class PolicyChoice:
     initial: the first mean of the search: "hold" what the joints were told last, or "interpolate" in a straight line from
         the joint angles at the start to the posture ``goal``.
     goal: name of a posture of the robot, or joint -> angle [rad] on top of the neutral one.
+    depart, settle: shares of the horizon in which every reference leaves what the joints were told last, and goes over to
+        the goal; 0 leaves the ends to the weights. See `levade.policies.Ends`.
     """
 
     kernels: int = 16
@@ -62,6 +64,8 @@ class PolicyChoice:
     groups: Literal["pairs", "sides", "all", "independent"] | tuple[tuple[str, ...], ...] = "independent"
     initial: Literal["hold", "interpolate"] = "hold"
     goal: str | Mapping[str, float] = "neutral"
+    depart: float = 0.0
+    settle: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -200,10 +204,10 @@ class Task:
 
 
 def looks_at_hold(term: object) -> bool:
-    """Whether a term or criterion needs the rows after the horizon."""
-    if getattr(term, "at", "horizon") != "horizon":
-        return True
-    return getattr(term, "over", "horizon") == "all"
+    """Whether a term or criterion needs the rows after the horizon. One that looks at the largest or smallest value of
+    all takes what there is.
+    """
+    return getattr(term, "at", "horizon") in ("end", "hold") or getattr(term, "over", "horizon") == "all"
 
 
 def _check_hold(where: str, term: object, hold: float) -> None:
