@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Play an exported motion on a robot. Needs Python 3.10 and numpy, nothing else.
 
-    python player.py motion.csv --dry-run                       # without a robot, against a stand-in
+    python player.py motion.csv --dry-run                       # without a robot: the file and the sequence, not the timing
     python player.py motion.csv --robot my_robot:MyRobot        # MyRobot is yours, see below
 
 motion.csv is read together with the meta.json beside it; motion.json needs nothing beside it. Your robot is a class with two
@@ -229,7 +229,7 @@ def main(arguments: list[str] | None = None) -> int:
     """The command line."""
     parser = argparse.ArgumentParser(description="Play an exported motion on a robot.")
     parser.add_argument("motion", help="motion.csv (with meta.json beside it) or motion.json")
-    parser.add_argument("--dry-run", action="store_true", help="without a robot")
+    parser.add_argument("--dry-run", action="store_true", help="without a robot, as fast as it goes")
     parser.add_argument("--robot", metavar="MODULE:CLASS", help="your class with read and write")
     parser.add_argument("--ramp", type=float, default=2.0, help="to the start [s]; 2")
     parser.add_argument("--start-tolerance", type=float, default=0.5, help="from the start, before the ramp [rad]; 0.5")
@@ -260,6 +260,7 @@ def main(arguments: list[str] | None = None) -> int:
             start_tolerance=options.start_tolerance,
             tolerance=options.tolerance,
             hold=options.hold,
+            wait=(lambda instant: 0.0) if options.dry_run else None,
         )
     except Stopped as stopped:
         print(f"player: stopped: {stopped}", file=sys.stderr)
