@@ -6,6 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from levade.errors import LevadeError, did_you_mean
 from levade.export import as_csv, as_json, as_mjlab, as_ros2, as_unitree
 from levade.export.content import Content, provenance
@@ -86,6 +88,16 @@ def export(
     with filling(directory) as partial:
         notes = form.write(content, partial)
         names = sorted(path.relative_to(partial) for path in partial.rglob("*") if path.is_file())
-    if not motion.meta["success"]:
-        notes = ["the motion does not meet its success criteria", *notes]
+    notes = [*_notes(motion, playing), *notes]
     return Exported(to, directory, tuple(directory / name for name in names), samples, tuple(notes))
+
+
+def _notes(motion: Motion, samples: Samples) -> list[str]:
+    """What the user of the files should know before the robot does."""
+    notes = [] if motion.meta["success"] else ["the motion does not meet its success criteria"]
+    joints = samples.joints
+    over = np.maximum(joints.lower - samples.command_position, samples.command_position - joints.upper).max(axis=0)
+    if (over > 0).any():
+        names = ", ".join(name for name, by in zip(joints.names, over, strict=True) if by > 0)
+        notes.append(f"positions to send go beyond the range of {names}, by up to {over.max():.3f} rad; player.py clamps them")
+    return notes

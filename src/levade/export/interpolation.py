@@ -83,19 +83,24 @@ def rotations(interval: Index, share: Array, quaternions: Array, rates: Array, t
     """Rotations through the given ones with the given angular velocities.
 
     quaternions: (instants, 4), body to world, w-x-y-z. rates: (instants, 3) [rad/s], in body axes. Returns (rows, 4).
-    The cubic Bezier curve of Kim, Kim and Shin, A general construction scheme for unit quaternion curves with simple
-    high order derivatives, SIGGRAPH 1995, section 4.
+    The rotation vector from the start of each interval on is a cubic with the rates at both ends.
     """
     s = share[:, None]
     start, stop = quaternions[interval], quaternions[interval + 1]
-    first, third = rates[interval] * timestep / 3, rates[interval + 1] * timestep / 3
-    middle = multiply(multiply(exponential(-first), multiply(conjugate(start), stop)), exponential(-third))
-    turned = multiply(
-        multiply(multiply(start, exponential((1 - (1 - s) ** 3) * first)), exponential((3 - 2 * s) * s**2 * log(middle))),
-        exponential(s**3 * third),
-    )
-    turned /= np.linalg.norm(turned, axis=-1, keepdims=True)
-    return np.where(s == 0.0, start, np.where(s == 1.0, stop, turned))  # as recorded: not up to rounding
+    way = log(multiply(conjugate(start), stop))
+    first, last = rates[interval] * timestep, _vector_rate(way, rates[interval + 1] * timestep)
+    vector = s**2 * (3 - 2 * s) * way + s * (1 - s) * ((1 - s) * first - s * last)
+    # at the ends as recorded, not up to rounding
+    return np.where(s == 0.0, start, np.where(s == 1.0, stop, multiply(start, exponential(vector))))
+
+
+def _vector_rate(vector: Array, rate: Array) -> Array:
+    """How fast a rotation vector (..., 3) changes while the body turns with a rate in body axes, (..., 3)."""
+    angle = np.linalg.norm(vector, axis=-1, keepdims=True)
+    near = np.maximum(angle, 1e-4)  # below that, the limit of 1/12 to twelve digits
+    share = np.where(angle < 1e-4, 1 / 12, 1 / near**2 - 1 / (2 * near * np.tan(near / 2)))
+    across = np.cross(vector, rate)
+    return rate + across / 2 + share * np.cross(vector, across)
 
 
 def multiply(a: Array, b: Array) -> Array:
