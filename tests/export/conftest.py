@@ -15,7 +15,7 @@ from levade.tasks import load_task
 
 @pytest.fixture(scope="session")
 def objective() -> Objective:
-    return Objective(load_task("rearing", changes=["search.polish=0"]))
+    return Objective(load_task("rearing"))
 
 
 @pytest.fixture(scope="session")

@@ -51,7 +51,9 @@ def random_samples(model: mujoco.MjModel, like: Samples, rows: int = 7) -> tuple
             trunk_position=qpos[:, :3],
             trunk_quaternion=qpos[:, 3:7],
             trunk_linear_velocity=qvel[:, :3],
-            trunk_angular_velocity=np.array([d.body(1).xmat.reshape(3, 3) @ v[3:6] for d, v in zip(states, qvel, strict=True)]),
+            trunk_angular_velocity=np.array(
+                [d.body(1).xmat.reshape(3, 3) @ v[3:6] for d, v in zip(states, qvel, strict=True)]
+            ),
         ),
         states,
     )
@@ -128,8 +130,14 @@ def test_mujoco_reads_the_same_robot_from_the_urdf(rearing: Motion, like: Sample
             for body in range(1, model.nbody):
                 name = model.body(body).name
                 np.testing.assert_allclose(data.body(name).xipos, of.body(name).xipos, atol=1e-9)
-                turned = data.body(name).ximat.reshape(3, 3) * read.body(name).inertia @ data.body(name).ximat.reshape(3, 3).T
-                meant = of.body(name).ximat.reshape(3, 3) * model.body(name).inertia @ of.body(name).ximat.reshape(3, 3).T
+                turned = (
+                    data.body(name).ximat.reshape(3, 3)
+                    * read.body(name).inertia
+                    @ data.body(name).ximat.reshape(3, 3).T
+                )
+                meant = (
+                    of.body(name).ximat.reshape(3, 3) * model.body(name).inertia @ of.body(name).ximat.reshape(3, 3).T
+                )
                 np.testing.assert_allclose(turned, meant, atol=1e-9)
         np.testing.assert_allclose(read.body_mass.sum(), model.body_mass.sum(), rtol=1e-9)
         for name, lower, upper in zip(samples.joints.names, samples.joints.lower, samples.joints.upper, strict=True):

@@ -55,9 +55,7 @@ def test_references_that_are_not_the_policy_of_the_weights_are_cubics(
     rearing: Motion, rearing_model: mujoco.MjModel
 ) -> None:
     other = replace(rearing, arrays={**rearing.arrays, "weights": rearing["weights"] + 0.01})
-    found, exact = (
-        sample(motion, rearing_model, rate=2000.0, reference="commanded") for motion in (other, rearing)
-    )
+    found, exact = (sample(motion, rearing_model, rate=2000.0, reference="commanded") for motion in (other, rearing))
     assert not found.analytic
     np.testing.assert_array_equal(found.command_position[::4], exact.command_position[::4])
     # |x''''| of a kernel policy with sigma = 0.1 T is at most a few times its range / sigma^4
@@ -160,7 +158,10 @@ def test_an_actuator_without_gains_is_told(rearing: Motion) -> None:
         ({"rate": 1e9}, "should be 2 to 1000000"),
         ({"reference": "mesured"}, "no reference 'mesured'; did you mean measured?"),
         ({"kp": -1.0}, "--kp -1.0: should be a number that is not negative"),
-        ({"kd": 3.0, "reference": "commanded"}, "commanded references only make the motion with the gains of the simul"),
+        (
+            {"kd": 3.0, "reference": "commanded"},
+            "commanded references only make the motion with the gains of the simul",
+        ),
     ],
 )
 def test_wrong_options(rearing: Motion, rearing_model: mujoco.MjModel, options: dict, message: str) -> None:

@@ -159,9 +159,7 @@ def export(
     """
     from levade.cli.exporting import export_motion
 
-    return export_motion(
-        motion, to, out, rate=rate, reference=reference, hold=hold, kp=kp, kd=kd, as_json=as_json
-    )
+    return export_motion(motion, to, out, rate=rate, reference=reference, hold=hold, kp=kp, kd=kd, as_json=as_json)
 
 
 @app.command()

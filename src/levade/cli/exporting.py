@@ -45,9 +45,7 @@ def export_motion(
     words += [word for name, value in options if value is not None for word in (name, _text(value))]
     words += ["--no-hold"] * (not hold)
     place = directory if directory is not None else path.with_name(f"{path.stem}-{to}")
-    done = export(
-        motion, to, place, rate=rate, reference=reference, hold=hold, kp=kp, kd=kd, command=shlex.join(words)
-    )
+    done = export(motion, to, place, rate=rate, reference=reference, hold=hold, kp=kp, kd=kd, command=shlex.join(words))
     if as_json:
         print(json.dumps({"motion": str(path), **_summary(done)}, ensure_ascii=False))
         return 0

@@ -14,18 +14,14 @@ def write(content: Content, directory: Path) -> list[str]:
     document = {
         "meta": describe(samples, content.provenance),
         "time": samples.time.tolist(),
-        "command": {
-            name: getattr(samples, f"command_{name}").tolist() for name in ("position", "velocity", "torque")
-        },
+        "command": {name: getattr(samples, f"command_{name}").tolist() for name in ("position", "velocity", "torque")},
         "state": {
             **{name: getattr(samples, f"joint_{name}").tolist() for name in ("position", "velocity", "torque")},
             "trunk": {
                 name: getattr(samples, f"trunk_{name}").tolist()
                 for name in ("position", "com_position", "quaternion", "linear_velocity", "angular_velocity")
             },
-            "contact_force": {
-                foot: samples.foot_contact_force[:, i].tolist() for i, foot in enumerate(samples.feet)
-            },
+            "contact_force": {foot: samples.foot_contact_force[:, i].tolist() for i, foot in enumerate(samples.feet)},
         },
     }
     write_json(directory / "motion.json", document)

@@ -1,10 +1,10 @@
 """``mjlab``: a reference motion for mjlab's tracking task.
 
-mjlab 1.6.0 reads reference.npz with ``MotionLoader`` of mjlab/tasks/tracking/mdp/commands.py: joint_pos, joint_vel, body_pos_w,
-body_quat_w, body_lin_vel_w, body_ang_vel_w, a row per control step. They are what its own mjlab/scripts/csv_to_npz.py writes from
-the entity's ``joint_pos``, ``joint_vel`` and ``body_link_*_w``: hinges and bodies in the model's order, the frames of bodies (not
-of their centres of mass), world axes, quaternions w-x-y-z, with ``fps``. reference.csv is what csv_to_npz.py reads:
-position and quaternion x-y-z-w of the trunk, then joint angles; no header.
+mjlab 1.6.0 reads reference.npz with ``MotionLoader`` of mjlab/tasks/tracking/mdp/commands.py: joint_pos, joint_vel,
+body_pos_w, body_quat_w, body_lin_vel_w, body_ang_vel_w, a row per control step. They are what its own
+mjlab/scripts/csv_to_npz.py writes, with ``fps``, from the entity's joint_pos, joint_vel and body_link_*_w: hinges and bodies in
+the model's order, the frames of bodies (not of their centres of mass), world axes, quaternions w-x-y-z. reference.csv is
+what csv_to_npz.py reads: position and quaternion x-y-z-w of the trunk, then joint angles; no header.
 """
 
 from __future__ import annotations

@@ -76,13 +76,15 @@ def _messages(content: Content) -> Iterator[tuple[int, str, bytes]]:
     """Time [ns], topic, bytes, in the order of time."""
     samples, names = content.samples, content.samples.joints.names
     times = nanoseconds(samples)
-    yield _START, "/robot_description", rosmsgs.string(urdf(content.model, samples.joints, content.motion.meta["robot"]))
+    yield (
+        _START,
+        "/robot_description",
+        rosmsgs.string(urdf(content.model, samples.joints, content.motion.meta["robot"])),
+    )
     yield (
         _START,
         "/joint_trajectory",
-        rosmsgs.joint_trajectory(
-            names, times, samples.command_position, samples.command_velocity, _efforts(samples)
-        ),
+        rosmsgs.joint_trajectory(names, times, samples.command_position, samples.command_velocity, _efforts(samples)),
     )
     links = links_of(content.model)
     frames = frames_of(links, samples)
@@ -118,13 +120,13 @@ def _write_bag(content: Content, path: Path) -> dict[str, int]:
             for topic, kind in _TOPICS.items()
         }
         # every value of an MCAP metadata record is a text
-        record = {key: value if isinstance(value, str) else as_csv.to_json(value) for key, value in content.provenance.items()}
+        record = {
+            key: value if isinstance(value, str) else as_csv.to_json(value) for key, value in content.provenance.items()
+        }
         gains = {name: as_csv.to_json(getattr(content.samples.joints, name).tolist()) for name in ("kp", "kd")}
         writer.add_metadata("levade", record | gains | {"joints": as_csv.to_json(content.samples.joints.names)})
         for time, topic, data in _messages(content):
-            writer.add_message(
-                channels[topic], log_time=time, publish_time=time, data=data, sequence=counts[topic]
-            )
+            writer.add_message(channels[topic], log_time=time, publish_time=time, data=data, sequence=counts[topic])
             counts[topic] += 1
         writer.finish()
     return counts
@@ -156,9 +158,7 @@ def _metadata(counts: dict[str, int], times: list[int]) -> dict[str, Any]:
             "compression_format": "",
             "compression_mode": "",
             "relative_file_paths": ["bag_0.mcap"],
-            "files": [
-                {"path": "bag_0.mcap", "starting_time": start, "duration": duration, "message_count": total}
-            ],
+            "files": [{"path": "bag_0.mcap", "starting_time": start, "duration": duration, "message_count": total}],
         }
     }
 
@@ -199,7 +199,7 @@ def _trajectory(samples: Samples) -> dict[str, Any]:
     }
 
 
-class _Plain(getattr(yaml, "CSafeDumper", yaml.SafeDumper)):
+class _Plain(yaml.CSafeDumper if yaml.__with_libyaml__ else yaml.SafeDumper):  # type: ignore[misc]
     """Without anchors: what is there twice is written twice."""
 
     def ignore_aliases(self, data: Any) -> bool:

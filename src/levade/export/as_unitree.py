@@ -1,7 +1,7 @@
-"""``unitree``: position, velocity, feed-forward torque, kp and kd of each motor, in the order of Unitree's low-level commands.
+"""``unitree``: position, velocity, feed-forward torque, kp and kd of each motor, as Unitree's low-level commands have them.
 
-The order is that of ``LowCmd.motor_cmd`` in Unitree's SDKs (``LegID`` in unitree_sdk2_python's unitree_legged_const.py): FR_0 to
-FR_2, FL, RR, RL, each hip, thigh, calf; so are the fields' names q, dq, tau, kp, kd, and the rate of 500 Hz of its examples.
+The order is that of ``LowCmd.motor_cmd`` in Unitree's SDKs (``LegID`` in unitree_sdk2_python's unitree_legged_const.py): FR_0
+to FR_2, FL, RR, RL, each hip, thigh, calf. The names of the fields, q, dq, tau, kp, kd, and the 500 Hz are theirs too.
 """
 
 from __future__ import annotations
@@ -43,8 +43,8 @@ def motors(motion: Motion) -> dict[str, str]:
         fitting = [leg for leg in legs.values() if (leg["end"], leg["side"]) == (end, side)]
         if len(fitting) != 1:
             raise LevadeError(
-                f"--to unitree: {motion.meta['robot']} has {len(fitting)} {end} {side} legs; Unitree's robots have one; take csv or"
-                " json"
+                f"--to unitree: {motion.meta['robot']} has {len(fitting)} {end} {side} legs; Unitree's robots have one;"
+                " take csv or json"
             )
         order |= {f"{place}_{i}": joint for i, joint in enumerate(fitting[0]["joints"])}
     return order

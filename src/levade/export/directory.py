@@ -20,9 +20,9 @@ def filling(directory: Path) -> Iterator[Path]:
     """
     made = [path for path in (directory.parent, *directory.parent.parents) if not path.exists()]
     try:
-        directory.parent.mkdir(parents=True, exist_ok=True)
-        if directory.exists() and not directory.is_dir():
+        if not next(path for path in (directory, *directory.absolute().parents) if path.exists()).is_dir():
             raise NotADirectoryError(20, "Not a directory")
+        directory.parent.mkdir(parents=True, exist_ok=True)
         partial = Path(mkdtemp(prefix=f".{directory.name}.", suffix=".partial", dir=directory.parent))
     except OSError as error:
         raise LevadeError(f"{directory}: cannot be written ({error.strerror}); give a directory that can") from None
@@ -33,7 +33,9 @@ def filling(directory: Path) -> Iterator[Path]:
             place.parent.mkdir(parents=True, exist_ok=True)
             file.replace(place)
     except OSError as error:
-        raise LevadeError(f"{directory}: cannot be written ({error.strerror or error}); make room, then again") from None
+        raise LevadeError(
+            f"{directory}: cannot be written ({error.strerror or error}); make room, then again"
+        ) from None
     finally:
         shutil.rmtree(partial, ignore_errors=True)
         if not directory.exists():

@@ -99,5 +99,7 @@ def _notes(motion: Motion, samples: Samples) -> list[str]:
     over = np.maximum(joints.lower - samples.command_position, samples.command_position - joints.upper).max(axis=0)
     if (over > 0).any():
         names = ", ".join(name for name, by in zip(joints.names, over, strict=True) if by > 0)
-        notes.append(f"positions to send go beyond the range of {names}, by up to {over.max():.3f} rad; player.py clamps them")
+        notes.append(
+            f"positions to send go beyond the range of {names}, by up to {over.max():.3f} rad; player.py clamps them"
+        )
     return notes

@@ -37,8 +37,8 @@ def locate(time: Array, timestep: float, intervals: int) -> tuple[Index, Array]:
     x = np.asarray(time, dtype=np.float64) / timestep
     nearest = np.rint(x)
     x = np.clip(np.where(np.abs(x - nearest) < _SNAP, nearest, x), 0.0, intervals)
-    interval = np.minimum(np.floor(x), intervals - 1).astype(np.intp)
-    return interval, x - interval
+    interval = np.minimum(np.floor(x), intervals - 1)
+    return interval.astype(np.intp), x - interval
 
 
 def hermite(interval: Index, share: Array, values: Array, rates: Array, timestep: float) -> Array:

@@ -4,9 +4,9 @@
     frames = frames_of(links, samples)            # every link at every row, without a loop over rows
     frames.position, frames.linear_velocity       # (rows, links, 3)
 
-A link is a body of the model under the body's name; a body that turns about several hinges has links ``BODY_JOINT`` before it. Where
-a hinge does not go through its body's origin, the link's frame is on the hinge: URDF knows no other, and ``shift`` says
-how far off the body's frame is.
+A link is a body of the model, under the body's name; a body that turns about several hinges has links ``BODY_JOINT`` before
+it. Where a hinge does not go through its body's origin, the link's frame is on the hinge: URDF knows no other, and
+``shift`` says how far off the body's frame is.
 """
 
 from __future__ import annotations
@@ -99,7 +99,10 @@ def frames_of(links: list[Link], samples: Samples) -> Frames:
     column = {name: i for i, name in enumerate(samples.joints.names)}
     for i, link in enumerate(links):
         if link.parent is None:
-            frames.relative_position[:, i], frames.relative_quaternion[:, i] = samples.trunk_position, samples.trunk_quaternion
+            frames.relative_position[:, i], frames.relative_quaternion[:, i] = (
+                samples.trunk_position,
+                samples.trunk_quaternion,
+            )
             frames.position[:, i], frames.quaternion[:, i] = samples.trunk_position, samples.trunk_quaternion
             frames.linear_velocity[:, i] = samples.trunk_linear_velocity
             frames.angular_velocity[:, i] = samples.trunk_angular_velocity

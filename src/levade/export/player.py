@@ -116,7 +116,9 @@ class Motion:
 
     def clamped(self) -> tuple[Array, Array]:
         """Positions within the joints' ranges and torques within their limits, (rows, joints)."""
-        return np.clip(self.position, self.lower, self.upper), np.clip(self.torque, -self.torque_limit, self.torque_limit)
+        return np.clip(self.position, self.lower, self.upper), np.clip(
+            self.torque, -self.torque_limit, self.torque_limit
+        )
 
 
 def play(
@@ -136,13 +138,15 @@ def play(
     on. hold: [s], for which the last row is sent on after the end.
     wait: called before each tick with its time [s] since the first; returns how late it is [s]. By default the clock.
     """
-    late = wait or _clock()
+    late = wait or clock()
     zero = np.zeros(len(motion.joints))
     position, torque = motion.clamped()
     start = np.clip(motion.start_position, motion.lower, motion.upper)
     try:
         present, _ = _read(motion, robot)
-        _check(motion, present, motion.start_position, start_tolerance, "before the ramp: bring it near the start first")
+        _check(
+            motion, present, motion.start_position, start_tolerance, "before the ramp: bring it near the start first"
+        )
         ticks, tick, worst = round(ramp * motion.rate), 0, 0.0
         for tick in range(ticks):
             _on_time(late(tick / motion.rate), motion.rate)
@@ -158,7 +162,7 @@ def play(
             _on_time(late((ticks + len(position) + tick) / motion.rate), motion.rate)
             robot.write(position[-1], zero, torque[-1], motion.kp, motion.kd)
     except BaseException:
-        _damp(motion, robot)
+        _damp(motion, robot, clock() if wait is None else lambda instant: 0.0)
         raise
     return worst
 
@@ -186,15 +190,15 @@ def _on_time(late: float, rate: float) -> None:
         raise Stopped(f"the loop is {late * 1e3:.0f} ms late; {rate:g} Hz is too fast for it")
 
 
-def _damp(motion: Motion, robot: Robot, seconds: float = 1.0) -> None:
+def _damp(motion: Motion, robot: Robot, wait: Callable[[float], float], seconds: float = 1.0) -> None:
     """Let the drives only damp, wherever the joints are; readings are not trusted any more."""
-    zero, wait = np.zeros(len(motion.joints)), _clock()
+    zero = np.zeros(len(motion.joints))
     for tick in range(max(1, round(seconds * motion.rate))):
-        robot.write(zero, zero, zero, zero, motion.kd)
         wait(tick / motion.rate)
+        robot.write(zero, zero, zero, zero, motion.kd)
 
 
-def _clock() -> Callable[[float], float]:
+def clock() -> Callable[[float], float]:
     """Wait for each instant since the first call; returns how late it is."""
     began: list[float] = []
 

@@ -35,7 +35,14 @@ from levade.trajectory import Array, rotate
 
 REFERENCES = ("measured", "commanded")
 
-_PER_JOINT = ("command_position", "command_velocity", "command_torque", "joint_position", "joint_velocity", "joint_torque")
+_PER_JOINT = (
+    "command_position",
+    "command_velocity",
+    "command_torque",
+    "joint_position",
+    "joint_velocity",
+    "joint_torque",
+)
 _MOST = 1_000_000
 """Rows."""
 
@@ -161,7 +168,9 @@ def _times(rate: float, end: float) -> Array:
     return np.arange(rows) / rate
 
 
-def _joints(motion: Motion, model: mujoco.MjModel, names: tuple[str, ...], kp: float | None, kd: float | None) -> Joints:
+def _joints(
+    motion: Motion, model: mujoco.MjModel, names: tuple[str, ...], kp: float | None, kd: float | None
+) -> Joints:
     if kp is None or kd is None:
         own_kp, own_kd = gains(model, names)
     else:

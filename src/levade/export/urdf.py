@@ -76,28 +76,23 @@ def _shapes(element: xml.Element, model: mujoco.MjModel, geom: int, shift: Array
 
 
 def _joint(root: xml.Element, model: mujoco.MjModel, joints: Joints, link: Link, parent: str) -> None:
-    if link.joint is None:
-        element = xml.SubElement(root, "joint", name=f"{link.name}_fixed", type="fixed")
-    else:
-        i = joints.names.index(link.joint)
-        bounded = bool(np.isfinite(joints.lower[i]) and np.isfinite(joints.upper[i]))
-        element = xml.SubElement(root, "joint", name=link.joint, type="revolute" if bounded else "continuous")
+    element = xml.SubElement(root, "joint", name=link.joint or f"{link.name}_fixed", type="fixed")
     xml.SubElement(element, "parent", link=parent)
     xml.SubElement(element, "child", link=link.name)
     _origin(element, link.position, link.quaternion)
     if link.joint is None:
         return
+    i = joints.names.index(link.joint)
+    bounded = bool(np.isfinite(joints.lower[i]) and np.isfinite(joints.upper[i]))
+    element.set("type", "revolute" if bounded else "continuous")
     xml.SubElement(element, "axis", xyz=" ".join(_text(value) for value in link.axis))
     limits = {"lower": joints.lower[i], "upper": joints.upper[i]} if bounded else {}
-    limits |= {
-        name: value if np.isfinite(value) else _NO_LIMIT
-        for name, value in (("effort", joints.torque[i]), ("velocity", joints.velocity[i]))
-    }
+    for name, limit in (("effort", joints.torque[i]), ("velocity", joints.velocity[i])):
+        limits[name] = limit if np.isfinite(limit) else _NO_LIMIT
     xml.SubElement(element, "limit", {name: _text(value) for name, value in limits.items()})
     dof = model.joint(link.joint).dofadr[0]
-    xml.SubElement(
-        element, "dynamics", damping=_text(model.dof_damping[dof]), friction=_text(model.dof_frictionloss[dof])
-    )
+    passive = {"damping": model.dof_damping[dof], "friction": model.dof_frictionloss[dof]}
+    xml.SubElement(element, "dynamics", {name: _text(value) for name, value in passive.items()})
 
 
 def _origin(element: xml.Element, position: Array, quaternion: Array) -> None:
