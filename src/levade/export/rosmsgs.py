@@ -1,6 +1,6 @@
 """ROS 2 messages: their definitions, as rosbag2 keeps them in a bag, and their bytes (CDR, little endian).
 
-The definitions are those of common_interfaces and rcl_interfaces, alike from Humble to Kilted, without the comments.
+The definitions are those of common_interfaces, geometry2 and rcl_interfaces, alike in Humble and Jazzy, without the comments.
 """
 
 from __future__ import annotations
