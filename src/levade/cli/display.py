@@ -116,7 +116,7 @@ def _terms(task: Task, g: Generation) -> Table:
     table = Table(box=None, padding=(0, 2), header_style="dim")
     for heading, justify in (("cost", "left"), ("weighted", "right"), ("share", "right")):
         table.add_column(heading, justify=justify)  # type: ignore[arg-type]
-    weighted = {name: cost.weight * g.best.terms[name] for name, cost in task.costs.items()}
+    weighted = {name: g.weights[name] * g.best.terms[name] for name in task.costs}
     whole = sum(value for value in weighted.values() if value == value) or 1.0
     for name, value in weighted.items():
         table.add_row(name, "" if value != value else f"{value:.4g}", "" if value != value else f"{value / whole:.0%}")
