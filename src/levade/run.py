@@ -72,8 +72,8 @@ def run(
 ) -> Outcome:
     """Solve a task and keep everything in a directory, which is made if need be; an earlier run in it is replaced.
 
-    observe, steer: as in `levade.solve.solve`; task.yaml takes in what steer changes, before it is simulated. Raises LevadeError before anything is written if the task does not fit together
-    or the directory cannot be written.
+    observe, steer: as in `levade.solve.solve`; task.yaml takes in what steer changes, before it is simulated.
+    Raises LevadeError before anything is written if the task does not fit together or the directory cannot be written.
     """
     objective = task if isinstance(task, Objective) else Objective(task, threads=threads)
     task = objective.task

@@ -5,8 +5,9 @@
 
 Everything is deterministic: the same task, seed and versions give the same solution to the bit, for any number of threads.
 Weights that a caller changes on the way (``steer``) are part of the solution, as `levade.tasks.Change`: a task with these
-changes gives it again. A `Record` of each generation holds what its simulations said; given the records of an interrupted solve, the loop runs
-through them again without simulating (the optimizer asks for the same candidates) and goes on to the same end.
+changes gives it again. A `Record` of each generation holds what its simulations said; given the records of an interrupted
+solve, the loop runs through them again without simulating (the optimizer asks for the same candidates) and goes on to the
+same end.
 """
 
 from __future__ import annotations
