@@ -99,16 +99,18 @@ def run(
 def resume(
     directory: Path,
     *,
+    objective: Objective | None = None,
     threads: int = 0,
     observe: Callable[[Generation], object] | None = None,
     steer: Steer | None = None,
 ) -> Outcome:
     """Go on with a run that was interrupted, to exactly the motion that it would have come to.
 
-    Raises LevadeError if there is no run in the directory, its task has been changed since, or other versions of the
-    libraries made it.
+    objective: of the run's task, if there is one already. Raises LevadeError if there is no run in the directory, its
+    task has been changed since, or other versions of the libraries made it.
     """
     task, header, records = read_run(directory)
+    assert objective is None or objective.task == task
     now = versions()
     for name, version in header["versions"].items():
         if now.get(name) != version:
@@ -121,7 +123,7 @@ def resume(
             f"{directory / TASK}: has changed since the run began, so that it cannot go on; put it back, or start anew:"
             f" levade solve {directory / TASK} --force"
         )
-    objective = Objective(task, threads=threads)
+    objective = objective or Objective(task, threads=threads)
     try:
         # a line that was cut off in the middle is written anew
         kept = [json.dumps(header), *(json.dumps(record.to_json()) for record in records)]
@@ -209,7 +211,7 @@ def _run(
             progress.write(generation)
             if generation.best is not best and not generation.replayed and time.perf_counter() - saved > _SAVE_EVERY:
                 best = generation.best
-                record(objective, _so_far(generation), seed=seed).save(directory / MOTION)
+                record(objective, so_far(generation), seed=seed).save(directory / MOTION)
                 saved = time.perf_counter()
         except OSError as error:
             raise StorageError(
@@ -257,7 +259,7 @@ def _recorded(steer: Steer, task: Task, directory: Path) -> Steer:
     return recorded
 
 
-def _so_far(generation: Generation) -> Solution:
+def so_far(generation: Generation) -> Solution:
     return Solution(
         best=generation.best,
         trials=generation.trials,

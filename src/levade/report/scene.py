@@ -35,13 +35,19 @@ _LONGEST = 0.7
 """[m], at most about so long is the largest force's arrow."""
 
 
-def scene_data(motion: Motion) -> dict[str, Any]:
-    """The page's scene of a motion. Raises LevadeError if the motion's model is damaged."""
-    model = load_model(motion)
-    rows = frame_rows(len(motion["time"]), motion.horizon_steps, float(motion.meta["timestep"]))
+def scene_data(
+    motion: Motion, *, like: Mapping[str, Any] | None = None, model: Any = None, rate: float = RATE
+) -> dict[str, Any]:
+    """The page's scene of a motion. Raises LevadeError if the motion's model is damaged.
+
+    like: a scene of another motion of the same model; shapes and colours are taken from it. model: the motion's, if it
+    is compiled already. rate: [Hz], at most so many poses a second.
+    """
+    model = load_model(motion) if model is None else model
+    rows = frame_rows(len(motion["time"]), motion.horizon_steps, float(motion.meta["timestep"]), rate)
     qpos = configurations(motion, model)[rows]
     position, quaternion = body_poses(model, qpos)
-    shapes = shapes_of(model)
+    shapes = shapes_of(model) if like is None else like["model"]
     moving: dict[str, Any] = {
         "time": pack(np.concatenate([[0.0], motion["time"]])[rows]),
         "horizon": float(motion.meta["horizon"]),
@@ -52,21 +58,24 @@ def scene_data(motion: Motion) -> dict[str, Any]:
         "forces": _forces(motion, model, rows),
         "goal": _goal(motion, model),
     }
+    layers = _layers(shapes, moving)
+    if like is not None:
+        return {**like, "motion": moving, "layers": layers}
     camera = Camera()
     return {
         "version": 1,
         "robot": motion.meta["robot"],
         "model": shapes,
         "motion": moving,
-        "layers": _layers(shapes, moving),
+        "layers": layers,
         "camera": {"azimuth": camera.azimuth, "elevation": camera.elevation, "fov": FIELD_OF_VIEW},
         "palette": {"light": _palette(motion, LIGHT), "dark": _palette(motion, DARK)},
     }
 
 
-def frame_rows(steps: int, horizon_steps: int, timestep: float) -> Array:
+def frame_rows(steps: int, horizon_steps: int, timestep: float, rate: float = RATE) -> Array:
     """(frames,) rows that are kept of steps + 1, of which row 0 is the start: evenly spaced, horizon and end added."""
-    stride = max(1, math.ceil(1.0 / (RATE * timestep) - 1e-9), math.ceil(steps / FRAMES))
+    stride = max(1, math.ceil(1.0 / (rate * timestep) - 1e-9), math.ceil(steps / FRAMES))
     return np.unique(np.concatenate([np.arange(0, steps + 1, stride), [min(horizon_steps, steps), steps]]))
 
 
