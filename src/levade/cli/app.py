@@ -139,14 +139,18 @@ def show(
     camera: Annotated[
         str | None, typer.Option(metavar="AZ,EL[,DIST]", help="Of strip and video: degrees and m, such as 118,-12.")
     ] = None,
+    report: Annotated[
+        bool | None,
+        typer.Option("--report/--no-report", help="Write report.html beside the motion; without --json the default."),
+    ] = None,
     as_json: Json = False,
 ) -> int:
-    """Summarise a motion: goal against result, peaks against the robot's limits, where it came from."""
+    """Summarise a motion, and write its page beside it: report.html, to open in any browser."""
     from levade.cli.picturing import Pictures
     from levade.cli.showing import show_motions
 
     pictures = Pictures(figures, format, strip, poses, video, slow, camera)
-    return show_motions(motions, pictures, as_json=as_json)
+    return show_motions(motions, pictures, report=not as_json if report is None else report, as_json=as_json)
 
 
 @app.command()
