@@ -58,9 +58,7 @@ def watched(
 
     watch = Watch(objective, seed=seed, directory=directory, draw=LiveScenes(objective), interrupted=interrupted)
     page = watch_page(objective.task.name)
-    with Server(
-        lambda: page, events=watch.events, command=watch.command, host=chosen.host, port=chosen.port
-    ) as server:
+    with Server(lambda: page, events=watch.events, command=watch.command, host=chosen.host, port=chosen.port) as server:
         tell_where(console, server, "Watch it at")
         if chosen.browse:
             webbrowser.open(server.url)

@@ -74,14 +74,18 @@ def page(motion: Motion, *, progress_csv: str | Path | None = None, source: str 
         "scene": scene_data(motion),
         "provenance": provenance,
     }
-    title = f"{provenance['task']} on {provenance['robot']}, seed {provenance['seed']}"
+    return assembled(f"{provenance['task']} on {provenance['robot']}, seed {provenance['seed']}", data, "report")
+
+
+def assembled(title: str, data: Any, bundle: str) -> str:
+    """A page that needs nothing else: look and script of a bundle of web/, and the data that the script reads."""
     return _PAGE.format(
         mark=_MARK,
         version=__version__,
         title=html.escape(title),
-        style=stylesheet() + _bundled("report.css").replace("</style", "<\\/style"),
+        style=stylesheet() + _bundled(f"{bundle}.css").replace("</style", "<\\/style"),
         data=_json(data),
-        script=_bundled("report.js").replace("</script", "<\\/script").replace("<!--", "<\\!--"),
+        script=_bundled(f"{bundle}.js").replace("</script", "<\\/script").replace("<!--", "<\\!--"),
     )
 
 

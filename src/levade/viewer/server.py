@@ -74,7 +74,8 @@ class Server:
                 f"{host}:{port}: cannot be listened at ({reason}); an address of this machine, and port 0 for a free one"
             ) from None
         self._host = host
-        self.public = not ipaddress.ip_address(self._http.server_address[0].split("%")[0]).is_loopback
+        self._address = ipaddress.ip_address(str(self._http.server_address[0]).split("%")[0])
+        self.public = not self._address.is_loopback
         self._thread = threading.Thread(target=self._http.serve_forever, name="levade-page", daemon=True)
 
     @property
@@ -84,8 +85,10 @@ class Server:
     @property
     def url(self) -> str:
         """Where the page is; with the token in it, if other machines can ask for it."""
-        address = ipaddress.ip_address(self._http.server_address[0].split("%")[0])
-        name = socket.gethostname() if address.is_unspecified else f"[{address}]" if address.version == 6 else f"{address}"
+        address = self._address
+        name = (
+            socket.gethostname() if address.is_unspecified else f"[{address}]" if address.version == 6 else f"{address}"
+        )
         return f"http://{name}:{self.port}/" + (f"?token={self.token}" if self.public else "")
 
     def knows(self, host: str | None) -> bool:
@@ -114,14 +117,14 @@ class _Listener(ThreadingHTTPServer):
     daemon_threads = True
     allow_reuse_address = True
 
-    def __init__(self, server: Server, family: int, address: Any) -> None:
+    def __init__(self, served: Server, family: socket.AddressFamily, address: Any) -> None:
         self.address_family = family
-        self.server = server
+        self.served = served
         super().__init__(address[:2], _Handler)
 
     def server_bind(self) -> None:
         # the base class asks the network for the machine's full name, which may take seconds
-        socket.socket.bind(self.socket, self.server_address)  # type: ignore[arg-type]
+        self.socket.bind(self.server_address)
         self.server_address = self.socket.getsockname()
         self.server_name, self.server_port = str(self.server_address[0]), int(self.server_address[1])
 
@@ -136,7 +139,7 @@ class _Handler(BaseHTTPRequestHandler):
     @property
     def _server(self) -> Server:
         assert isinstance(self.server, _Listener)
-        return self.server.server
+        return self.server.served
 
     def do_GET(self) -> None:
         server, path = self._server, urlsplit(self.path)
