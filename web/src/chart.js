@@ -35,8 +35,9 @@ export function logScale(min, max) {
   for (let p = Math.floor(low); p <= Math.ceil(high); p++) {
     for (const f of high - low < 2 ? [1, 2, 5] : [1]) all.push(f * 10 ** p);
   }
-  const every = Math.max(1, Math.ceil(all.length / 7));
-  const ticks = all.filter((v, i) => i % every === 0 && v >= min * 0.999 && v <= max * 1.001);
+  const inside = all.filter((v) => v >= min * 0.999 && v <= max * 1.001);
+  const every = Math.max(1, Math.ceil(inside.length / 7));
+  const ticks = inside.filter((v, i) => i % every === 0);
   return { min, max, log: true, forward: (v) => (Math.log10(v) - low) / (high - low), inverse: (u) => 10 ** (low + u * (high - low)), ticks };
 }
 
@@ -74,7 +75,7 @@ export function bounds(arrays, least, wanted = []) {
 export function createChart(host, spec) {
   const root = svg("svg", { class: "chart", role: "img", "aria-label": spec.label ?? "plot" });
   host.append(root);
-  let state = spec, width = 0, at = null, seen = true, plot = null;
+  let state = spec, width = 0, at = null, seen = true, late = 0, plot = null;
 
   function draw() {
     const w = Math.max(120, Math.round(width || host.clientWidth || 320)), h = state.height;
@@ -103,7 +104,7 @@ export function createChart(host, spec) {
       if (!last && (at - width1 / 2 < free || at + width1 / 2 > reserved)) return;
       free = at + width1 / 2;
       const end = last && at > m.left + inner.w - 20;
-      back.append(svg("text", { class: "tick", x: end ? w - 2 : at, y: h - 4, "text-anchor": end ? "end" : k === 0 ? "start" : "middle" }, last && x.unit ? `${labels[k]} ${x.unit}` : labels[k]));
+      back.append(svg("text", { class: "tick", x: end ? w - 2 : at, y: h - 4, "text-anchor": end ? "end" : "middle" }, last && x.unit ? `${labels[k]} ${x.unit}` : labels[k]));
     });
     for (const limit of state.limits ?? []) shade(back, limit, px, py, clip);
     if (x.horizon) back.append(svg("line", { class: "horizon", x1: px(x.horizon), x2: px(x.horizon), y1: m.top, y2: m.top + inner.h }));
@@ -186,9 +187,15 @@ export function createChart(host, spec) {
 
   return {
     element: root,
-    setCursor(x) { at = x; if (seen) showCursor(); },
+    // where it cannot be seen, the cursor comes after once the time stands still
+    setCursor(x) {
+      at = x;
+      clearTimeout(late);
+      if (seen) showCursor();
+      else late = setTimeout(showCursor, 300);
+    },
     update(changes) { state = { ...state, ...changes }; draw(); },
-    destroy() { resized.disconnect(); watched.disconnect(); root.remove(); },
+    destroy() { clearTimeout(late); resized.disconnect(); watched.disconnect(); root.remove(); },
   };
 }
 

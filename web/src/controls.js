@@ -1,4 +1,5 @@
-// Play, time, speed and layers of a player: createControls(element, player, {horizon, end}) -> {setTime(t)}.
+// Play, time, speed and layers of a player: createControls(element, player, {horizon, end, stage}) -> {setTime(t)}.
+// stage: where the picture is.
 
 import { timeScale } from "./chart.js";
 import { el, fixed, svg } from "./dom.js";
@@ -6,7 +7,7 @@ import { el, fixed, svg } from "./dom.js";
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2];
 const FINE = 1000;
 
-export function createControls(element, player, { horizon, end }) {
+export function createControls(element, player, { horizon, end, stage }) {
   const scale = timeScale(horizon, end);
   const play = el("button", { class: "play", type: "button", "aria-label": "Play", title: "Play or pause (space)", onclick: toggle });
   const slider = el("input", { type: "range", min: 0, max: FINE, step: "any", value: 0, "aria-label": "Time", oninput: () => { const t = scale.inverse(slider.value / FINE); player.pause(); player.seek(t); } });
@@ -25,14 +26,21 @@ export function createControls(element, player, { horizon, end }) {
   speeds.querySelector(`input[value="${first}"]`).checked = true;
   player.setSpeed(first);
 
+  const details = [];
   const toggles = el("div", { class: "layers", role: "group", "aria-label": "Show" });
   for (const { name, label, shown } of player.layers) {
     if (name === "robot") continue; // always there
-    const [title, , detail] = label.split(/( \()/);
-    const box = el("input", { type: "checkbox", onchange: () => player.setVisible(name, box.checked) });
+    const [, title, detail] = /^(.*?)(?: \((.*)\))?$/.exec(label);
+    const box = el("input", { type: "checkbox", onchange: () => { player.setVisible(name, box.checked); explain(); } });
     box.checked = shown;
-    toggles.append(el("label", { title: detail ? detail.replace(/\)$/, "") : null }, box, el("span", {}, title)));
+    toggles.append(el("label", {}, box, el("span", {}, title)));
+    if (detail) details.push([box, `${title}: ${detail}`]);
   }
+  // what the layers that are shown mean, over the picture
+  const legend = el("p", { class: "legend3d" });
+  const explain = () => { legend.textContent = details.filter(([box]) => box.checked).map(([, text]) => text).join("  \u00b7  "); };
+  stage?.append(legend);
+  explain();
   element.append(el("div", { class: "transport" }, play, track, now), el("div", { class: "options" }, speeds, toggles));
 
   function toggle() {

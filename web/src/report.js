@@ -2,7 +2,7 @@
 
 import "./style.css";
 import { createControls } from "./controls.js";
-import { el, significant } from "./dom.js";
+import { el, significant, svg } from "./dom.js";
 import { createPlayer } from "./player.js";
 import { createPlots } from "./plots.js";
 import { createProvenance } from "./provenance.js";
@@ -48,21 +48,32 @@ function start({ stage, controls, side, plots, foot, theme, player: box }) {
   const drawn = createPlots(plots, series);
   const player = createPlayer(stage, scene, { theme: theme.current() });
   theme.onChange((name) => player.setTheme(name));
-  const bar = createControls(controls, player, series);
+  const bar = createControls(controls, player, { ...series, stage });
   player.onTime((t) => { drawn.setTime(t); bar.setTime(t); });
   drawn.onSeek((t) => { player.pause(); player.seek(t); });
   player.seek(0);
-  float(box);
+  float(box, stage);
+  forPrint();
   document.documentElement.dataset.ready = "";
 }
 
-// Once scrolled past, the player stays in sight in a corner, so that plots can be read beside it.
-function float(box) {
+// Once scrolled past, the player stays in sight in a corner, so that plots can be read beside it; until it is sent away.
+function float(box, stage) {
   const place = box.parentElement;
+  let dismissed = false;
+  const away = el("button", { type: "button", class: "away", "aria-label": "Close the small player", onclick: () => { dismissed = true; box.classList.remove("floating"); } }, svg("svg", { viewBox: "0 0 16 16", "aria-hidden": "true" }, svg("path", { d: "M3 3l10 10M13 3L3 13" })));
+  stage.append(away);
   new IntersectionObserver(([entry]) => {
-    const away = !entry.isIntersecting && entry.boundingClientRect.bottom < 0;
-    if (away) place.style.height = `${place.offsetHeight}px`;
-    else place.style.height = "";
-    box.classList.toggle("floating", away);
+    const past = !entry.isIntersecting && entry.boundingClientRect.bottom < 0;
+    place.style.height = past ? `${entry.boundingClientRect.height}px` : "";
+    box.classList.toggle("floating", past && !dismissed);
   }).observe(place);
+}
+
+// Paper is light.
+function forPrint() {
+  const root = document.documentElement.dataset;
+  let before;
+  addEventListener("beforeprint", () => { before = root.theme; root.theme = "light"; });
+  addEventListener("afterprint", () => { if (before) root.theme = before; else delete root.theme; });
 }

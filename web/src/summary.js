@@ -17,30 +17,31 @@ function icon(good) {
   return svg("svg", { viewBox: "0 0 16 16", "aria-hidden": "true" }, svg("path", { d: good ? "M3 8.5l3.2 3.3L13 4.6" : "M4 4l8 8M12 4l-8 8" }));
 }
 
-function amount(value, unit, digits = 4) {
-  return el("span", {}, fixed(value, digits), el("small", {}, ` ${unit}`), unit === "rad" ? el("small", { class: "also" }, degrees(value)) : null);
-}
-
+// A row per criterion, under headings that say when it is judged.
 function goals({ criteria }) {
   if (!criteria?.length) return null;
-  const rows = criteria.map((criterion) => {
-    const { name, when, unit, target, minimum, maximum, tolerance, result, error, met } = criterion;
-    const goal = target !== null ? amount(target, unit) : range(minimum, maximum, unit);
-    return el("tr", {},
-      el("th", { scope: "row" }, name, el("small", {}, when)),
-      el("td", {}, goal),
-      el("td", {}, result === null ? "within" : amount(result, unit)),
-      el("td", {}, el("span", { class: "error" }, signed(error, 4)), target !== null ? el("small", { class: "also" }, `\u00b1 ${significant(tolerance)} ${unit}`) : null),
-      el("td", { class: "gauge" }, target !== null ? gauge(error, tolerance, met) : null),
-      el("td", { class: `met ${met ? "good" : "bad"}` }, icon(met), met ? "met" : "missed"));
-  });
-  const heads = [["Criterion"], ["Goal", "number"], ["Result", "number"], ["Error", "number"], ["", ""], ["", ""]];
-  return block("Goal and result", el("table", { class: "goals" }, el("thead", {}, el("tr", {}, heads.map(([text, cls]) => el("th", { scope: "col", class: cls }, text)))), el("tbody", {}, rows)));
+  const groups = new Map();
+  for (const criterion of criteria) groups.set(criterion.when, [...(groups.get(criterion.when) ?? []), criterion]);
+  const heads = [["Criterion"], ["Goal", "number"], ["Result", "number"], ["Error", "number"], ["Allowed", "number"], [el("span", { class: "unseen" }, "Error in its tolerance")], [el("span", { class: "unseen" }, "Verdict")]];
+  const table = el("table", { class: "goals" }, el("thead", {}, el("tr", {}, heads.map(([text, cls]) => el("th", { scope: "col", class: cls }, text)))));
+  for (const [when, group] of groups) {
+    table.append(el("tbody", {}, el("tr", { class: "when" }, el("th", { scope: "rowgroup", colspan: heads.length }, when)), group.map(row)));
+  }
+  return block("Goal and result", table);
 }
 
-function range(low, high, unit) {
-  const text = low === null ? `\u2264 ${fixed(high, 4)}` : high === null ? `\u2265 ${fixed(low, 4)}` : `${fixed(low, 4)} to ${fixed(high, 4)}`;
-  return el("span", {}, text, el("small", {}, ` ${unit}`));
+function row({ name, quantity, unit, target, minimum, maximum, tolerance, result, error, met }) {
+  const plain = name.replaceAll("_", " ");
+  const angle = unit === "rad" && target ? (value) => el("small", { class: "also" }, degrees(value)) : () => null;
+  const goal = target !== null ? fixed(target, 4) : minimum === null ? `\u2264 ${fixed(maximum, 4)}` : maximum === null ? `\u2265 ${fixed(minimum, 4)}` : `${fixed(minimum, 4)} to ${fixed(maximum, 4)}`;
+  return el("tr", {},
+    el("th", { scope: "row" }, plain, plain.includes(quantity.replaceAll("_", " ")) ? null : el("small", {}, ` ${quantity.replaceAll("_", " ")}`), el("small", {}, ` [${unit}]`)),
+    el("td", { "data-head": "goal" }, goal, angle(target)),
+    el("td", { "data-head": "result" }, result === null ? "within" : fixed(result, 4), result === null ? null : angle(result)),
+    el("td", { "data-head": "error" }, signed(error, 4)),
+    el("td", { "data-head": "allowed" }, target === null ? "" : `\u00b1${significant(tolerance)}`),
+    el("td", { class: "gauge" }, target === null ? null : gauge(error, tolerance, met)),
+    el("td", { class: `met ${met ? "good" : "bad"}` }, icon(met), met ? "met" : "missed"));
 }
 
 // Where the error lies in its tolerance: twice the tolerance to each side.

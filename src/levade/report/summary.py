@@ -18,7 +18,13 @@ from levade.errors import LevadeError
 from levade.motion import Motion, cost_weights
 from levade.tasks import builtin_tasks, load_task, task_from_dict, task_to_dict, task_to_yaml
 
-WHEN = {"horizon": "at T", "end": "at the end", "max": "largest", "min": "smallest", "hold": "worst of the hold"}
+WHEN = {
+    "horizon": "At the horizon T",
+    "end": "At the end",
+    "max": "Largest of the whole motion",
+    "min": "Smallest of the whole motion",
+    "hold": "At the worst instant of the hold",
+}
 
 
 def summary_data(motion: Motion) -> dict[str, Any]:
@@ -52,7 +58,8 @@ def _criterion(name: str, criterion: Mapping[str, Any], error: float) -> dict[st
     else:
         result = None if error == 0 else (low if error < 0 else high) + error
     return {
-        "name": name if name == criterion["quantity"] else f"{name}: {criterion['quantity']}",
+        "name": name,
+        "quantity": criterion["quantity"],
         "when": WHEN[criterion["at"]],
         "unit": QUANTITIES[criterion["quantity"]],
         "target": target,
