@@ -250,11 +250,11 @@ function shade(group, { from, to }, px, py, clip) {
   group.append(svg("line", { class: "limit", x1: clip.x, x2: clip.x + clip.width, y1: edge, y2: edge }));
 }
 
-function vertical(group, { x, text }, px, clip) {
+function vertical(group, { x, text, above }, px, clip) {
   const at = px(x);
   if (x > 0) group.append(svg("line", { class: "horizon", x1: at, x2: at, y1: clip.y, y2: clip.y + clip.height }));
   const edge = at > clip.x + clip.width - 60;
-  if (text) group.append(svg("text", { class: "tick stage", x: edge ? at - 4 : at + 4, y: clip.y + 10, "text-anchor": edge ? "end" : "start" }, text));
+  if (text) group.append(svg("text", { class: "tick stage", x: edge ? at - 4 : at + 4, y: above ? clip.y - 5 : clip.y + 10, "text-anchor": edge ? "end" : "start" }, text));
 }
 
 function whisker(x, a, b) {

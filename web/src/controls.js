@@ -1,5 +1,5 @@
-// Play, time, speed and layers of a player: createControls(element, player, {horizon, end, stage}) -> {setTime(t)}.
-// stage: where the picture is.
+// Play, time, speed and layers of a player: createControls(element, player, {horizon, end, stage, speed}) -> {setTime(t),
+// remove()}. stage: where the picture is. speed: at first; one that suits the horizon if left out.
 
 import { timeScale } from "./chart.js";
 import { el, fixed, svg } from "./dom.js";
@@ -7,7 +7,7 @@ import { el, fixed, svg } from "./dom.js";
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2];
 const FINE = 1000;
 
-export function createControls(element, player, { horizon, end, stage }) {
+export function createControls(element, player, { horizon, end, stage, speed: wished }) {
   const scale = timeScale(horizon, end);
   const play = el("button", { class: "play", type: "button", "aria-label": "Play", title: "Play or pause (space)", onclick: toggle });
   const slider = el("input", { type: "range", min: 0, max: FINE, step: "any", value: 0, "aria-label": "Time", oninput: () => { const t = scale.inverse(slider.value / FINE); player.pause(); player.seek(t); } });
@@ -22,7 +22,7 @@ export function createControls(element, player, { horizon, end, stage }) {
     speeds.append(el("label", {}, el("input", { type: "radio", name: "speed", value: speed, onchange: () => player.setSpeed(speed) }), el("span", {}, `${speed}\u00d7`)));
   }
   // about three seconds for the motion itself
-  const first = [...SPEEDS].reverse().find((speed) => speed <= 1 && horizon / speed >= 2.5) ?? SPEEDS[0];
+  const first = wished ?? [...SPEEDS].reverse().find((speed) => speed <= 1 && horizon / speed >= 2.5) ?? SPEEDS[0];
   speeds.querySelector(`input[value="${first}"]`).checked = true;
   player.setSpeed(first);
 
@@ -76,5 +76,5 @@ export function createControls(element, player, { horizon, end, stage }) {
   }
 
   setTime(player.time);
-  return { setTime };
+  return { setTime, remove() { legend.remove(); element.replaceChildren(); } };
 }

@@ -6,7 +6,7 @@ import { el, significant, svg } from "./dom.js";
 
 const LEAST = 1.6; // the y axis spans at least this factor
 
-export function createFigure(host, { title, unit, series, extra = [], height = 230, floor = null, lines: wanted = [], digits = 3, room = 0 }) {
+export function createFigure(host, { title, unit, series, extra = [], height = 230, floor = null, guides = [], digits = 3, room = 0 }) {
   const values = series.map(() => el("output", {}));
   const legend = [
     ...series.map((line, k) => el("span", { class: "item" }, swatch(line), el("span", {}, line.name), values[k])),
@@ -38,15 +38,16 @@ export function createFigure(host, { title, unit, series, extra = [], height = 2
     const lines = series.map((line, k) => ({ ...line, x: state.x, y: positive(state.lines[k]) }));
     const bands = (state.bands ?? []).map((band) => ({ ...band, x: state.x, low: positive(band.low), high: positive(band.high) }));
     let low = Infinity, high = -Infinity;
-    for (const array of [...lines.map((line) => line.y), ...bands.flatMap((band) => [band.low, band.high.filter((v) => v < 1e10)]), wanted]) {
+    for (const array of [...lines.map((line) => line.y), ...bands.flatMap((band) => [band.low, band.high]), guides.map(({ value }) => value)]) {
       for (const v of array) if (Number.isFinite(v)) { low = Math.min(low, v); high = Math.max(high, v); }
     }
     if (low > high) [low, high] = [0.1, 10];
     if (floor !== null) low = Math.max(low, Math.min(floor, high / 10));
     const middle = Math.sqrt(low * high), half = Math.max(Math.sqrt(high / low), LEAST);
     const last = Math.max(state.x[state.x.length - 1] ?? 0, state.least ?? 1);
+    const across = guides.map((guide) => ({ ...guide, x: [0, last], y: [guide.value, guide.value], follow: false }));
     chart.update({
-      lines, bands, rules: state.rules, marks: state.marks, limits: state.limits ?? [],
+      lines: [...across, ...lines], bands, rules: state.rules, marks: state.marks,
       x: { ...linearScale(0, last, 5), unit: "trials" },
       y: logScale((middle / half) / 1.15, middle * half * 1.3),
     });

@@ -4,6 +4,9 @@ import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
 const MARGIN = 1.08;
+const NEARER = 0.75; // of the distance: the camera comes nearer only for so much
+
+const seen = new THREE.Vector3();
 
 export class CameraView {
   constructor(canvas, onChange) {
@@ -36,6 +39,25 @@ export class CameraView {
     this.look = look;
     this.camera.fov = look.fov;
     this.reset();
+  }
+
+  // another subject in the same place: the camera moves only if it has to, and never against the reader
+  keepInSight(points) {
+    this.points = points;
+    if (this.touched) return;
+    this.camera.updateMatrixWorld();
+    const out = points.some((point) => {
+      const { x, y } = seen.copy(point).project(this.camera);
+      return Math.abs(x) > 1 || Math.abs(y) > 1;
+    });
+    const { position } = this.camera;
+    const before = { place: position.clone(), distance: position.distanceTo(this.controls.target) };
+    const target = this.controls.target.clone();
+    this.reset();
+    if (out || position.distanceTo(this.controls.target) < NEARER * before.distance) return;
+    position.copy(before.place);
+    this.controls.target.copy(target);
+    this.controls.update();
   }
 
   resize(aspect) {

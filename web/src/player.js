@@ -38,7 +38,7 @@ export function createPlayer(element, scene, options = {}) {
 
   function step(now) {
     frame = 0;
-    const passed = before ? Math.min((now - before) / 1000, 0.5) : 0;
+    const passed = before ? Math.min(Math.max(now - before, 0) / 1000, 0.5) : 0;
     const moved = clock.advance(passed);
     if (moved) tell();
     const gliding = picture?.draw(clock.time) ?? false;
@@ -232,7 +232,7 @@ class Picture {
       const planes = scene.model.geoms.filter((geom) => geom.layer === "ground");
       stage.setGround(planes, size, reach, middle);
       this.view.setSubject(points, scene.camera);
-    }
+    } else this.view.keepInSight(points);
     this.setTheme(scene.palette[theme], theme === "dark");
     this.setShown(shown);
   }
@@ -248,6 +248,12 @@ class Picture {
     for (const box of this.robot.obstacles) {
       const half = box.getSize(new THREE.Vector3()).multiplyScalar(0.5);
       if (Math.max(half.x, half.y, half.z) < LARGE) points.push(...cornersOf(box));
+    }
+    if (scene.motion.goal) {
+      const { box, half, quaternion } = scene.motion.goal;
+      const size = new THREE.Vector3(...half);
+      const place = { position: new THREE.Vector3(...box), quaternion: new THREE.Quaternion(...quaternion) };
+      points.push(...cornersOf(new THREE.Box3(size.clone().negate(), size), place));
     }
     return points;
   }

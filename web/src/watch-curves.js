@@ -6,6 +6,7 @@ import { bandSwatch, createFigure, swatch } from "./live-figure.js";
 
 const COLOURS = ["var(--x)", "var(--z)", "var(--y)", "var(--hind-right)", "var(--limit)", "var(--muted)"];
 const DASHES = ["", "dashed", "dashdot", "dotted"];
+const ALLOWED = { colour: "var(--good)", dash: "dotted", width: 1.6 };
 const FAR = 1e10; // a cost above this is of a trial that broke down
 
 // A look for each of n lines: colours in turn, then dashes.
@@ -26,9 +27,9 @@ export function createCurves(search, terms, task, looks) {
   });
   const errors = task.criteria.length
     ? createFigure(grid, {
-      title: "Errors of the best, as a share of what is allowed", room: 14, lines: [1], floor: 0.02,
+      title: "Errors of the best, as a share of what is allowed", room: 14, guides: [{ value: 1, ...ALLOWED }], floor: 0.02,
       series: task.criteria.map(({ name }, k) => ({ name: name.replaceAll("_", " "), width: 1.8, ...looksOf(task.criteria.length)[k] })),
-      extra: [{ name: "allowed", swatch: swatch({ colour: "var(--good)" }) }],
+      extra: [{ name: "allowed", swatch: swatch(ALLOWED) }],
     })
     : null;
   const figures = el("div", { class: "plots" });
@@ -51,7 +52,6 @@ export function createCurves(search, terms, task, looks) {
     });
     errors?.update({
       x, rules, note, least,
-      goods: [1],
       lines: task.criteria.map(({ tolerance }, k) => rows.map((row) => (row[10][k] === null ? null : Math.abs(row[10][k]) / (tolerance || 1)))),
     });
     parts.update({ x, rules, note, least, lines: task.costs.map((_, k) => rows.map((row) => (row[9][k] === null ? null : Math.abs(row[9][k])))) });
@@ -64,7 +64,7 @@ export function createCurves(search, terms, task, looks) {
 function rulesOf(rows, task, state) {
   const rules = [];
   rows.forEach((row, k) => {
-    if (k === 0 || row[1] !== rows[k - 1][1]) rules.push({ x: k === 0 ? 0 : rows[k - 1][0], text: task.stages.length > 1 ? task.stages[row[1]].name : "" });
+    if (k === 0 || row[1] !== rows[k - 1][1]) rules.push({ x: k === 0 ? 0 : rows[k - 1][0], text: task.stages.length > 1 ? task.stages[row[1]].name : "", above: true });
   });
   for (const { generation, factors } of state?.changes ?? []) {
     if (generation <= rows.length) rules.push({ x: generation < 2 ? 0 : rows[generation - 2][0], text: "", weights: factors });

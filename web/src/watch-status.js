@@ -48,7 +48,7 @@ export function createStatus(element, task, { say }) {
       trials.value = String(last[0]);
       bar.style.width = `${Math.min(100, (100 * last[0]) / task.budget)}%`;
       progress.setAttribute("aria-valuenow", last[0]);
-      stages.childNodes.forEach((item, k) => { item.className = k === last[1] ? "now" : k < last[1] ? "done" : ""; });
+      stages.childNodes.forEach((item, k) => { item.className = k === last[1] ? "current" : k < last[1] ? "done" : ""; });
       goals.replaceChildren(criteria(last, task));
     }
     pause.textContent = paused ? "Continue" : "Pause";

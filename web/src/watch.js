@@ -79,29 +79,37 @@ export function createWatch(element, { token }) {
 
 // The best motion so far, looping.
 function createShow(stage, controls, badge, theme) {
-  let player = null, bar = null;
+  let player = null, bar = null, scene = null, kind = "";
+  stage.append(badge);
+
+  function rebuild() {
+    const wanted = JSON.stringify([scene.motion.horizon, player.duration, scene.layers.map(({ label }) => label)]);
+    if (wanted === kind) return;
+    kind = wanted;
+    bar?.remove();
+    bar = createControls(controls, player, { horizon: scene.motion.horizon, end: player.duration, stage, speed: bar ? player.speed : undefined });
+  }
+
   return {
-    scene(scene) {
-      stage.querySelector(".waiting")?.remove();
-      if (!player) {
-        player = createPlayer(stage, scene, { keys: false });
+    scene(next) {
+      scene = { ...scene, ...next };
+      if (player) player.update(next);
+      else {
+        stage.querySelector(".waiting")?.remove();
+        player = createPlayer(stage, scene, { theme: theme.current() });
         theme.onChange((name) => player.setTheme(name));
-        bar = createControls(controls, player, { horizon: scene.motion.horizon, end: player.duration, layers: scene.layers });
-        player.onTime((t) => bar.setTime(t));
-        new ResizeObserver(() => player.resize()).observe(stage);
+        player.onTime((t) => bar?.setTime(t));
         player.setLoop(true);
+        rebuild();
         player.play();
-      } else {
-        player.update(scene);
-        bar.update({ horizon: scene.motion.horizon, end: player.duration });
       }
-      stage.append(badge);
+      rebuild();
     },
     say(rows) {
       const last = rows[rows.length - 1];
       if (!last) return;
-      const since = rows.find((row) => row[2] === last[2]) ?? last;
-      badge.value = `best so far, of trial ${since[0]}`;
+      const since = rows.find((row) => row[2] === last[2] && row[1] === last[1]) ?? last;
+      badge.value = `best so far, found by trial ${since[0]}`;
     },
   };
 }

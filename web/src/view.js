@@ -1,0 +1,1 @@
+export function createView(element, data) {}
