@@ -115,7 +115,7 @@ export function createChart(host, spec) {
       front.append(svg("circle", { class: "target", stroke: goal.colour, cx: px(goal.time), cy: py(goal.target), r: 4 }));
     }
     for (const band of state.bands ?? []) back.append(svg("path", { class: "band", fill: band.colour, d: area(band, px, py, y) }));
-    for (const bar of state.bars ?? []) back.append(svg("rect", { class: "bar", fill: bar.colour, x: px(bar.from), y: py(bar.row) - 6, width: Math.max(1, px(bar.to) - px(bar.from)), height: 12, rx: 2 }));
+    for (const bar of state.bars ?? []) back.append(svg("rect", { class: "span", fill: bar.colour, x: px(bar.from), y: py(bar.row) - 6, width: Math.max(1, px(bar.to) - px(bar.from)), height: 12, rx: 2 }));
     const dots = [];
     for (const line of state.lines ?? []) {
       const look = { class: `line ${line.dash ?? ""}`, stroke: line.colour, "stroke-width": line.width };

@@ -191,11 +191,11 @@ function angles(context, host) {
   });
 }
 
-function limited(context, host, { id, title, what, unit, limit, note }) {
+function limited(context, host, { id, title, name, what, unit, limit, note }) {
   const { series, times } = context;
   const values = unpack(series.joints[what]);
   const grid = section(host, id, title, note, "legs");
-  key(grid, [swatch("var(--ink)"), `${title.toLowerCase()} [${unit}]`], [shadeSwatch(), "beyond the limit"]);
+  key(grid, [swatch("var(--ink)"), `${name} [${unit}]`], [shadeSwatch(), "beyond the limit"]);
   perJoint(context, grid, (joint, colour) => {
     const lines = [{ x: times, y: values.column(joint.index), colour, width: 1.5 }];
     const bound = joint[limit];
@@ -204,11 +204,11 @@ function limited(context, host, { id, title, what, unit, limit, note }) {
 }
 
 function torques(context, host) {
-  limited(context, host, { id: "torques", title: "Joint torques", what: "torque", unit: "Nm", limit: "torque", note: "Delivered by the actuators." });
+  limited(context, host, { id: "torques", title: "Joint torques", name: "torque", what: "torque", unit: "Nm", limit: "torque", note: "Delivered by the actuators." });
 }
 
 function speeds(context, host) {
-  limited(context, host, { id: "speeds", title: "Joint speeds", what: "velocity", unit: "rad/s", limit: "velocity", note: null });
+  limited(context, host, { id: "speeds", title: "Joint speeds", name: "speed", what: "velocity", unit: "rad/s", limit: "velocity", note: null });
 }
 
 function feet(context, host) {

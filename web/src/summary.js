@@ -27,7 +27,7 @@ function goals({ criteria }) {
   for (const [when, group] of groups) {
     table.append(el("tbody", {}, el("tr", { class: "when" }, el("th", { scope: "rowgroup", colspan: heads.length }, when)), group.map(row)));
   }
-  return block("Goal and result", table);
+  return block("Goal and result", el("div", { class: "scroll" }, table));
 }
 
 function row({ name, quantity, unit, target, minimum, maximum, tolerance, result, error, met }) {

@@ -61,15 +61,26 @@ def scene_data(
     layers = _layers(shapes, moving)
     if like is not None:
         return {**like, "motion": moving, "layers": layers}
+    return put_together(motion.meta["robot"], motion.meta["legs"], shapes, moving, layers)
+
+
+def put_together(
+    robot: str,
+    legs: Mapping[str, Mapping[str, Any]],
+    shapes: Mapping[str, Any],
+    moving: Mapping[str, Any],
+    layers: list[dict[str, Any]],
+) -> dict[str, Any]:
+    """A scene of its parts. legs: as in a motion's meta."""
     camera = Camera()
     return {
         "version": 1,
-        "robot": motion.meta["robot"],
+        "robot": robot,
         "model": shapes,
         "motion": moving,
         "layers": layers,
         "camera": {"azimuth": camera.azimuth, "elevation": camera.elevation, "fov": FIELD_OF_VIEW},
-        "palette": {"light": _palette(motion, LIGHT), "dark": _palette(motion, DARK)},
+        "palette": {"light": _palette(legs, LIGHT), "dark": _palette(legs, DARK)},
     }
 
 
@@ -156,32 +167,45 @@ def force_scale(largest: float) -> float:
 
 
 def _goal(motion: Motion, model: Any) -> dict[str, Any] | None:
-    """What is required of the trunk at the horizon: a box around the trunk where it should be, or None.
+    """What is required of the trunk at the horizon."""
+    row = min(motion.horizon_steps, len(motion["time"])) - 1
+    return goal_box(
+        model,
+        motion.meta["trunk"],
+        np.asarray(motion.meta["trunk_com_offset"]),
+        motion.meta["task"].get("success") or {},
+        motion["trunk_com_position"][row],
+        motion["trunk_quaternion"][row],
+    )
 
-    Angles and coordinates that nothing is required of are those that were reached.
+
+def goal_box(
+    model: Any, trunk: str, com_offset: Array, criteria: Mapping[str, Any], centre: Array, attitude: Array
+) -> dict[str, Any] | None:
+    """A box around the trunk where criteria, tables of a task, want it at the horizon; None if they do not say.
+
+    centre (3,) [m], of mass, and attitude (4,) w-x-y-z of the trunk: for angles and coordinates that nothing is required of.
     """
     wanted = {}
-    for name, criterion in (motion.meta["task"].get("success") or {}).items():
+    for name, criterion in criteria.items():
         quantity, at = criterion.get("quantity") or name, criterion.get("at") or "horizon"
         if at == "horizon" and isinstance(criterion.get("target"), int | float):
             wanted[quantity] = float(criterion["target"])
     if not wanted.keys() & {"roll", "pitch", "yaw", "x", "y", "height"}:
         return None
-    row = min(motion.horizon_steps, len(motion["time"])) - 1
-    centre, attitude = motion["trunk_com_position"][row], motion["trunk_quaternion"][row]
     if not (np.isfinite(centre).all() and np.isfinite(attitude).all()):
         return None
     reached = roll_pitch_yaw(attitude)
     angles = [wanted.get(name, float(reached[axis])) for axis, name in enumerate(("roll", "pitch", "yaw"))]
-    centre = [wanted.get(name, float(centre[axis])) for axis, name in enumerate(("x", "y", "height"))]
+    place = [wanted.get(name, float(centre[axis])) for axis, name in enumerate(("x", "y", "height"))]
     quaternion, frame = np.empty(4), np.empty(9)
     mujoco.mju_euler2Quat(quaternion, np.array(angles[::-1]), "zyx")
     mujoco.mju_quat2Mat(frame, quaternion)
-    low, high = _trunk_box(model, motion.meta["trunk"])
-    offset = (low + high) / 2 - np.asarray(motion.meta["trunk_com_offset"])
+    low, high = _trunk_box(model, trunk)
+    offset = (low + high) / 2 - com_offset
     return {
-        "centre": np.round(centre, 6).tolist(),  # of mass
-        "box": np.round(np.asarray(centre) + frame.reshape(3, 3) @ offset, 6).tolist(),
+        "centre": np.round(place, 6).tolist(),  # of mass
+        "box": np.round(np.asarray(place) + frame.reshape(3, 3) @ offset, 6).tolist(),
         "half": np.round((high - low) / 2, 6).tolist(),
         "quaternion": np.round(np.roll(quaternion, -1), 7).tolist(),
         "quantities": wanted,
@@ -211,13 +235,13 @@ def _layers(shapes: Mapping[str, Any], moving: Mapping[str, Any]) -> list[dict[s
         ("forces", f"contact forces (1 m = {moving['forces']['scale']:g} N)", True),
     ]
     if moving["goal"]:
-        layers.append(("goal", f"goal ({_goal_text(moving['goal']['quantities'])})", True))
+        layers.append(("goal", f"goal ({goal_text(moving['goal']['quantities'])})", True))
     if any(geom["layer"] == "collision" for geom in shapes["geoms"]):
         layers.append(("collision", "collision shapes", False))
     return [{"name": name, "label": label, "shown": shown} for name, label, shown in layers]
 
 
-def _goal_text(wanted: Mapping[str, float]) -> str:
+def goal_text(wanted: Mapping[str, float]) -> str:
     """Such as "pitch -60°, height 0.9 m"."""
     texts = []
     for name, value in wanted.items():
@@ -228,7 +252,7 @@ def _goal_text(wanted: Mapping[str, float]) -> str:
     return ", ".join(texts)
 
 
-def _palette(motion: Motion, theme: Theme) -> dict[str, Any]:
+def _palette(legs: Mapping[str, Mapping[str, Any]], theme: Theme) -> dict[str, Any]:
     names = ("sky", "ground", "ground_line", "ghost", "goal", "limit", "accent", "ink", "muted", "reference")
     colours: dict[str, Any] = {name: getattr(theme, name) for name in names}
-    return colours | {"legs": list(leg_colours(motion.meta["legs"], theme).values())}
+    return colours | {"legs": list(leg_colours(legs, theme).values())}
