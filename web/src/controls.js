@@ -7,6 +7,26 @@ import { el, fixed, svg } from "./dom.js";
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2];
 const FINE = 1000;
 
+// Toggles for the layers of a player, and a legend over the picture for those that are shown: {toggles, legend}.
+export function createLayers(player, stage) {
+  const details = [];
+  const toggles = el("div", { class: "layers", role: "group", "aria-label": "Show" });
+  for (const { name, label, shown } of player.layers) {
+    if (name === "robot") continue; // always there
+    const [, title, detail] = /^(.*?)(?: \((.*)\))?$/.exec(label);
+    const box = el("input", { type: "checkbox", onchange: () => { player.setVisible(name, box.checked); explain(); } });
+    box.checked = shown;
+    toggles.append(el("label", {}, box, el("span", {}, title)));
+    if (detail) details.push([box, `${title}: ${detail}`]);
+  }
+  // what the layers that are shown mean, over the picture
+  const legend = el("p", { class: "legend3d" });
+  const explain = () => { legend.textContent = details.filter(([box]) => box.checked).map(([, text]) => text).join("  \u00b7  "); };
+  stage?.append(legend);
+  explain();
+  return { toggles, legend };
+}
+
 export function createControls(element, player, { horizon, end, stage, speed: wished }) {
   const scale = timeScale(horizon, end);
   const play = el("button", { class: "play", type: "button", "aria-label": "Play", title: "Play or pause (space)", onclick: toggle });
@@ -26,21 +46,7 @@ export function createControls(element, player, { horizon, end, stage, speed: wi
   speeds.querySelector(`input[value="${first}"]`).checked = true;
   player.setSpeed(first);
 
-  const details = [];
-  const toggles = el("div", { class: "layers", role: "group", "aria-label": "Show" });
-  for (const { name, label, shown } of player.layers) {
-    if (name === "robot") continue; // always there
-    const [, title, detail] = /^(.*?)(?: \((.*)\))?$/.exec(label);
-    const box = el("input", { type: "checkbox", onchange: () => { player.setVisible(name, box.checked); explain(); } });
-    box.checked = shown;
-    toggles.append(el("label", {}, box, el("span", {}, title)));
-    if (detail) details.push([box, `${title}: ${detail}`]);
-  }
-  // what the layers that are shown mean, over the picture
-  const legend = el("p", { class: "legend3d" });
-  const explain = () => { legend.textContent = details.filter(([box]) => box.checked).map(([, text]) => text).join("  \u00b7  "); };
-  stage?.append(legend);
-  explain();
+  const { toggles, legend } = createLayers(player, stage);
   element.append(el("div", { class: "transport" }, play, track, now), el("div", { class: "options" }, speeds, toggles));
 
   function toggle() {

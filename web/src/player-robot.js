@@ -51,6 +51,16 @@ export class Robot {
     this.reference.bodies.forEach((body, i) => (body.visible = this.legs.includes(i)));
   }
 
+  // one pose, whatever the time
+  hold(position, quaternion) {
+    this.poses = {
+      apply: (where, place, object) => {
+        object.position.fromArray(position, 3 * place);
+        object.quaternion.fromArray(quaternion, 4 * place);
+      },
+    };
+  }
+
   at(where) {
     this.bodies.forEach((body, i) => {
       this.poses.apply(where, i, body);

@@ -33,7 +33,8 @@ export class CameraView {
     this.points = [];
   }
 
-  // points: what should be seen, THREE.Vector3; look: {azimuth, elevation, fov} in degrees, as levade's Camera has them
+  // points: what should be seen, THREE.Vector3; look: {azimuth, elevation, fov} in degrees, as levade's Camera has
+  // them, and margin, room around the subject, as a factor
   setSubject(points, look) {
     this.points = points;
     this.look = look;
@@ -78,7 +79,7 @@ export class CameraView {
     );
     const right = new THREE.Vector3(Math.sin(azimuth), -Math.cos(azimuth), 0);
     const up = new THREE.Vector3().crossVectors(right, forward);
-    const tangent = Math.tan(THREE.MathUtils.degToRad(camera.fov / 2)) / MARGIN;
+    const tangent = Math.tan(THREE.MathUtils.degToRad(camera.fov / 2)) / (this.look.margin ?? MARGIN);
     // the frustum's planes touch the points: see Camera.frame in levade.report.rendering
     const place = [];
     let depth = Infinity;

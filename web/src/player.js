@@ -140,6 +140,21 @@ export function createPlayer(element, scene, options = {}) {
       player.seek(times[Math.min(Math.max(from + frames, 0), times.length - 1)]);
     },
     update,
+    // Poses the bodies as the motion does not have them, until the next update: (bodies, 3) and (bodies, 4) x-y-z-w, flat.
+    pose(position, quaternion) {
+      picture?.setPose(position, quaternion);
+      wake();
+    },
+    // Puts an object on a body, or at -1 into the world, for as long as the shapes stay; returns what draws it anew.
+    attach(body, object) {
+      (body < 0 ? picture?.stage.scene : picture?.robot.bodies[body])?.add(object);
+      const changed = () => {
+        picture?.redraw();
+        wake();
+      };
+      changed();
+      return changed;
+    },
     dispose() {
       cancelAnimationFrame(frame);
       document.removeEventListener("keydown", onKey);
@@ -235,6 +250,15 @@ class Picture {
     } else this.view.keepInSight(points);
     this.setTheme(scene.palette[theme], theme === "dark");
     this.setShown(shown);
+  }
+
+  setPose(position, quaternion) {
+    this.robot.hold(position, quaternion);
+    this.time = null;
+  }
+
+  redraw() {
+    this.time = null;
   }
 
   // Points that should be seen: the robot on its way, what it may touch, where it should get.

@@ -2,6 +2,7 @@
 // word}. It says how it ended when it has.
 
 import { el, fixed, significant, signed, svg } from "./dom.js";
+import { command } from "./live-bits.js";
 
 const MINUTE = 60;
 
@@ -94,11 +95,7 @@ export function createStatus(element, task, { say }) {
     const lines = [["The motion", motion]];
     lines.push(["Look at it closely", `levade show ${quoted(motion)}`]);
     if (outcome === "interrupted") lines.push(["Go on with the search", `levade solve --resume ${quoted(task.directory)}`]);
-    end.replaceChildren(...lines.flatMap(([name, text]) => {
-      const code = el("code", {}, text);
-      const button = el("button", { type: "button", class: "copy", onclick: () => copy(button, code) }, "Copy");
-      return [el("p", { class: "what" }, name), el("div", { class: "command" }, code, button)];
-    }));
+    end.replaceChildren(...lines.flatMap(([name, text]) => [el("p", { class: "what" }, name), command(text)]));
   }
 
   timer = setInterval(paint, 500);
@@ -160,18 +157,4 @@ function duration(seconds) {
 
 function quoted(path) {
   return /^[\w./-]+$/.test(path) ? path : `'${path.replaceAll("'", "'\\''")}'`;
-}
-
-async function copy(button, code) {
-  try {
-    await navigator.clipboard.writeText(code.textContent);
-    button.textContent = "Copied";
-  } catch {
-    const range = document.createRange();
-    range.selectNodeContents(code);
-    getSelection().removeAllRanges();
-    getSelection().addRange(range);
-    button.textContent = "Selected";
-  }
-  setTimeout(() => { button.textContent = "Copy"; }, 1500);
 }

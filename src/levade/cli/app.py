@@ -154,6 +154,25 @@ def show(
 
 
 @app.command()
+def view(
+    what: Annotated[
+        str,
+        typer.Argument(metavar="MOTION|ROBOT|TASK", help="A built-in name, or a file: motion.npz, robot.yaml, task."),
+    ],
+    out: Annotated[Path | None, typer.Option(metavar="FILE", help="Write the page, as .html, and serve none.")] = None,
+    host: Annotated[
+        str | None, typer.Option(metavar="ADDRESS", help="To serve at; by default only this machine can reach it.")
+    ] = None,
+    port: Annotated[int | None, typer.Option(min=0, max=65535, help="To serve at; 0 for a free one.")] = None,
+    open_page: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
+) -> None:
+    """Look at a motion, a robot (its joints to move) or a task (start, scene, goal) in the browser."""
+    from levade.cli.viewing import view as show_page
+
+    show_page(what, out=out, host=host, port=port, browse=open_page)
+
+
+@app.command()
 def tasks(as_json: Json = False) -> None:
     """List the built-in tasks."""
     from levade.tasks import builtin_tasks, load_task
