@@ -77,7 +77,7 @@ class Server:
         self._host = host
         self._address = ipaddress.ip_address(str(self._http.server_address[0]).split("%")[0])
         self.public = not self._address.is_loopback
-        self._thread = threading.Thread(target=self._http.serve_forever, name="levade-page", daemon=True)
+        self._thread = threading.Thread(target=self._http.serve_forever, args=(0.1,), name="levade-page", daemon=True)
 
     @property
     def port(self) -> int:
@@ -97,11 +97,11 @@ class Server:
 
         Names that anyone can make resolve to the loopback address do not count.
         """
-        name = urlsplit(f"//{host or ''}").hostname or ""
-        if self.public or name in ("localhost", self._host.lower()):
+        if self.public:
             return True
         try:
-            return ipaddress.ip_address(name).is_loopback
+            name = urlsplit(f"//{host or ''}").hostname or ""
+            return name in ("localhost", self._host.lower()) or ipaddress.ip_address(name).is_loopback
         except ValueError:
             return False
 
@@ -142,20 +142,21 @@ class _Handler(BaseHTTPRequestHandler):
         return self.server.served
 
     def do_GET(self) -> None:
-        server, path = self._server, urlsplit(self.path)
-        given = parse_qs(path.query).get("token", [""])[0]
+        server = self._server
+        path, _, query = self.path.partition("?")
+        given = parse_qs(query).get("token", [""])[0]
         if not server.knows(self.headers.get("Host")):
             self._refuse(403, "This page is only served under this machine's own name.")
-        elif path.path == "/" and server.public and not self._is_token(given):
+        elif path == "/" and server.public and not self._is_token(given):
             self._refuse(403, "The address of the page is the whole line that levade printed, token and all.")
-        elif path.path == "/":
+        elif path == "/":
             self._send(200, "text/html", server.page().replace(TOKEN, server.token))
-        elif path.path == "/events" and server.events is not None:
+        elif path == "/events" and server.events is not None:
             if self._is_token(given):
                 self._stream(server.events())
             else:
                 self._refuse(403, "Events need the page's token.")
-        elif path.path == "/favicon.ico":
+        elif path == "/favicon.ico":
             self._send(204, "image/x-icon", "")
         else:
             self._refuse(404, "There is nothing here.")
