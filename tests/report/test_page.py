@@ -187,7 +187,7 @@ def test_play_moves_robot_and_cursors(opened: Any) -> None:
     seek(opened, "Home")
     canvas = opened.locator(".stage canvas")
     picture, place = canvas.screenshot(), cursor(opened)
-    opened.get_by_role("button", name="Play").click()
+    opened.get_by_role("button", name="Play", exact=True).click()
     opened.wait_for_function(
         "place => Number(document.querySelector('#trunk .cursor line').getAttribute('x1')) > place + 20", arg=place
     )

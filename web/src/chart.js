@@ -37,7 +37,7 @@ export function logScale(min, max) {
   }
   const inside = all.filter((v) => v >= min * 0.999 && v <= max * 1.001);
   const every = Math.max(1, Math.ceil(inside.length / 7));
-  const ticks = inside.filter((v, i) => i % every === 0);
+  const ticks = inside.length > 1 ? inside.filter((v, i) => i % every === 0) : niceTicks(min, max, 4).filter((v) => v > 0);
   return { min, max, log: true, forward: (v) => (Math.log10(v) - low) / (high - low), inverse: (u) => 10 ** (low + u * (high - low)), ticks };
 }
 
@@ -118,7 +118,7 @@ export function createChart(host, spec) {
     for (const bar of state.bars ?? []) back.append(svg("rect", { class: "span", fill: bar.colour, x: px(bar.from), y: py(bar.row) - 6, width: Math.max(1, px(bar.to) - px(bar.from)), height: 12, rx: 2 }));
     const dots = [];
     for (const line of state.lines ?? []) {
-      const look = { class: `line ${line.dash ?? ""}`, stroke: line.colour, "stroke-width": line.width };
+      const look = { class: `line ${line.dash ?? ""}`, stroke: line.colour, style: line.width ? `stroke-width:${line.width}` : null };
       back.append(svg("path", { ...look, d: path(line, px, py, inner.w) }));
       if (state.follow !== false && line.follow !== false) {
         const dot = svg("circle", { r: 3, fill: line.colour });
@@ -228,7 +228,7 @@ function path({ x, y }, px, py, width) {
     }
     to(n - 1);
   }
-  return d;
+  return n === 1 && d ? `${d}h0.01` : d; // a dot
 }
 
 function area({ x, low, high }, px, py, y) {

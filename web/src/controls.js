@@ -1,5 +1,5 @@
-// Play, time, speed and layers of a player: createControls(element, player, {horizon, end, stage, speed}) -> {setTime(t),
-// remove()}. stage: where the picture is. speed: at first; one that suits the horizon if left out.
+// Play, time, speed and layers of a player: createControls(element, player, {horizon, end, speed}) -> {setTime(t), remove()}.
+// speed: at first; one that suits the horizon if left out.
 
 import { timeScale } from "./chart.js";
 import { el, fixed, svg } from "./dom.js";
@@ -7,8 +7,8 @@ import { el, fixed, svg } from "./dom.js";
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2];
 const FINE = 1000;
 
-// Toggles for the layers of a player, and a legend over the picture for those that are shown: {toggles, legend}.
-export function createLayers(player, stage) {
+// Toggles for the layers of a player, and what those that are shown mean: {toggles, legend}.
+export function createLayers(player) {
   const details = [];
   const toggles = el("div", { class: "layers", role: "group", "aria-label": "Show" });
   for (const { name, label, shown } of player.layers) {
@@ -19,15 +19,14 @@ export function createLayers(player, stage) {
     toggles.append(el("label", {}, box, el("span", {}, title)));
     if (detail) details.push([box, `${title}: ${detail}`]);
   }
-  // what the layers that are shown mean, over the picture
-  const legend = el("p", { class: "legend3d" });
+  // what the layers that are shown mean
+  const legend = el("p", { class: "meanings" });
   const explain = () => { legend.textContent = details.filter(([box]) => box.checked).map(([, text]) => text).join("  \u00b7  "); };
-  stage?.append(legend);
   explain();
   return { toggles, legend };
 }
 
-export function createControls(element, player, { horizon, end, stage, speed: wished }) {
+export function createControls(element, player, { horizon, end, speed: wished }) {
   const scale = timeScale(horizon, end);
   const play = el("button", { class: "play", type: "button", "aria-label": "Play", title: "Play or pause (space)", onclick: toggle });
   const slider = el("input", { type: "range", min: 0, max: FINE, step: "any", value: 0, "aria-label": "Time", oninput: () => { const t = scale.inverse(slider.value / FINE); player.pause(); player.seek(t); } });
@@ -46,8 +45,8 @@ export function createControls(element, player, { horizon, end, stage, speed: wi
   speeds.querySelector(`input[value="${first}"]`).checked = true;
   player.setSpeed(first);
 
-  const { toggles, legend } = createLayers(player, stage);
-  element.append(el("div", { class: "transport" }, play, track, now), el("div", { class: "options" }, speeds, toggles));
+  const { toggles, legend } = createLayers(player);
+  element.append(el("div", { class: "transport" }, play, track, now), el("div", { class: "options" }, speeds, toggles, legend));
 
   function toggle() {
     if (player.playing) player.pause();
@@ -82,5 +81,5 @@ export function createControls(element, player, { horizon, end, stage, speed: wi
   }
 
   setTime(player.time);
-  return { setTime, remove() { legend.remove(); element.replaceChildren(); } };
+  return { setTime, remove() { element.replaceChildren(); } };
 }

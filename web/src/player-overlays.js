@@ -7,6 +7,7 @@ import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 import { Track, unpack } from "./player-data.js";
+import { ghostShader } from "./player-shaders.js";
 
 const UP = new THREE.Vector3(0, 1, 0);
 
@@ -14,24 +15,8 @@ const UP = new THREE.Vector3(0, 1, 0);
 export class Ghost {
   constructor(strength = 1) {
     this.skin = new THREE.ShaderMaterial({
+      ...ghostShader,
       uniforms: { colour: { value: new THREE.Color() }, strength: { value: strength } },
-      vertexShader: `
-        varying vec3 direction, towards;
-        void main() {
-          vec4 there = modelViewMatrix * vec4(position, 1.0);
-          direction = normalMatrix * normal;
-          towards = -there.xyz;
-          gl_Position = projectionMatrix * there;
-        }`,
-      fragmentShader: `
-        uniform vec3 colour;
-        uniform float strength;
-        varying vec3 direction, towards;
-        void main() {
-          float edge = 1.0 - abs(dot(normalize(direction), normalize(towards)));
-          gl_FragColor = vec4(colour, strength * (0.22 + 0.7 * edge * edge));
-          #include <colorspace_fragment>
-        }`,
       transparent: true,
       depthWrite: false,
       polygonOffset: true,
@@ -120,14 +105,15 @@ export class Forces {
     this.force = new Track(unpack(packed.force), 3 * this.feet.length);
     this.here = new Float32Array(3);
     this.perMetre = packed.scale;
-    this.least = 0.015 * size;
+    this.longest = packed.longest ?? Infinity;
+    this.least = 0.01 * size;
     this.head = 0.055 * size;
     const shaft = new THREE.CylinderGeometry(0.0085 * size, 0.0085 * size, 1, 16).translate(0, 0.5, 0);
     const head = new THREE.ConeGeometry(0.024 * size, this.head, 20).translate(0, -0.5 * this.head, 0);
     this.arrows = this.feet.map((_, i) => {
-      const material = new THREE.MeshBasicMaterial({ depthTest: false, transparent: true, opacity: 0.92 });
+      const material = new THREE.MeshBasicMaterial({ depthTest: false, transparent: true, opacity: 1 });
       const arrow = new THREE.Group();
-      arrow.add(new THREE.Mesh(shaft, material), new THREE.Mesh(head, material));
+      arrow.add(new THREE.Mesh(shaft, material), new THREE.Mesh(head, material), new THREE.Mesh(head, material));
       for (const part of arrow.children) part.renderOrder = 30 + i;
       this.group.add(arrow);
       return arrow;
@@ -138,7 +124,8 @@ export class Forces {
     this.feet.forEach((foot, i) => {
       const arrow = this.arrows[i];
       const force = vector.fromArray(this.force.at(where, i, this.here));
-      const length = force.length() / this.perMetre;
+      const whole = force.length() / this.perMetre;
+      const length = Math.min(whole, this.longest);
       arrow.visible = length > this.least;
       if (!arrow.visible) return;
       force.normalize();
@@ -146,11 +133,13 @@ export class Forces {
       const body = this.bodies[foot.body];
       arrow.position.fromArray(foot.centre).applyQuaternion(body.quaternion).add(body.position);
       arrow.position.addScaledVector(force, -foot.radius);
-      const [shaft, head] = arrow.children;
-      const shrink = Math.min(1, length / (1.6 * this.head));
-      shaft.scale.set(1, Math.max(length - this.head * shrink, 1e-4), 1);
+      const [shaft, head, second] = arrow.children;
+      const shrink = Math.min(1, length / (2.5 * this.head)); // short ones are small all over
+      shaft.scale.set(shrink, Math.max(length - this.head * shrink, 1e-4), shrink);
       head.scale.setScalar(shrink);
       head.position.y = length;
+      second.visible = whole > this.longest; // there is more than fits
+      second.position.y = length - 0.8 * this.head;
     });
   }
 
@@ -200,6 +189,15 @@ export class Goal {
   dispose() {
     disposeOf(this.group);
   }
+}
+
+export function goalCorners({ box, half, quaternion }) {
+  const turn = new THREE.Quaternion(...quaternion);
+  return Array.from({ length: 8 }, (_, i) =>
+    new THREE.Vector3(...half.map((length, axis) => (i & (1 << axis) ? length : -length)))
+      .applyQuaternion(turn)
+      .add(vector.fromArray(box)),
+  );
 }
 
 export function disposeOf(group) {

@@ -11,9 +11,10 @@
 import * as THREE from "three";
 import { Clock } from "./player-clock.js";
 import { locate, unpack } from "./player-data.js";
-import { Forces, Goal, Path } from "./player-overlays.js";
+import { Forces, Goal, goalCorners, Path } from "./player-overlays.js";
 import { cornersOf, Robot } from "./player-robot.js";
 import { Stage } from "./player-stage.js";
+import { Pace } from "./player-pace.js";
 import { CameraView } from "./player-view.js";
 
 const LAYERS = ["robot", "reference", "path", "forces", "goal", "collision"];
@@ -41,9 +42,9 @@ export function createPlayer(element, scene, options = {}) {
     const passed = before ? Math.min(Math.max(now - before, 0) / 1000, 0.5) : 0;
     const moved = clock.advance(passed);
     if (moved) tell();
-    const gliding = picture?.draw(clock.time) ?? false;
+    const gliding = picture?.draw(clock.time, clock.playing, passed) ?? false;
     before = clock.playing || gliding ? now : 0;
-    if (clock.playing || gliding) wake();
+    if (before) wake();
   }
 
   try {
@@ -89,12 +90,14 @@ export function createPlayer(element, scene, options = {}) {
       wake();
     },
     play() {
+      if (clock.playing) return;
       clock.play();
       before = performance.now();
       tell();
       wake();
     },
     pause() {
+      if (!clock.playing) return;
       clock.playing = false;
       tell();
       wake();
@@ -197,7 +200,7 @@ class Picture {
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", "the motion in 3D");
     element.append(canvas);
-    this.stage = new Stage(renderer);
+    this.stage = new Stage();
     this.view = new CameraView(canvas, wake);
     canvas.addEventListener("dblclick", () => {
       this.view.reset();
@@ -213,6 +216,7 @@ class Picture {
     });
     this.observer.observe(element);
     this.overlays = [];
+    this.pace = new Pace();
     this.follow = false;
     this.trunk = new THREE.Vector3();
     this.resize();
@@ -226,9 +230,7 @@ class Picture {
     if (!same) {
       this.robot?.dispose();
       this.robot = new Robot(scene.model);
-      const { robot, scenery, reference, collision } = this.robot;
-      this.solid = [robot, scenery, reference.group, collision.group];
-      stage.scene.add(...this.solid);
+      stage.scene.add(...this.robot.objects);
     }
     this.robot.setMotion(scene.motion);
     for (const overlay of this.overlays) {
@@ -269,23 +271,16 @@ class Picture {
       this.robot.at({ row: Math.round((last * i) / (STILL - 1)), share: 0 });
       points.push(...this.robot.corners());
     }
+    if (scene.motion.goal) points.push(...goalCorners(scene.motion.goal));
     for (const box of this.robot.obstacles) {
       const half = box.getSize(new THREE.Vector3()).multiplyScalar(0.5);
       if (Math.max(half.x, half.y, half.z) < LARGE) points.push(...cornersOf(box));
-    }
-    if (scene.motion.goal) {
-      const { box, half, quaternion } = scene.motion.goal;
-      const size = new THREE.Vector3(...half);
-      const place = { position: new THREE.Vector3(...box), quaternion: new THREE.Quaternion(...quaternion) };
-      points.push(...cornersOf(new THREE.Box3(size.clone().negate(), size), place));
     }
     return points;
   }
 
   setShown(shown) {
-    this.robot.robot.visible = Boolean(shown.robot);
-    this.robot.reference.group.visible = Boolean(shown.reference);
-    this.robot.collision.group.visible = Boolean(shown.collision);
+    this.robot.setShown(shown);
     for (const name of ["path", "forces", "goal"]) if (this[name]) this[name].group.visible = Boolean(shown[name]);
     this.time = null;
   }
@@ -303,13 +298,16 @@ class Picture {
   resize() {
     const { clientWidth: width, clientHeight: height } = this.element;
     if (!width || !height) return;
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+    this.renderer.setPixelRatio(this.pace.ratio);
     this.renderer.setSize(width, height, false);
     this.view.resize(width / height);
   }
 
-  // Draws the motion at a time; true while the view is still gliding.
-  draw(time) {
+  // Draws the motion at a time; true while the view is still gliding. passed: since the picture before [s], or 0.
+  draw(time, playing, passed) {
+    const gliding = this.view.update();
+    const ratio = this.pace.next(passed, playing || gliding);
+    if (ratio !== this.renderer.getPixelRatio()) this.renderer.setPixelRatio(ratio);
     if (time !== this.time) {
       const where = locate(this.times, time);
       this.robot.at(where);
@@ -322,7 +320,6 @@ class Picture {
       this.renderer.shadowMap.needsUpdate = true;
       this.time = time;
     }
-    const gliding = this.view.update();
     this.goal?.face(this.view.camera);
     this.renderer.render(this.stage.scene, this.view.camera);
     return gliding;

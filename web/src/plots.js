@@ -1,4 +1,4 @@
-// All plots of a motion: createPlots(element, series) -> {setTime(t), onSeek(fn), update(series)}.
+// All plots of a motion: createPlots(element, series) -> {setTime(t), onSeek(fn), update(series)}. onSeek: of clicks in plots.
 // series: what levade.report.series.series_data gives; parts that are missing are left out.
 
 import { bounds, createChart, linearScale, logScale, nearest, timeScale } from "./chart.js";
@@ -8,37 +8,47 @@ const AXES = ["var(--x)", "var(--y)", "var(--z)"];
 const AXIS_DASHES = ["", "dashed", "dashdot"];
 const LEG_DASHES = ["", "dashed", "dashdot", "dotted"];
 
+// What is drawn of which part of the series, in the order of the page.
+const PARTS = { trunk: [trunk], cost: [cost], joints: [angles, torques, speeds], feet: [feet], policy: [policy] };
+
 export function createPlots(element, series) {
-  let charts = [], seek = () => {}, time = null;
-  const onSeek = (t) => seek(t);
+  const holders = {}, charts = {};
+  let seek = () => {}, time = null;
 
-  function build() {
-    for (const chart of charts) chart.destroy();
-    charts = [];
-    const context = { series, onSeek, x: series.time ? timeScale(series.horizon, series.end) : null, add: (chart) => (charts.push(chart), chart) };
-    if (series.time) context.times = unpack(series.time).data;
-    const parts = [];
-    if (series.trunk) parts.push(trunk);
-    if (series.cost) parts.push(cost);
-    if (series.joints) parts.push(angles, torques, speeds);
-    if (series.feet) parts.push(feet);
-    if (series.policy) parts.push(policy);
-    // a section is in the page before its plots are drawn: they need its width
-    element.replaceChildren();
-    for (const part of parts) part(context, element);
-    if (time !== null) setTime(time);
+  for (const part of Object.keys(PARTS)) {
+    holders[part] = el("div", { class: "part" });
+    charts[part] = [];
+  }
+  element.replaceChildren(...Object.values(holders));
+
+  function build(part) {
+    const height = element.offsetHeight;
+    element.style.minHeight = `${height}px`; // what the reader looks at stays where it is
+    for (const chart of charts[part]) chart.destroy();
+    charts[part] = [];
+    holders[part].replaceChildren();
+    if (series[part]) {
+      const context = { series, onSeek: (t) => seek(t), x: null, times: null, add: (chart) => (charts[part].push(chart), chart) };
+      if (series.time) Object.assign(context, { x: timeScale(series.horizon, series.end), times: unpack(series.time).data });
+      for (const draw of PARTS[part]) draw(context, holders[part]);
+      if (time !== null) for (const chart of charts[part]) chart.setTime?.(time);
+    }
+    element.style.minHeight = "";
   }
 
-  function setTime(t) {
-    time = t;
-    for (const chart of charts) chart.setTime?.(t);
-  }
-
-  build();
+  Object.keys(PARTS).forEach(build);
   return {
-    setTime,
+    setTime(t) {
+      time = t;
+      for (const chart of Object.values(charts).flat()) chart.setTime?.(t);
+    },
     onSeek(fn) { seek = fn; },
-    update(next) { series = { ...series, ...next }; build(); },
+    // a new motion draws all anew; a new part, such as {cost}, only that
+    update(next) {
+      series = { ...series, ...next };
+      const all = ["time", "horizon", "end", "legs"].some((key) => key in next);
+      Object.keys(PARTS).filter((part) => all || part in next).forEach(build);
+    },
   };
 }
 
@@ -116,10 +126,12 @@ function cost(context, host) {
   ];
   const band = { x: trials, low: positive(low), high: positive(high), colour: "var(--reference)" };
   const finite = [...lines.flatMap((line) => line.y), ...band.low, ...band.high].filter(Number.isFinite);
+  if (!finite.length) finite.push(1);
+  const across = linearScale(0, trials[trials.length - 1], 6);
   const grid = section(host, "search", "Search", "Cost over the trials, a generation at a time; dotted lines are where a stage begins and the cost changes.", "one");
   const readout = el("output", { class: "readout" });
   const value = (v) => significant(v ?? NaN, 4);
-  const marks = [];
+  const marks = trials.length === 1 ? [{ x: trials[0], y: lines[0].y[0], colour: "var(--best)" }] : [];
   if (first !== null && first !== undefined) {
     const k = Math.max(0, trials.findIndex((count) => count >= first));
     marks.push({ shape: "star", x: first, y: lines[0].y[k], colour: "var(--good)" });
@@ -133,9 +145,9 @@ function cost(context, host) {
   chart = plot(grid, context, {
     title: "Cost", lines, timed: false, height: 240, bands: [band], marks,
     margin: { left: 52 },
-    legend: [{ name: "generation, best to worst", swatch: bandSwatch() }, ...(marks.length ? [{ name: `first success, trial ${first}`, swatch: starSwatch() }] : [])],
+    legend: [{ name: "generation, best to worst", swatch: bandSwatch() }, ...(first ? [{ name: `first success, trial ${first}`, swatch: starSwatch() }] : [])],
     rules: stages.map((stage) => ({ x: stage.start, text: stages.length > 1 ? stage.name : "" })),
-    x: { ...linearScale(0, trials[trials.length - 1], 6), unit: "trials" },
+    x: { ...across, ticks: across.ticks.filter(Number.isInteger), unit: "trials" },
     y: logScale(Math.min(...finite) / 1.3, Math.max(...finite) * 1.3),
     onHover: show,
   });
@@ -214,7 +226,7 @@ function speeds(context, host) {
 function feet(context, host) {
   const { series, times, x } = context;
   const { legs } = series;
-  const grid = section(host, "feet", "Feet", `Contact force on each foot, and when each foot is on the ground (more than ${significant(series.feet.touches)} N). ${holdNote(context)}`, "two");
+  const grid = section(host, "feet", "Feet", `Contact force on each foot, and when each foot is in contact (more than ${significant(series.feet.touches)} N). ${holdNote(context)}`, "two");
   const forces = {};
   for (const [what, title] of [["vertical", "Vertical force"], ["horizontal", "Horizontal force"]]) {
     const values = unpack(series.feet[what]);
@@ -231,7 +243,7 @@ function feet(context, host) {
   const y = { ...linearScale(-0.6, legs.length - 0.4), ticks: [], names: legs.map((leg) => leg.name.toUpperCase()).reverse() };
   const wide = el("div", { class: "wide" });
   grid.append(wide);
-  plot(wide, context, { title: "On the ground", bars, y, x, height: 34 + 20 * legs.length, follow: false, margin: { left: 46 } });
+  plot(wide, context, { title: "In contact", bars, y, x, height: 34 + 20 * legs.length, follow: false, margin: { left: 46 } });
 }
 
 function spans(times, on) {
@@ -259,7 +271,7 @@ function policy(context, host) {
   for (const { name, weights, angle } of series.policy.policies) {
     const w = unpack(weights).data, curve = unpack(angle).data;
     plot(grid, inner, {
-      title: name, unit: "rad", small: true, height: 118, margin: { left: 36 },
+      title: name, small: true, height: 118, margin: { left: 36 },
       lines: [{ x: times, y: curve, colour: "var(--ink)", width: 1.5 }],
       marks: Array.from(w, (value, i) => ({ x: means[i], y: value, colour: "var(--x)" })),
       y: linearScale(...bounds([curve, w], 0.1), 3),

@@ -48,7 +48,7 @@ function start({ stage, controls, side, plots, foot, theme, player: box }) {
   const drawn = createPlots(plots, series);
   const player = createPlayer(stage, scene, { theme: theme.current() });
   theme.onChange((name) => player.setTheme(name));
-  const bar = createControls(controls, player, { ...series, stage });
+  const bar = createControls(controls, player, series);
   player.onTime((t) => { drawn.setTime(t); bar.setTime(t); });
   drawn.onSeek((t) => { player.pause(); player.seek(t); });
   player.seek(0);

@@ -10,7 +10,7 @@ export function createSummary(element, summary) {
 }
 
 export function verdict({ success, verdict }) {
-  return el("p", { class: `verdict ${success ? "good" : "bad"}` }, icon(success), el("strong", {}, success ? "Success" : "Not there"), el("span", {}, verdict));
+  return el("p", { class: `verdict ${success ? "good" : "bad"}` }, icon(success), el("strong", {}, success ? "Success" : "Not reached"), el("span", {}, verdict));
 }
 
 function icon(good) {

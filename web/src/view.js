@@ -24,9 +24,9 @@ export function createView(element, data) {
       el("p", { class: "made" }, `Made by ${data.written_by}. Distances in m, angles in rad, z up.`)));
   const player = createPlayer(stage, data.scene, { theme: theme.current(), keys: false });
   theme.onChange((name) => player.setTheme(name));
-  const { toggles } = createLayers(player, stage);
+  const { toggles, legend } = createLayers(player);
   const reset = el("button", { type: "button", class: "quiet", onclick: () => player.resetView() }, "Reset view");
-  controls.append(el("div", { class: "options" }, toggles, reset));
+  controls.append(el("div", { class: "options" }, toggles, reset, legend));
   const create = { robot: createRobot, task: createTask }[data.what];
   create({ side, below, toggles, stage, player, theme, data });
 }

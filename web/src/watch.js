@@ -87,7 +87,7 @@ function createShow(stage, controls, badge, theme) {
     if (wanted === kind) return;
     kind = wanted;
     bar?.remove();
-    bar = createControls(controls, player, { horizon: scene.motion.horizon, end: player.duration, stage, speed: bar ? player.speed : undefined });
+    bar = createControls(controls, player, { horizon: scene.motion.horizon, end: player.duration, speed: bar ? player.speed : undefined });
   }
 
   return {

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import html
 import json
+import math
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -97,7 +98,16 @@ def assembled(title: str, data: Any, bundle: str) -> str:
 
 def _json(data: Any) -> str:
     """JSON that can stand in a script element: nothing in it ends the element or begins a comment."""
-    return json.dumps(data, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
+    return json.dumps(_sound(data), ensure_ascii=False, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+
+
+def _sound(data: Any) -> Any:
+    """JSON has no infinity and no NaN: null instead."""
+    if isinstance(data, dict):
+        return {key: _sound(value) for key, value in data.items()}
+    if isinstance(data, list | tuple):
+        return [_sound(value) for value in data]
+    return None if isinstance(data, float) and not math.isfinite(data) else data
 
 
 def _bundled(name: str) -> str:

@@ -31,8 +31,11 @@ RATE = 250.0
 FRAMES = 3000
 """At most so many poses."""
 
-_LONGEST = 0.7
-"""[m], at most about so long is the largest force's arrow."""
+_ARROW = 0.22
+"""Length of an arrow as large as the robot's weight, by the reach of its legs."""
+
+_LONGEST = 0.8
+"""Where arrows end, by that reach: impacts of a step or two are larger, and get a second tip instead."""
 
 
 def scene_data(
@@ -155,15 +158,31 @@ def _forces(motion: Motion, model: Any, rows: Array) -> dict[str, Any]:
             }
         )
     force = _recorded(motion["foot_contact_force"], rows)
-    largest = float(np.linalg.norm(force, axis=-1).max(initial=0.0))
-    return {"feet": feet, "force": pack(force), "scale": force_scale(largest)}
+    reach = _reach(model, motion)
+    weight = 9.81 * float(model.body_mass.sum())
+    scale, longest = force_scale(weight, _ARROW * reach), round(_LONGEST * reach, 3)
+    beyond = bool(np.linalg.norm(force, axis=-1).max(initial=0.0) > scale * longest)
+    return {"feet": feet, "force": pack(force), "scale": scale, "longest": longest, "beyond": beyond}
 
 
-def force_scale(largest: float) -> float:
-    """[N/m], how many newtons a metre of arrow stands for: 1, 2 or 5 times a power of ten."""
-    least = max(largest, 1.0) / _LONGEST
+def force_scale(force: float, length: float) -> float:
+    """[N/m], how many newtons a metre of arrow stands for: a round number, that force no longer than that length [m]."""
+    least = max(force, 1.0) / length
     decade = 10.0 ** math.floor(math.log10(least))
-    return next(step * decade for step in (1.0, 2.0, 5.0, 10.0) if step * decade >= least * (1 - 1e-9))
+    return next(step * decade for step in (1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0) if step * decade >= least * (1 - 1e-9))
+
+
+def _reach(model: Any, motion: Motion) -> float:
+    """[m], from the trunk along its longest leg."""
+    trunk, reaches = model.body(motion.meta["trunk"]).id, [0.1]
+    for leg in motion.meta["legs"].values():
+        geom = model.geom(leg["foot"])
+        body, reach = int(geom.bodyid[0]), float(np.linalg.norm(geom.pos))
+        while body not in (0, trunk):
+            reach += float(np.linalg.norm(model.body_pos[body]))
+            body = int(model.body_parentid[body])
+        reaches.append(reach)
+    return max(reaches)
 
 
 def _goal(motion: Motion, model: Any) -> dict[str, Any] | None:
@@ -232,13 +251,18 @@ def _layers(shapes: Mapping[str, Any], moving: Mapping[str, Any]) -> list[dict[s
         ("robot", "robot", True),
         ("reference", "reference", False),
         ("path", "path of the trunk", True),
-        ("forces", f"contact forces (1 m = {moving['forces']['scale']:g} N)", True),
+        ("forces", _forces_text(moving["forces"]), True),
     ]
     if moving["goal"]:
         layers.append(("goal", f"goal ({goal_text(moving['goal']['quantities'])})", True))
     if any(geom["layer"] == "collision" for geom in shapes["geoms"]):
         layers.append(("collision", "collision shapes", False))
     return [{"name": name, "label": label, "shown": shown} for name, label, shown in layers]
+
+
+def _forces_text(forces: Mapping[str, Any]) -> str:
+    double = f"; double tip: over {forces['scale'] * forces['longest'] / 1000:.1f} kN" if forces["beyond"] else ""
+    return f"contact forces (1 m = {forces['scale']:g} N{double})"
 
 
 def goal_text(wanted: Mapping[str, float]) -> str:
@@ -253,6 +277,6 @@ def goal_text(wanted: Mapping[str, float]) -> str:
 
 
 def _palette(legs: Mapping[str, Mapping[str, Any]], theme: Theme) -> dict[str, Any]:
-    names = ("sky", "ground", "ground_line", "ghost", "goal", "limit", "accent", "ink", "muted", "reference")
+    names = ("sky", "ground", "ground_line", "ghost", "goal", "limit", "accent", "muted")
     colours: dict[str, Any] = {name: getattr(theme, name) for name in names}
     return colours | {"legs": list(leg_colours(legs, theme).values())}
