@@ -35,7 +35,9 @@ def plain(objective: Objective, tmp_path_factory: pytest.TempPathFactory) -> Out
 class Watched:
     """A run with a page, or the part of it that needs no server."""
 
-    def __init__(self, objective: Objective, directory: Path, *, interrupted: Callable[[], bool] = lambda: False) -> None:
+    def __init__(
+        self, objective: Objective, directory: Path, *, interrupted: Callable[[], bool] = lambda: False
+    ) -> None:
         self.drawn: list[Motion] = []
         self.watch = Watch(objective, seed=3, directory=directory, draw=self._draw, interrupted=interrupted)
         self.objective, self.directory = objective, directory
@@ -319,9 +321,7 @@ def test_an_error_ends_the_page_too(objective: Objective, tmp_path: Path) -> Non
         ({"say": "factors", "factors": {"effort": float("nan")}}, "factors.effort: nan should be a number"),
     ],
 )
-def test_commands_that_are_wrong(
-    objective: Objective, tmp_path: Path, message: dict[str, Any], complaint: str
-) -> None:
+def test_commands_that_are_wrong(objective: Objective, tmp_path: Path, message: dict[str, Any], complaint: str) -> None:
     watch = Watched(objective, tmp_path).watch
     with pytest.raises(LevadeError, match=complaint):
         watch.command(message)
@@ -337,4 +337,3 @@ def test_numbers_that_json_has_not(objective: Objective, tmp_path: Path) -> None
     watched.run()
     page.thread.join(5)
     assert None in page.rows()[0][9]
-

@@ -102,8 +102,8 @@ export function createRobot({ side, below, toggles, player, theme, data }) {
       input.setAttribute("aria-valuetext", `${fixed(angles[k], 2)} rad`);
       value.replaceChildren(fixed(angles[k], 2), el("small", {}, ` rad  ${degrees(angles[k])}`));
     });
-    const changed = joints.map(({ name }, k) => [name, angles[k], postures.neutral[k]]).filter(([, angle, before]) => Math.abs(angle - before) > 5e-4);
-    code.textContent = changed.length ? `{${changed.map(([name, angle]) => `${name}: ${Number(angle.toFixed(3))}`).join(", ")}}` : "neutral";
+    const changed = joints.map(({ name }, k) => [name, angles[k], postures.neutral[k], rows[k]]).filter(([, angle, before]) => Math.abs(angle - before) > 5e-4);
+    code.textContent = changed.length ? `{${changed.map(([name, angle, , bounds]) => `${name}: ${rounded(angle, bounds)}`).join(", ")}}` : "neutral";
     if (marked !== null) mark(marked);
   }
 
@@ -134,6 +134,11 @@ function about({ facts, joints, postures }) {
     el("dl", { class: "known" }, facts.map(([name, value]) => el("div", {}, el("dt", {}, name), el("dd", {}, value)))),
     el("div", { class: "wide-table" }, el("table", { class: "plain" },
       el("thead", {}, el("tr", {}, heads.map((text) => el("th", { scope: "col" }, text)))), el("tbody", {}, rows))));
+}
+
+// To a milliradian, and never beyond the limits, which would be no posture.
+function rounded(angle, { lower, upper }) {
+  return Math.min(Math.max(Math.round(1000 * angle), Math.ceil(1000 * lower)), Math.floor(1000 * upper)) / 1000;
 }
 
 function clamp(value, { lower, upper }) {

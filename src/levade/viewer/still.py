@@ -3,9 +3,10 @@
     robot_data(load_robot("hyq2max"))       # JSON: web/src/view.js draws it
     task_data(Objective(load_task("rearing")))
 
-The scene is that of `levade.report.scene` with one pose. ``tree``: how bodies hang together, so that the page can pose the robot by
-itself: of each body its parent, place in the scene's bodies (-1 if it has no shape), pos [m] and quat x-y-z-w in the parent,
-and its hinges: joint (place in the robot's order), anchor [m] and axis in the body, angle [rad] that the model has at zero.
+The scene is that of `levade.report.scene` with one pose. ``tree``: how bodies hang together, so that the page can pose the
+robot by itself: of each body its parent, place in the scene's bodies (-1 if it has no shape), pos [m] and quat x-y-z-w in
+the parent, and its hinges: joint (place in the robot's order), anchor [m] and axis in the body, angle [rad] that the model
+has at zero.
 """
 
 from __future__ import annotations
