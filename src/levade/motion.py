@@ -25,6 +25,7 @@ import zipfile
 import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -246,6 +247,11 @@ def cost_weights(meta: Mapping[str, Any]) -> dict[str, float]:
 
 def versions() -> dict[str, str]:
     """The versions that decide a motion's bits."""
+    return dict(_versions())
+
+
+@cache
+def _versions() -> dict[str, str]:
     from importlib.metadata import version
 
     from levade import __version__
