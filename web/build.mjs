@@ -1,5 +1,6 @@
 // Bundles web/src/report.js and live.js into the package's report.js and live.js: `npm ci && npm run build`, in web/. Their first
-// lines say of which sources they were made; a test compares (tests/report/test_bundle.py).
+// lines say of which sources they were made, which a test compares (tests/report/test_bundle.py), and their last ones are the
+// licence of three.js.
 
 import { createHash } from "node:crypto";
 import { readdirSync, readFileSync } from "node:fs";
@@ -21,6 +22,11 @@ export function sourcesHash() {
   return hash.digest("hex");
 }
 
+function licence(name) {
+  return readFileSync(join(here, "node_modules", name, "LICENSE"), "utf8").trim();
+}
+
+const three = JSON.parse(readFileSync(join(here, "node_modules/three/package.json"), "utf8"));
 const [entry, outfile] = process.argv.slice(2);
 const bundles = entry
   ? [[entry, outfile]]
@@ -35,6 +41,7 @@ for (const [from, to] of bundles) {
     format: "iife",
     target: ["chrome109", "firefox115", "safari16"],
     legalComments: "eof",
+    footer: { js: `/*! three.js ${three.version}:\n${licence("three")}\n*/` },
     banner: { js: `/* levade report, made of web/ by its build.mjs; sources ${sourcesHash()} */` },
     logLevel: "info",
   });

@@ -2,11 +2,11 @@
 
     scene = scene_data(motion)
     json.dumps(scene)                       # about 0.1 MB for a motion of 0.3 s
-    scene["layers"]                         # what can be shown: [{"name": "reference", "label": ..., "shown": False}, ...]
+    scene["layers"]                         # what can be shown: [{"name": "path", "label": ..., "shown": True}, ...]
 
-``model``: shapes (`levade.report.shapes`). ``motion``: poses of the bodies at ``time``, and what is drawn over them. ``palette``:
-colours of both themes. Arrays as in `levade.report.packing`; SI units, quaternions x-y-z-w. Poses at the times that are kept are
-those of the recorded rows: the first is the start, the horizon's and the last are always among them.
+``model``: shapes (`levade.report.shapes`). ``motion``: poses of the bodies at ``time``, and what is drawn over them.
+``palette``: colours of both themes. Arrays as in `levade.report.packing`; SI units, quaternions x-y-z-w. Poses are those of
+recorded rows, never of a time between: the first is the start, the horizon's and the last are always among them.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from typing import Any
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from levade.motion import Motion
 from levade.report.packing import pack, pack_unit
@@ -24,6 +25,8 @@ from levade.report.rendering import FIELD_OF_VIEW, Camera, load_model, replay
 from levade.report.shapes import moving_bodies, shapes_of
 from levade.report.style import DARK, LIGHT, Theme, leg_colours
 from levade.trajectory import Array, roll_pitch_yaw
+
+Rows = NDArray[np.int64]
 
 RATE = 250.0
 """[Hz], at most so many poses a second: what is between them is interpolated."""
@@ -87,7 +90,7 @@ def put_together(
     }
 
 
-def frame_rows(steps: int, horizon_steps: int, timestep: float, rate: float = RATE) -> Array:
+def frame_rows(steps: int, horizon_steps: int, timestep: float, rate: float = RATE) -> Rows:
     """(frames,) rows that are kept of steps + 1, of which row 0 is the start: evenly spaced, horizon and end added."""
     stride = max(1, math.ceil(1.0 / (rate * timestep) - 1e-9), math.ceil(steps / FRAMES))
     return np.unique(np.concatenate([np.arange(0, steps + 1, stride), [min(horizon_steps, steps), steps]]))
@@ -127,12 +130,12 @@ def _joint_addresses(motion: Motion, model: Any) -> list[int]:
     return [int(model.joint(str(name)).qposadr[0]) for name in motion["joint_names"]]
 
 
-def _recorded(values: Array, rows: Array) -> Array:
+def _recorded(values: Array, rows: Rows) -> Array:
     """Rows of something recorded at the end of each step; the start is like the first step. Never NaN."""
     return np.nan_to_num(values[np.maximum(rows - 1, 0)], posinf=0.0, neginf=0.0)
 
 
-def _reference(motion: Motion, model: Any, rows: Array, qpos: Array) -> dict[str, Any]:
+def _reference(motion: Motion, model: Any, rows: Rows, qpos: Array) -> dict[str, Any]:
     """Poses of the legs at the reference angles, on the measured trunk: bodies (places), position, quaternion."""
     wanted = qpos.copy()
     wanted[:, _joint_addresses(motion, model)] = _recorded(motion["joint_position_reference"], rows)
@@ -142,7 +145,7 @@ def _reference(motion: Motion, model: Any, rows: Array, qpos: Array) -> dict[str
     return {"bodies": legs, "position": pack(position[:, legs]), "quaternion": pack_unit(quaternion[:, legs])}
 
 
-def _forces(motion: Motion, model: Any, rows: Array) -> dict[str, Any]:
+def _forces(motion: Motion, model: Any, rows: Rows) -> dict[str, Any]:
     """Contact force on each foot [N], and where: the foot's body (place), centre in it and radius [m], and leg."""
     places = {body: place for place, body in enumerate(moving_bodies(model))}
     feet = []

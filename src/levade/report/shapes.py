@@ -11,11 +11,12 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
+import math
 from typing import Any
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from levade.report.packing import pack
 from levade.report.rendering import visible_groups
@@ -24,6 +25,9 @@ from levade.trajectory import Array
 
 TRIANGLES = 60_000
 """At most about so many of all meshes together: more make a page slow to open, and no prettier."""
+
+Triangles = tuple[Array, NDArray[np.int64]]
+"""A mesh: (vertices, 3) [m], and (triangles, 3) numbers of vertices."""
 
 _TYPES = {
     mujoco.mjtGeom.mjGEOM_PLANE: "plane",
@@ -152,13 +156,13 @@ def _meshes(model: Any, used: list[tuple[str, int]]) -> list[dict[str, Any]]:
     return [_packed(vertices, faces) for vertices, faces in simplify(triangles, TRIANGLES)]
 
 
-def _mesh(model: Any, number: int) -> tuple[Array, Array]:
+def _mesh(model: Any, number: int) -> Triangles:
     vertex, face = model.mesh_vertadr[number], model.mesh_faceadr[number]
     vertices = model.mesh_vert[vertex : vertex + model.mesh_vertnum[number]].astype(float)
     return vertices, model.mesh_face[face : face + model.mesh_facenum[number]].astype(np.int64)
 
 
-def _height_field(model: Any, number: int) -> tuple[Array, Array]:
+def _height_field(model: Any, number: int) -> Triangles:
     rows, columns = int(model.hfield_nrow[number]), int(model.hfield_ncol[number])
     across, along, top, _ = model.hfield_size[number]
     start = model.hfield_adr[number]
@@ -170,19 +174,25 @@ def _height_field(model: Any, number: int) -> tuple[Array, Array]:
     return np.stack([x, y, height], axis=-1).reshape(-1, 3), np.concatenate([lower, upper])
 
 
-def simplify(meshes: list[tuple[Array, Array]], triangles: int) -> list[tuple[Array, Array]]:
-    """Meshes of about so many triangles in all, or fewer: vertices in one cell of a grid become one, their mean.
-
-    meshes: (vertices, 3) [m] and (triangles, 3), each. The grid is the finest of a few that is coarse enough.
-    """
-    cell, reduced = 0.0, [_welded(vertices, faces, 1e-7) for vertices, faces in meshes]
+def simplify(meshes: list[Triangles], triangles: int) -> list[Triangles]:
+    """Meshes of so many triangles in all, at most: vertices in one cell of a grid become one, their mean."""
+    reduced = [_welded(vertices, faces, 1e-7) for vertices, faces in meshes]
+    if sum(len(faces) for _, faces in reduced) <= triangles:
+        return reduced
+    # a surface of area A in cells of edge c has about A / c^2 vertices, and twice as many triangles
+    cell = 0.6 * math.sqrt(2.0 * sum(_area(vertices, faces) for vertices, faces in meshes) / triangles)
     while sum(len(faces) for _, faces in reduced) > triangles:
-        cell = 1.25 * cell or 0.0008
+        cell *= 1.15
         reduced = [_welded(vertices, faces, cell) for vertices, faces in meshes]
     return reduced
 
 
-def _welded(vertices: Array, faces: Array, cell: float) -> tuple[Array, Array]:
+def _area(vertices: Array, faces: NDArray[np.int64]) -> float:
+    one, two, three = (vertices[faces[:, corner]] for corner in range(3))
+    return float(np.linalg.norm(np.cross(two - one, three - one), axis=1).sum()) / 2
+
+
+def _welded(vertices: Array, faces: NDArray[np.int64], cell: float) -> Triangles:
     place = np.floor((vertices - vertices.min(axis=0)) / cell).astype(np.int64)
     size = place.max(axis=0) + 1
     key = (place[:, 0] * size[1] + place[:, 1]) * size[2] + place[:, 2]
@@ -193,7 +203,7 @@ def _welded(vertices: Array, faces: Array, cell: float) -> tuple[Array, Array]:
     return welded, faces[kept]
 
 
-def _packed(vertices: Array, faces: Array) -> Mapping[str, Any]:
+def _packed(vertices: Array, faces: NDArray[np.int64]) -> dict[str, Any]:
     low, high = vertices.min(axis=0), vertices.max(axis=0)
     scale = np.maximum(high - low, 1e-9) / 65535
     return {
