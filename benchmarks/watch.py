@@ -82,7 +82,9 @@ def main() -> None:
             clock[kind].append(seconds)
             work[kind].append(processor)
             told = note or told
-    print(f"{arguments.task}: {arguments.trials} trials, {arguments.repeats} interleaved runs; the page was told {told}")
+    print(
+        f"{arguments.task}: {arguments.trials} trials, {arguments.repeats} interleaved runs; the page was told {told}"
+    )
     for kind in kinds:
         line = f"{kind:8} {statistics.median(clock[kind]):6.2f} s, processor {statistics.median(work[kind]):6.2f} s"
         if kind != "no page":

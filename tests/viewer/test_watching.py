@@ -128,6 +128,39 @@ def test_a_page_that_is_closed_does_not_stop_the_solve(objective: Objective, pla
     assert_same_files(tmp_path, plain.directory)
 
 
+def test_a_motion_that_cannot_be_shown_does_not_stop_the_solve(
+    objective: Objective, plain: Outcome, tmp_path: Path
+) -> None:
+    watched = Watched(objective, tmp_path)
+
+    def broken(motion: Motion) -> dict[str, Any]:
+        raise RuntimeError("no picture")
+
+    watched.watch._draw = broken
+    page = Page(watched.watch)
+    watched.run()
+    assert_same_files(tmp_path, plain.directory)
+    page.thread.join(5)
+    assert len(page.rows()) == 15
+    assert page.messages[-1]["verdict"]["outcome"] == "budget"
+
+
+def test_the_trial_that_found_the_best_is_told(objective: Objective, tmp_path: Path) -> None:
+    """Also after its cost has changed with the weights."""
+    watched = Watched(objective, tmp_path)
+    bests: list[bytes] = []
+    command = {"say": "factors", "factors": {"position": 1.5}}
+
+    def observe(generation: Generation) -> None:
+        bests.append(generation.best.weights.tobytes())
+        if generation.generation == 7:
+            watched.watch.command(command)
+
+    watched.run(observe)
+    rows = next(iter(watched.watch.events()))["rows"]  # type: ignore[index]
+    assert [row[11] for row in rows] == [8 * (bests.index(best) + 1) for best in bests]
+
+
 def test_motions_are_shown_for_a_small_part_of_the_time(objective: Objective, tmp_path: Path) -> None:
     """The longer it takes to show one, the longer until the next: the clock is made slow here."""
     now = [0.0]
@@ -150,7 +183,7 @@ def test_motions_are_shown_for_a_small_part_of_the_time(objective: Objective, tm
             now[0] += 0.1
             best = generations[k % 2].best  # a new one every time
             watch._latest = generations[k % 2]
-            watch._shown = None if best is watch._shown else watch._shown
+            watch._best = best.weights
             watch._show()
     watch.finish(None)
     page.thread.join(5)
@@ -162,7 +195,7 @@ def test_the_first_message_says_all_and_the_last_how_it_ended(objective: Objecti
     watched = Watched(objective, tmp_path)
     page = Page(watched.watch)
     outcome = watched.run()
-    assert not page.thread.is_alive() or page.thread.join(2) is None
+    page.thread.join(5)
     about = page.messages[0]["task"]
     assert (about["name"], about["robot"], about["seed"], about["budget"]) == ("rearing", "hyq2max", 3, 120)
     assert [cost["name"] for cost in about["costs"]] == list(objective.task.costs)

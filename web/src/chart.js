@@ -4,7 +4,7 @@
 //   const c = createChart(host, {height: 180, x: timeScale(series), lines: [{x, y, colour, dash}], onSeek: (x) => ...})
 //   c.setCursor(0.12); c.update({lines: [...]})
 
-import { svg } from "./dom.js";
+import { significant, svg } from "./dom.js";
 
 const MARGIN = { left: 40, right: 10, top: 8, bottom: 20 };
 
@@ -53,7 +53,7 @@ function niceTicks(min, max, parts) {
 }
 
 function label(value, ticks, log) {
-  if (log) return value >= 1e-3 && value < 1e4 ? String(Number(value.toPrecision(2))) : value.toExponential(0).replace("e", "\u00d710^").replace("+", "");
+  if (log) return value >= 1e-3 && value < 1e4 ? String(Number(value.toPrecision(2))) : significant(value, 1);
   const step = ticks.length > 1 ? Math.min(...ticks.slice(1).map((t, i) => t - ticks[i]).filter((d) => d > 0)) : 1;
   const digits = Math.min(6, Math.max(0, Math.ceil(-Math.log10(step) - 1e-9)));
   const precise = Math.abs(value * 10 ** digits - Math.round(value * 10 ** digits)) > 1e-6 ? digits + 1 : digits;

@@ -5,6 +5,7 @@ import { command, spot } from "./live-bits.js";
 import { createAxes, createFan, createNames } from "./view-marks.js";
 import { createKinematics } from "./view-kinematics.js";
 
+const WIDE = ["", "Neutral"]; // columns that a phone does without
 const FREE = Math.PI; // rad to each side, where a joint has no limit
 
 export function createRobot({ side, below, toggles, player, theme, data }) {
@@ -127,13 +128,13 @@ function about({ facts, joints, postures }) {
   const rows = joints.map((joint, k) => el("tr", {},
     el("th", { scope: "row" }, spot(`var(--${joint.colour})`), joint.name),
     el("td", {}, joint.lower === null ? el("small", {}, "no limit") : `${fixed(joint.lower, 3)} to ${fixed(joint.upper, 3)}`, joint.lower === null ? "" : el("small", {}, " rad")),
-    el("td", {}, joint.lower === null ? "" : el("small", {}, `${degrees(joint.lower)} to ${degrees(joint.upper)}`)),
-    el("td", {}, limit(joint.velocity, "rad/s")), el("td", {}, limit(joint.torque, "Nm")), el("td", {}, fixed(postures.neutral[k], 3), el("small", {}, " rad"))));
+    el("td", { class: "wide-only" }, joint.lower === null ? "" : el("small", {}, `${degrees(joint.lower)} to ${degrees(joint.upper)}`)),
+    el("td", {}, limit(joint.velocity, "rad/s")), el("td", {}, limit(joint.torque, "Nm")), el("td", { class: "wide-only" }, fixed(postures.neutral[k], 3), el("small", {}, " rad"))));
   return el("section", { class: "panel" },
     el("header", {}, el("h2", {}, "The robot")),
     el("dl", { class: "known" }, facts.map(([name, value]) => el("div", {}, el("dt", {}, name), el("dd", {}, value)))),
     el("div", { class: "wide-table" }, el("table", { class: "plain" },
-      el("thead", {}, el("tr", {}, heads.map((text) => el("th", { scope: "col" }, text)))), el("tbody", {}, rows))));
+      el("thead", {}, el("tr", {}, heads.map((text) => el("th", { scope: "col", class: WIDE.includes(text) ? "wide-only" : "" }, text)))), el("tbody", {}, rows))));
 }
 
 // To a milliradian, and never beyond the limits, which would be no posture.

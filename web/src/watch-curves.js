@@ -7,6 +7,7 @@ import { bandSwatch, createFigure, swatch } from "./live-figure.js";
 const COLOURS = ["var(--x)", "var(--z)", "var(--y)", "var(--hind-right)", "var(--limit)", "var(--muted)"];
 const DASHES = ["", "dashed", "dashdot", "dotted"];
 const ALLOWED = { colour: "var(--good)", dash: "dotted", width: 1.6 };
+const MANY = 3; // changes of weights that there is room to name
 const FAR = 1e10; // a cost above this is of a trial that broke down
 
 // A look for each of n lines: colours in turn, then dashes.
@@ -35,7 +36,7 @@ export function createCurves(search, terms, task, looks) {
   const figures = el("div", { class: "plots" });
   terms.replaceChildren(el("header", {}, el("h2", {}, "Cost terms"), el("p", { class: "note" }, "What each term adds to the cost of the best motion.")), figures);
   const parts = createFigure(figures, {
-    title: "Weighted terms of the best", room: 14, height: 250,
+    title: "Weighted terms of the best", room: 14, height: Math.max(250, 58 * task.costs.length),
     series: task.costs.map(({ name }, k) => ({ name: name.replaceAll("_", " "), width: 1.8, ...looks[k] })),
   });
 
@@ -66,8 +67,10 @@ function rulesOf(rows, task, state) {
   rows.forEach((row, k) => {
     if (k === 0 || row[1] !== rows[k - 1][1]) rules.push({ x: k === 0 ? 0 : rows[k - 1][0], text: task.stages.length > 1 ? task.stages[row[1]].name : "", above: true });
   });
-  for (const { generation, factors } of state?.changes ?? []) {
-    if (generation <= rows.length) rules.push({ x: generation < 2 ? 0 : rows[generation - 2][0], text: "", weights: factors });
+  const changes = (state?.changes ?? []).filter(({ generation }) => generation <= rows.length);
+  for (const { generation, factors } of changes) {
+    const text = changes.length > MANY ? "" : Object.entries(factors).map(([name, factor]) => `${name.replaceAll("_", " ")} \u00d7${significant(factor)}`).join(", ");
+    rules.push({ x: generation < 2 ? 0 : rows[generation - 2][0], text });
   }
   return rules;
 }

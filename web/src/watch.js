@@ -108,8 +108,7 @@ function createShow(stage, controls, badge, theme) {
     say(rows) {
       const last = rows[rows.length - 1];
       if (!last) return;
-      const since = rows.find((row) => row[2] === last[2] && row[1] === last[1]) ?? last;
-      badge.value = `best so far, found by trial ${since[0]}`;
+      badge.value = `best so far, found by trial ${last[11]}`;
     },
   };
 }

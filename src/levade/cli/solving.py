@@ -59,7 +59,8 @@ def solve_and_report(
         if watching is not None:
             page = watched(watching, console, objective, seed=seed, directory=out, interrupted=stopping)
             watch = stack.enter_context(page)
-        with Display(console, chosen, quiet=quiet) as display:
+        note = (lambda: "") if watch is None else (lambda: watch.note)
+        with Display(console, chosen, quiet=quiet, note=note) as display:
 
             def observe(generation: Generation) -> None:
                 display.update(generation)

@@ -96,12 +96,15 @@ def task_data(objective: Objective) -> dict[str, Any]:
         layers.append(("reference", label, True))
     if moving["goal"]:
         layers.append(("goal", f"goal ({goal_text(moving['goal']['quantities'])})", True))
+    scene = put_together(robot.name, _legs(robot), shapes, moving, _with_collision(layers, shapes))
+    if task.scene.boxes and np.mean([box.position[1] for box in task.scene.boxes]) > position[1]:
+        scene["camera"]["azimuth"] = -scene["camera"]["azimuth"]  # from the left: what is there is not behind the robot
     known = task.name in builtin_tasks() and load_task(task.name) == task
     return {
         "what": "task",
         "name": task.name,
         "description": task.description,
-        "scene": put_together(robot.name, _legs(robot), shapes, moving, _with_collision(layers, shapes)),
+        "scene": scene,
         "criteria": [{"name": name, **_goal_row(criterion)} for name, criterion in criteria.items()],
         "costs": [
             {

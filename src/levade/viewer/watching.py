@@ -19,12 +19,15 @@ from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from levade.costs.success import QUANTITIES
 from levade.errors import LevadeError, did_you_mean
 from levade.motion import Motion, record
 from levade.run import MOTION, Outcome, so_far
 from levade.solve import Generation, Objective
 from levade.tasks import Change
+from levade.trajectory import Array
 
 _MOVING = ("motion", "layers")
 """Parts of a scene that differ between motions of one solve."""
@@ -80,7 +83,9 @@ class Watch:
         self._stop = False
         self._wanted: dict[str, float] = {}
         self._listeners = 0
-        self._shown: Any = None
+        self._best: Array | None = None
+        self._found = 0
+        self._shown: Array | None = None
         self._next_replay = 0.0
 
     # the solve's thread
@@ -88,17 +93,25 @@ class Watch:
     def observe(self, generation: Generation) -> None:
         """Take in a generation."""
         cost, best = generation.cost, generation.best
+        if self._best is None or not np.array_equal(best.weights, self._best):
+            self._best, self._found = best.weights, generation.trials
         row = [
             *(generation.trials, generation.stage, best.cost, float(cost.min()), float(_median(cost))),
             *(float(cost.max()), generation.step, generation.diverged, int(best.success)),
             [generation.weights[name] * value for name, value in best.terms.items()],
             list(best.errors.values()),
+            self._found,
         ]
         with self._lock:
             self._rows.append(row)
             self._latest, self._changes, self._generation = generation, generation.changes, generation.generation
         if not generation.replayed:
             self._show()
+
+    @property
+    def note(self) -> str:
+        """What the terminal should say of it; empty while there is nothing."""
+        return "paused on the page" if self._paused_at is not None and not self._stop else ""
 
     def steer(self, generation: int) -> Mapping[str, float] | None:
         """What the page's sliders say for this generation, None if they have not been moved; waits while it says pause.
@@ -142,7 +155,8 @@ class Watch:
                 "errors": meta["errors"],
                 "motion": str((outcome.directory / MOTION).resolve()),
             }
-            scene = self._draw(outcome.motion)
+            motion = outcome.motion
+            scene = self._drawn(lambda: motion)
         with self._lock:
             self._rest(None)
             self._verdict = {**verdict, "elapsed": self._elapsed()}
@@ -157,13 +171,20 @@ class Watch:
         generation, now = self._latest, time.perf_counter()
         if generation is None or not self._listeners or now < self._next_replay:
             return
-        if generation.best.weights is self._shown:
+        if self._best is self._shown:
             return
-        scene = self._draw(record(self._objective, so_far(generation), seed=self._seed))
+        scene = self._drawn(lambda: record(self._objective, so_far(generation), seed=self._seed))
         with self._lock:
-            self._scene, self._shown = scene, generation.best.weights
+            self._scene, self._shown = scene or self._scene, self._best
         took = time.perf_counter() - now
         self._next_replay = now + took + max(_REPLAY_EVERY, took / SHARE)
+
+    def _drawn(self, motion: Callable[[], Motion]) -> dict[str, Any] | None:
+        """A motion's scene. What cannot be shown is no reason to end a solve."""
+        try:
+            return self._draw(motion())
+        except Exception:
+            return None
 
     # the server's threads
 
