@@ -70,6 +70,9 @@ export class CameraView {
   reset() {
     this.touched = false;
     const { camera, controls } = this;
+    controls.enableDamping = false; // what is left of an earlier turn is spent here
+    controls.update();
+    controls.enableDamping = true;
     const azimuth = THREE.MathUtils.degToRad(this.look.azimuth);
     const elevation = THREE.MathUtils.degToRad(this.look.elevation);
     const forward = new THREE.Vector3(

@@ -25,7 +25,7 @@ export function createPlayer(element, scene, options = {}) {
   const clock = new Clock(0);
   const listeners = new Set();
   const shown = {};
-  let times = new Float32Array([0]);
+  let times = new Float64Array(1);
   let picture = null;
   let theme = options.theme ?? "light";
   let frame = 0;
@@ -53,13 +53,14 @@ export function createPlayer(element, scene, options = {}) {
     const note = document.createElement("p");
     note.textContent = "No 3D picture: this browser has no WebGL, or it is turned off.";
     note.className = "player-note";
+    note.style.padding = "2em";
     element.append(note);
     console.warn(`player: ${error.message}`);
   }
 
   function update(next) {
     scene = { ...scene, ...next };
-    times = unpack(scene.motion.time);
+    times = Float64Array.from(unpack(scene.motion.time), (time) => Math.round(time * 1e6) / 1e6); // 0.3, not 0.30000001
     clock.duration = times[times.length - 1];
     clock.time = Math.min(clock.time, clock.duration);
     for (const { name, shown: visible } of scene.layers) shown[name] ??= visible;
