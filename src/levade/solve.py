@@ -4,16 +4,19 @@
     solution.success, solution.trials_to_success, solution.errors
 
 Everything is deterministic: the same task, seed and versions give the same solution to the bit, for any number of threads.
-A `Record` of each generation holds what its simulations said; given the records of an interrupted solve, the loop runs
-through them again without simulating (the optimizer asks for the same candidates) and goes on to the same end.
+Weights that a caller changes on the way (``steer``) are part of the solution, as `levade.tasks.Change`: a task with these
+changes gives it again. A `Record` of each generation holds what its simulations said; given the records of an interrupted
+solve, the loop runs through them again without simulating (the optimizer asks for the same candidates) and goes on to the
+same end.
 """
 
 from __future__ import annotations
 
 import zlib
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -26,7 +29,7 @@ from levade.errors import LevadeError, did_you_mean
 from levade.optimizers import OPTIMIZERS, Aim, Optimizer
 from levade.policies import Ends, Follower, GaussianKernels, Group, Policy, smoothness_factor
 from levade.robots import Leg, Robot, load_robot, mirror_signs
-from levade.tasks import PolicyChoice, Stage, Task, looks_at_hold
+from levade.tasks import Change, PolicyChoice, Stage, Task, looks_at_hold
 from levade.trajectory import Array, Trajectories
 
 
@@ -217,7 +220,7 @@ class Record:
 
 @dataclass(frozen=True)
 class Trial:
-    """One trial and what it achieved: cost, by the task's own weights; terms, unweighted; errors, SI."""
+    """One trial and what it achieved: cost, by the task's own weights, as changed so far; terms, unweighted; errors, SI."""
 
     weights: Array
     cost: float
@@ -232,6 +235,7 @@ class Generation:
 
     cost: (population,) as told to the optimizer. best: over all generations and stages. trials: spent so far.
     trials_to_success: trials spent when one first met every criterion. replayed: whether it came from a record.
+    weights: of the best trial's cost. changes: of the weights, that hold or are still to come.
     """
 
     generation: int
@@ -245,13 +249,15 @@ class Generation:
     trials_to_success: int | None
     record: Record
     replayed: bool
+    weights: Mapping[str, float]
+    changes: tuple[Change, ...]
 
 
 @dataclass(frozen=True)
 class Solution:
     """The outcome: the best trial, and what it took.
 
-    stopped: "success" (and polished), "budget" or "interrupted".
+    stopped: "success" (and polished), "budget" or "interrupted". weights, changes: as in `Generation`.
     """
 
     best: Trial
@@ -260,6 +266,8 @@ class Solution:
     trials_to_success: int | None
     diverged: int
     stopped: str
+    weights: Mapping[str, float]
+    changes: tuple[Change, ...]
 
     @property
     def success(self) -> bool:
@@ -286,30 +294,43 @@ def solve(
     seed: int = 0,
     threads: int = 0,
     observe: Callable[[Generation], object] | None = None,
+    steer: Callable[[int], Mapping[str, float] | None] | None = None,
     records: Iterable[Record] = (),
 ) -> Solution:
     """Search for a motion that does the task.
 
     task: or an `Objective` that was made of one. seed: of the optimizer.
     observe: called after each generation. KeyboardInterrupt, from it or from the keyboard, ends the search with the best
-    trial so far. records: of an earlier solve of the same task and seed; the search goes on after them.
-    Raises LevadeError if the records are not of this search.
+    trial so far.
+    steer: called before each generation that is simulated, with its number; what it returns, cost -> factor on its
+    weight, holds from this generation on, as a `levade.tasks.Change` in the task would. It may take its time, and raise
+    KeyboardInterrupt.
+    records: of an earlier solve of the same task and seed; the search goes on after them.
+    Raises LevadeError if the records are not of this search, or steer names a cost that the task has not.
     """
     objective = task if isinstance(task, Objective) else Objective(task, threads=threads)
     task = objective.task
     stages, search = task.stages, _Search()
     aim = Aim() if task.search.aim and task.success else None
     optimizer = make_optimizer(objective, seed)
-    earlier = iter(records)
-    weights = {name: cost.weight for name, cost in task.costs.items()}
+    earlier = deque(records)
+    weights = _weights(task, 0)
     stopped = "budget"
     _enter(search, objective, stages[0], optimizer)
     try:
         while search.trials + optimizer.population <= max(task.search.trials, optimizer.population):
-            stage = stages[search.stage]
+            stage, number = stages[search.stage], search.generations + 1
+            if steer is not None and not earlier:
+                factors = steer(number)
+                if factors:
+                    task = task.changed(Change(number, dict(factors)))
+            if weights != (weights := _weights(task, number)):
+                _weigh_anew(search, objective, weights)
+                if aim is not None:
+                    aim.forget()
             candidates = optimizer.ask()
-            record, replayed = _evaluate(objective, candidates, search, stage, earlier)
-            cost = objective.cost(record.evaluation, {**weights, **stage.weights})
+            record, replayed = _evaluate(objective, candidates, search, earlier)
+            cost = objective.cost(record.evaluation, {**weights, **_stage_weights(task, stage, number)})
             optimizer.tell(cost)
             if aim is not None:
                 aim.tell(candidates, _missed(task, record.evaluation), cost)
@@ -339,6 +360,8 @@ def solve(
                         trials_to_success=search.trials_to_success,
                         record=record,
                         replayed=replayed,
+                        weights=weights,
+                        changes=task.search.changes,
                     )
                 )
             polish = task.search.polish
@@ -368,6 +391,8 @@ def solve(
         trials_to_success=search.trials_to_success,
         diverged=search.diverged,
         stopped=stopped,
+        weights=weights,
+        changes=task.search.changes,
     )
 
 
@@ -386,6 +411,18 @@ def make_optimizer(objective: Objective, seed: int) -> Optimizer:
         population=search.population,
         step_adaptation=search.step_adaptation,
     )
+
+
+def _weights(task: Task, generation: int) -> dict[str, float]:
+    """Cost -> weight in a generation, by the task's own weights."""
+    factors = task.search.factors(generation)
+    return {name: cost.weight * factors.get(name, 1.0) for name, cost in task.costs.items()}
+
+
+def _stage_weights(task: Task, stage: Stage, generation: int) -> dict[str, float]:
+    """Cost -> weight in a generation, of those costs that the stage weighs by itself."""
+    factors = task.search.factors(generation)
+    return {name: weight * factors.get(name, 1.0) for name, weight in stage.weights.items()}
 
 
 def _missed(task: Task, evaluation: Evaluation) -> Array:
@@ -416,15 +453,13 @@ def _ends(stage: Stage, search: _Search, evaluation: Evaluation) -> bool:
     return bool(within.any())
 
 
-def _evaluate(
-    objective: Objective, candidates: Array, search: _Search, stage: Stage, earlier: Iterable[Record]
-) -> tuple[Record, bool]:
+def _evaluate(objective: Objective, candidates: Array, search: _Search, earlier: deque[Record]) -> tuple[Record, bool]:
     """The record of a generation: an earlier one while there are any, else from simulation."""
     checksum = zlib.crc32(np.ascontiguousarray(candidates).tobytes())
     number = search.generations + 1
-    record = next(iter(earlier), None)
-    if record is None:
+    if not earlier:
         return Record(number, checksum, objective.evaluate(candidates, hold_steps=search.hold_steps)), False
+    record = earlier.popleft()
     if (record.generation, record.checksum) != (number, checksum):
         raise LevadeError(
             f"generation {number} of the records is of another search: the task, the seed or a library has changed since;"
@@ -454,6 +489,17 @@ def _keep_best(
             errors={name: float(values[first]) for name, values in evaluation.errors.items()},
             success=bool(evaluation.success[first]),
         )
+
+
+def _weigh_anew(search: _Search, objective: Objective, weights: Mapping[str, float]) -> None:
+    """What the best trial costs by other weights: those that it will be compared with are weighed by them, too."""
+    best = search.best
+    if best is None:
+        return
+    one = {name: np.array([value]) for name, value in best.terms.items()}
+    diverged = np.array([any(value >= DIVERGED for value in best.terms.values())])
+    cost = objective.cost(Evaluation(one, {}, np.array([best.success]), diverged), weights)
+    search.best = replace(best, cost=float(cost[0]))
 
 
 def _reconsider(search: _Search, objective: Objective, weights: Mapping[str, float], hold_steps: int) -> None:

@@ -3,30 +3,41 @@
 const SLOW = 0.045; // s a picture
 const FAST = 0.02;
 const FINEST = 2; // pixels of the canvas for one of the page
+const COARSEST = 0.6;
 
 export class Pace {
   constructor() {
     this.share = 1;
-    this.run = 0;
+    this.start();
+  }
+
+  start() {
+    this.mean = (SLOW + FAST) / 2;
+    this.pictures = 0;
   }
 
   get ratio() {
-    return Math.min(window.devicePixelRatio || 1, FINEST) * (this.moving ? this.share : 1);
+    return this.finest * (this.moving ? this.share : 1);
+  }
+
+  get finest() {
+    return Math.min(window.devicePixelRatio || 1, FINEST);
   }
 
   // passed: seconds since the picture before, 0 if that is long ago. The ratio for the next one.
   next(passed, moving) {
     this.moving = moving;
-    if (passed > SLOW) this.run = Math.max(this.run, 0) + (passed > 3 * SLOW ? 2 : 1);
-    else if (passed > 0 && passed < FAST) this.run = Math.min(this.run, 0) - 1;
-    if (this.run >= 4) this.change(0.75);
-    else if (this.run <= -120) this.change(1 / 0.75);
+    if (passed > 0) {
+      this.mean += 0.25 * (passed - this.mean);
+      this.pictures += 1;
+      if (this.pictures > 3 && this.mean > SLOW) this.change(0.75);
+      else if (this.pictures > 120 && this.mean < FAST) this.change(1 / 0.75);
+    }
     return this.ratio;
   }
 
   change(factor) {
-    const least = 0.6 / Math.min(window.devicePixelRatio || 1, FINEST);
-    this.share = Math.min(1, Math.max(this.share * factor, least));
-    this.run = 0;
+    this.share = Math.min(1, Math.max(this.share * factor, COARSEST / this.finest));
+    this.start();
   }
 }

@@ -25,7 +25,7 @@ export function createPlayer(element, scene, options = {}) {
   const clock = new Clock(0);
   const listeners = new Set();
   const shown = {};
-  let times = new Float32Array([0]);
+  let times = new Float64Array(1);
   let picture = null;
   let theme = options.theme ?? "light";
   let frame = 0;
@@ -39,7 +39,7 @@ export function createPlayer(element, scene, options = {}) {
 
   function step(now) {
     frame = 0;
-    const passed = before ? Math.min((now - before) / 1000, 0.5) : 0;
+    const passed = before ? Math.min(Math.max(now - before, 0) / 1000, 0.5) : 0;
     const moved = clock.advance(passed);
     if (moved) tell();
     const gliding = picture?.draw(clock.time, clock.playing, passed) ?? false;
@@ -53,13 +53,14 @@ export function createPlayer(element, scene, options = {}) {
     const note = document.createElement("p");
     note.textContent = "No 3D picture: this browser has no WebGL, or it is turned off.";
     note.className = "player-note";
+    note.style.padding = "2em";
     element.append(note);
     console.warn(`player: ${error.message}`);
   }
 
   function update(next) {
     scene = { ...scene, ...next };
-    times = unpack(scene.motion.time);
+    times = Float64Array.from(unpack(scene.motion.time), (time) => Math.round(time * 1e6) / 1e6); // 0.3, not 0.30000001
     clock.duration = times[times.length - 1];
     clock.time = Math.min(clock.time, clock.duration);
     for (const { name, shown: visible } of scene.layers) shown[name] ??= visible;
@@ -143,6 +144,21 @@ export function createPlayer(element, scene, options = {}) {
       player.seek(times[Math.min(Math.max(from + frames, 0), times.length - 1)]);
     },
     update,
+    // Poses the bodies as the motion does not have them, until the next update: (bodies, 3) and (bodies, 4) x-y-z-w, flat.
+    pose(position, quaternion) {
+      picture?.setPose(position, quaternion);
+      wake();
+    },
+    // Puts an object on a body, or at -1 into the world, for as long as the shapes stay; returns what draws it anew.
+    attach(body, object) {
+      (body < 0 ? picture?.stage.scene : picture?.robot.bodies[body])?.add(object);
+      const changed = () => {
+        picture?.redraw();
+        wake();
+      };
+      changed();
+      return changed;
+    },
     dispose() {
       cancelAnimationFrame(frame);
       document.removeEventListener("keydown", onKey);
@@ -234,9 +250,18 @@ class Picture {
       const planes = scene.model.geoms.filter((geom) => geom.layer === "ground");
       stage.setGround(planes, size, reach, middle);
       this.view.setSubject(points, scene.camera);
-    }
+    } else this.view.keepInSight(points);
     this.setTheme(scene.palette[theme], theme === "dark");
     this.setShown(shown);
+  }
+
+  setPose(position, quaternion) {
+    this.robot.hold(position, quaternion);
+    this.time = null;
+  }
+
+  redraw() {
+    this.time = null;
   }
 
   // Points that should be seen: the robot on its way, what it may touch, where it should get.

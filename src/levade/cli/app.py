@@ -80,6 +80,15 @@ def solve(
     resume: Annotated[Path | None, typer.Option(metavar="DIR", help="Go on with the interrupted run in DIR.")] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace an interrupted run in the directory.")] = False,
     threads: Annotated[int, typer.Option(min=0, help="0 for one per core; no effect on the result.")] = 0,
+    watch: Annotated[
+        bool, typer.Option("--watch", help="Show it on a page in the browser, with pause, stop and weights to move.")
+    ] = False,
+    watch_host: Annotated[
+        str | None, typer.Option(metavar="ADDRESS", help="Of the page; by default only this machine can reach it.")
+    ] = None,
+    watch_port: Annotated[int | None, typer.Option(min=0, max=65535, help="Of the page; 0 for a free one.")] = None,
+    open_page: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
+    keep_open: Annotated[bool, typer.Option("--keep-open", help="Serve the page on at the end, until Ctrl-C.")] = False,
     as_json: Json = False,
 ) -> int:
     """Search for a motion that does TASK, and write it to a directory.
@@ -87,7 +96,9 @@ def solve(
     Exit status: 0 the success criteria hold, 1 they do not (everything is still written), 2 the input is wrong.
     """
     from levade.cli.solving import solve_and_report
+    from levade.cli.watching import options
 
+    watching = options(watch, watch_host, watch_port, open_page, keep_open)
     changes = list(change or [])
     if trials is not None:
         changes.append(f"search.trials={trials}")
@@ -111,6 +122,7 @@ def solve(
         resume_from=resume,
         force=force,
         threads=threads,
+        watching=watching,
         as_json=as_json,
     )
 
@@ -139,6 +151,25 @@ def show(
 
     pictures = Pictures(figures, format, strip, poses, video, slow, camera)
     return show_motions(motions, pictures, report=not as_json if report is None else report, as_json=as_json)
+
+
+@app.command()
+def view(
+    what: Annotated[
+        str,
+        typer.Argument(metavar="MOTION|ROBOT|TASK", help="A built-in name, or a file: motion.npz, robot.yaml, task."),
+    ],
+    out: Annotated[Path | None, typer.Option(metavar="FILE", help="Write the page, as .html, and serve none.")] = None,
+    host: Annotated[
+        str | None, typer.Option(metavar="ADDRESS", help="To serve at; by default only this machine can reach it.")
+    ] = None,
+    port: Annotated[int | None, typer.Option(min=0, max=65535, help="To serve at; 0 for a free one.")] = None,
+    open_page: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
+) -> None:
+    """Look at a motion, a robot (its joints to move) or a task (start, scene, goal) in the browser."""
+    from levade.cli.viewing import view as show_page
+
+    show_page(what, out=out, host=host, port=port, browse=open_page)
 
 
 @app.command()

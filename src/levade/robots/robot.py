@@ -134,10 +134,14 @@ class Robot:
         data = self.data_at(joint_position)
         return np.array([data.geom(foot).xpos for foot in self.feet])
 
+    def foot_depths(self, joint_position: Array) -> Array:
+        """(feet,) [m], how far the lowest point of each foot is below the trunk's origin at (joints,) [rad]."""
+        data = self.data_at(joint_position)
+        return np.array([_depth(self.model, data, foot) for foot in self.feet])
+
     def standing_height(self, posture: str | Mapping[str, float] = "neutral") -> float:
         """[m], the trunk's origin above the lowest point of the feet, the trunk level."""
-        data = self.data_at(self.posture(posture))
-        return max(_depth(self.model, data, foot) for foot in self.feet)
+        return float(self.foot_depths(self.posture(posture)).max())
 
     @cached_property
     def neutral_height(self) -> float:

@@ -6,6 +6,7 @@ task = load_task("my-task.yaml", robot="my/robot.yaml")
 
 from levade.tasks.document import TERMS, builtin_tasks, load_task, task_from_dict, task_text, task_to_dict, task_to_yaml
 from levade.tasks.task import (
+    Change,
     Cost,
     PolicyChoice,
     RobotChoice,
@@ -18,6 +19,7 @@ from levade.tasks.task import (
 
 __all__ = [
     "TERMS",
+    "Change",
     "Cost",
     "PolicyChoice",
     "RobotChoice",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from levade.costs import Criterion, Term
@@ -101,6 +101,18 @@ class Stage:
 
 
 @dataclass(frozen=True)
+class Change:
+    """Weights that change in the middle of a search, as the sliders of ``levade solve --watch`` do it.
+
+    generation: the first one that they hold in, counted from 1. factors: cost -> factor on its weight, the task's own and
+    those of the stages, until another change names the cost; 1 for what the task says.
+    """
+
+    generation: int
+    factors: Mapping[str, float]
+
+
+@dataclass(frozen=True)
 class Search:
     """How to look.
 
@@ -111,6 +123,7 @@ class Search:
         all if None. step_adaptation: see `levade.optimizers.CMAES`.
     aim: whether one candidate of each generation is aimed at the criteria: see `levade.optimizers.Aim`.
     polish: trials to go on for after the first success, for a lower cost; None goes on to the end of the budget.
+    changes: of the costs' weights on the way.
     """
 
     optimizer: str = "cma"
@@ -122,6 +135,12 @@ class Search:
     step_adaptation: Literal["csa", "tpa"] = "tpa"
     aim: bool = True
     polish: int | None = 0
+    changes: tuple[Change, ...] = ()
+
+    def factors(self, generation: int) -> dict[str, float]:
+        """Cost -> factor on its weight in a generation; costs that nothing changed are left out."""
+        due = sorted((c for c in self.changes if c.generation <= generation), key=lambda change: change.generation)
+        return {name: factor for change in due for name, factor in change.factors.items()}
 
 
 @dataclass(frozen=True)
@@ -194,6 +213,17 @@ class Task:
             if not (math.isfinite(stage.step) and stage.step > 0):
                 raise LevadeError(f"{where}.step: {stage.step} should be a positive factor on the step size")
 
+        for i, change in enumerate(self.search.changes):
+            _check_change(f"search.changes.{i}", change, self.costs)
+
+    def changed(self, change: Change) -> Task:
+        """The same task with one more change of its weights; it replaces factors that it names in the same generation."""
+        before = {c.generation: c for c in self.search.changes}
+        factors = before[change.generation].factors if change.generation in before else {}
+        before[change.generation] = Change(change.generation, {**factors, **change.factors})
+        changes = tuple(before[generation] for generation in sorted(before))
+        return replace(self, search=replace(self.search, changes=changes))
+
     @property
     def horizon_steps(self) -> int:
         return max(1, round(self.horizon / self.physics.timestep))
@@ -213,6 +243,16 @@ def looks_at_hold(term: object) -> bool:
 def _check_hold(where: str, term: object, hold: float) -> None:
     if getattr(term, "at", None) == "hold" and hold == 0:
         raise LevadeError(f"{where}.at: hold, but the task has no hold; give it one (hold: 2.0) or say at: horizon")
+
+
+def _check_change(where: str, change: Change, costs: Mapping[str, Cost]) -> None:
+    if change.generation < 1:
+        raise LevadeError(f"{where}.generation: {change.generation} should be 1 or more; the first one is 1")
+    for name, factor in change.factors.items():
+        if name not in costs:
+            raise LevadeError(f"{where}.factors: no {name!r} in this task; {did_you_mean(name, costs)}")
+        if not (math.isfinite(factor) and factor >= 0):
+            raise LevadeError(f"{where}.factors.{name}: {factor} should be a factor on the weight, 0 or more")
 
 
 def _check_search(search: Search) -> None:
