@@ -103,3 +103,36 @@ def test_progress_of_another_search_is_not_taken(directory: Path, tmp_path: Path
     assert progress_beside(tmp_path / "motion.npz", motion) is None
     (tmp_path / "progress.csv").write_text("generation,trials\n1,17\n")
     assert progress_beside(tmp_path / "motion.npz", motion) is None
+
+
+def test_a_page_is_written_beside_each_motion(
+    directory: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in ("motion.npz", "other.npz", "progress.csv"):
+        (tmp_path / name).write_bytes((directory / name).read_bytes())
+    _, out, _ = levade(capsys, "show", tmp_path / "motion.npz")
+    assert f"To open in a browser: {tmp_path / 'report.html'}" in out
+    assert '"cost":{"trials":[8,16]' in (tmp_path / "report.html").read_text(encoding="utf-8")
+    _, out, _ = levade(capsys, "show", tmp_path / "motion.npz", tmp_path / "other.npz")
+    assert f"To open in a browser: {tmp_path / 'report.html'}, {tmp_path / 'other-report.html'}" in out
+    assert (tmp_path / "other-report.html").stat().st_size > 100_000
+    _, out, _ = levade(capsys, "show", tmp_path / "motion.npz", "--report", "--json")
+    assert json.loads(out)["written"] == [str(tmp_path / "report.html")]
+
+
+@pytest.mark.parametrize("options", [["--no-report"], ["--json"]])
+def test_no_page_where_none_is_wanted(
+    directory: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], options: list[str]
+) -> None:
+    (tmp_path / "motion.npz").write_bytes((directory / "motion.npz").read_bytes())
+    assert levade(capsys, "show", tmp_path / "motion.npz", *options)[0] == 1
+    assert [path.name for path in tmp_path.iterdir()] == ["motion.npz"]
+
+
+def test_a_file_that_is_no_report_stays(directory: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "motion.npz").write_bytes((directory / "motion.npz").read_bytes())
+    (tmp_path / "report.html").write_text("notes")
+    status, _, err = levade(capsys, "show", tmp_path / "motion.npz")
+    assert (status, err.count("\n")) == (2, 1)
+    assert "is no report of levade's" in err
+    assert (tmp_path / "report.html").read_text() == "notes"

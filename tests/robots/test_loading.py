@@ -157,11 +157,14 @@ def test_a_path_may_be_the_folder_the_file_or_a_string(toy: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("hyq2mx",), "no robot 'hyq2mx'; did you mean hyq2max? (or the path of a robot.yaml)"),
-        (("spot/robot.yaml",), "spot/robot.yaml: no such file; give a built-in robot or the path of a robot.yaml"),
+        (("hyq2mx",), "no robot 'hyq2mx'; did you mean hyq2max? (or the path of an MJCF, URDF or robot.yaml)"),
+        (
+            ("spot/robot.yaml",),
+            "spot/robot.yaml: no such file; give a built-in robot, or the path of an MJCF, URDF or robot.yaml",
+        ),
         (
             ("go1.xml",),
-            "go1.xml: a model alone does not say which joints make a leg; give the robot.yaml that names it",
+            "go1.xml: no such file; give a built-in robot, or the path of an MJCF, URDF or robot.yaml",
         ),
     ],
 )
@@ -207,7 +210,7 @@ def test_unknown_leg_and_posture() -> None:
         ("foot: left_foot", "fot: left_foot", "robot.yaml: legs.l.fot: unknown key; did you mean foot?"),
         ("stall_torque: 9", "stal_torque: 9", "actuations.motor.stal_torque: unknown key; did you mean stall_torque?"),
         ("limits: {torque:", "limits: {torques:", "limits.torques: unknown key; did you mean torque?"),
-        ("trunk: base", "", "robot.yaml: trunk: missing"),
+        ("trunk: base", "", "robot.yaml: no free base, the robot is bolted to the world; give its trunk a <freejoint/>"),
         ("no_load_speed: 30", "time_constant: 0", "actuations.motor.no_load_speed: missing"),
         ("neutral: 0", "stand: 0", "postures: neutral is missing; give the angles of the standing robot"),
         # types and values
@@ -225,7 +228,7 @@ def test_unknown_leg_and_posture() -> None:
         ("[left_hip]", "[right_hip]", "legs.r.joints: joint right_hip is there twice"),
         ("[left_hip]", "[left_hip, right_hip]", "legs.l.joints: left_hip should be nearer to the trunk than right_hip"),
         ("foot: left_foot", "foot: left_food", "legs.l.foot: no geom 'left_food' in toy.xml; did you mean left_foot?"),
-        ("trunk: base", "trunk: left", "legs.l.joints: left_hip does not hang on the trunk left"),
+        ("trunk: base", "trunk: left", "trunk: body left should have one free joint and no other"),
         ("neutral: 0", "neutral: {left_hop: 0}", "postures.neutral: no joint 'left_hop'; did you mean left_hip?"),
         ("neutral: 0", "neutral: {left_hip: 0}", "postures.neutral: no value for joint right_hip;"),
         ("neutral: 0", 'neutral: {"l*": 0, "*hip": 0}', "left_hip fits 'l*' and '*hip'; it should fit one"),
@@ -248,9 +251,9 @@ def test_mistakes_in_the_description(toy: Path, old: str, new: str, message: str
     ("file", "old", "new", "message"),
     [
         ("toy.xml", "</mujoco>", "", "toy.xml: XML parse error"),
-        ("toy.xml", 'name="base"', 'nam="base"', "toy.xml: XML Error: Schema violation: unrecognized attribute: 'nam'"),
+        ("toy.xml", 'name="base"', 'nam="base"', "toy.xml: Schema violation: unrecognized attribute: 'nam'"),
         ("toy.xml", 'mass="1"', 'mass="-1"', "toy.xml: "),
-        ("shapes.xml", "wedge.obj", "wedges.obj", "toy.xml: meshes: no file "),
+        ("shapes.xml", "wedge.obj", "wedges.obj", "toy.xml: mesh 'wedge' not found in geom"),
         ("toy.xml", 'axis="0 1 0"/>', 'axis="0 1 0" type="slide"/>', "legs.l.joints: joint left_hip should be a hinge"),
         ("toy.xml", '<geom type="mesh"', '<joint name="turn"/><geom type="mesh"', "base should have one free joint"),
         ("toy.xml", '<body name="right"', TAIL + '<body name="right"', "legs: joint tail of toy.xml is in no leg"),

@@ -127,14 +127,43 @@ def show(
     camera: Annotated[
         str | None, typer.Option(metavar="AZ,EL[,DIST]", help="Of strip and video: degrees and m, such as 118,-12.")
     ] = None,
+    report: Annotated[
+        bool | None,
+        typer.Option("--report/--no-report", help="Write report.html beside the motion; without --json the default."),
+    ] = None,
     as_json: Json = False,
 ) -> int:
-    """Summarise a motion: goal against result, peaks against the robot's limits, where it came from."""
+    """Summarise a motion, and write its page beside it: report.html, to open in any browser."""
     from levade.cli.picturing import Pictures
     from levade.cli.showing import show_motions
 
     pictures = Pictures(figures, format, strip, poses, video, slow, camera)
-    return show_motions(motions, pictures, as_json=as_json)
+    return show_motions(motions, pictures, report=not as_json if report is None else report, as_json=as_json)
+
+
+@app.command()
+def export(
+    motion: Annotated[Path, typer.Argument(metavar="MOTION", help="A motion.npz.")],
+    to: Annotated[
+        str | None, typer.Option(metavar="FORMAT", help="csv, json, ros2, mjlab or unitree; see docs/export.md.")
+    ] = None,
+    out: Annotated[Path | None, typer.Option(metavar="DIR", help="To write; by default MOTION-FORMAT.")] = None,
+    rate: Annotated[float | None, typer.Option(metavar="HZ", help="Rows a second; by default the format's.")] = None,
+    reference: Annotated[
+        str, typer.Option(help="What to send: measured (with feed-forward torque) or commanded (as simulated).")
+    ] = "measured",
+    hold: Annotated[bool, typer.Option("--hold/--no-hold", help="Go on after the horizon, or stop there.")] = True,
+    kp: Annotated[float | None, typer.Option(help="Of all joints [Nm/rad]; by default the simulation's.")] = None,
+    kd: Annotated[float | None, typer.Option(help="Of all joints [Nm s/rad]; by default the simulation's.")] = None,
+    as_json: Json = False,
+) -> int:
+    """Write a motion for a robot or another tool, with a player.py that plays it.
+
+    Exit status: 0 it is written, 2 the input is wrong.
+    """
+    from levade.cli.exporting import export_motion
+
+    return export_motion(motion, to, out, rate=rate, reference=reference, hold=hold, kp=kp, kd=kd, as_json=as_json)
 
 
 _tasks = typer.Typer(help="List the built-in tasks; print one, or the form of them all.", rich_markup_mode=None)

@@ -1,25 +1,25 @@
-"""``levade show``: what a motion file holds."""
+"""``levade show``: what a motion file holds, on the terminal and as a page."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from rich.console import Console
 from rich.markup import escape
 
 from levade.cli.comparing import comparison_table
-from levade.cli.picturing import Pictures, draw, labels
+from levade.cli.picturing import Pictures, draw, labels, progress_beside
 from levade.cli.tables import make_console, motion_summary
 from levade.motion import Motion
 
 
-def show_motions(paths: Sequence[Path], pictures: Pictures, *, as_json: bool) -> int:
-    """Exit status 0 if all motions meet their success criteria, else 1."""
+def show_motions(paths: Sequence[Path], pictures: Pictures, *, report: bool, as_json: bool) -> int:
+    """Exit status 0 if all motions meet their success criteria, else 1. report: write the page of each."""
     motions = {path: Motion.load(path) for path in paths}
     if as_json:
-        written = draw(motions, pictures)
+        written = draw(motions, pictures) + (_reports(motions) if report else [])
         shown = [{"motion": str(path), **motion.meta} for path, motion in motions.items()]
         content = shown[0] if len(shown) == 1 else {"motions": shown}
         print(
@@ -32,8 +32,28 @@ def show_motions(paths: Sequence[Path], pictures: Pictures, *, as_json: bool) ->
         else:
             console.print(comparison_table(dict(zip(labels(list(motions)), motions.values(), strict=True))))
         if written := draw(motions, pictures):
-            console.print(f"Written: {', '.join(escape(str(path)) for path in written)}")
+            console.print(f"Written: {_listed(written)}")
+        if report:
+            console.print(f"To open in a browser: {_listed(_reports(motions))}")
     return 0 if all(motion.meta["success"] for motion in motions.values()) else 1
+
+
+def _listed(paths: Sequence[Path]) -> str:
+    return ", ".join(escape(str(path)) for path in paths)
+
+
+def report_path(motion: Path) -> Path:
+    """Where a motion's page goes: report.html beside motion.npz, best-report.html beside best.npz."""
+    return motion.with_name("report.html" if motion.stem == "motion" else f"{motion.stem}-report.html")
+
+
+def _reports(motions: Mapping[Path, Motion]) -> list[Path]:
+    from levade.report.page import write_page
+
+    return [
+        write_page(motion, report_path(path), progress_csv=progress_beside(path, motion), source=path.name)
+        for path, motion in motions.items()
+    ]
 
 
 def _show(console: Console, motion: Motion) -> None:

@@ -16,10 +16,8 @@ Needs matplotlib (`pip install levade[figures]`). The same motion gives the same
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -29,8 +27,9 @@ from levade.errors import LevadeError, did_you_mean
 from levade.motion import Motion
 from levade.policies import GaussianKernels
 from levade.report.files import writing
+from levade.report.series import QUANTITIES, Progress, goals, policy_names, read_progress, short, trunk_values
 from levade.report.style import LIGHT, leg_colours
-from levade.trajectory import Array, roll_pitch_yaw
+from levade.trajectory import Array
 
 FORMATS = ("pdf", "svg", "png")
 
@@ -80,42 +79,6 @@ _RC: dict[str, Any] = {
     "pdf.fonttype": 42,  # TrueType: journals refuse Type 3
     "svg.hashsalt": "levade",
 }
-
-
-@dataclass(frozen=True)
-class Progress:
-    """progress.csv: a row per generation. stage: (generations,) names; others: column -> (generations,)."""
-
-    stage: tuple[str, ...]
-    columns: Mapping[str, Array]
-
-    def __getitem__(self, name: str) -> Array:
-        return self.columns[name]
-
-
-def read_progress(path: str | Path) -> Progress:
-    """Raises LevadeError if there is no progress.csv of a solve."""
-    path = Path(path)
-    try:
-        with path.open(newline="", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
-        if not rows:
-            raise ValueError("no generation")
-        columns = {
-            name: np.array([float(row[name] or "nan") for row in rows])
-            for name in (
-                "trials",
-                "cost_best",
-                "cost_generation_best",
-                "cost_generation_median",
-                "cost_generation_worst",
-            )
-        }
-        return Progress(tuple(row["stage"] for row in rows), columns)
-    except OSError as error:
-        raise LevadeError(f"{path}: cannot be read ({error.strerror}); give the progress.csv of a solve") from None
-    except (KeyError, ValueError, TypeError, csv.Error):
-        raise LevadeError(f"{path}: is no progress.csv of a solve, or is damaged") from None
 
 
 def figures(
@@ -242,44 +205,21 @@ def _step(span: float, parts: int) -> float:
     return min((factor * power for factor in (1, 2, 5, 10)), key=lambda step: abs(math.log(step / raw)))
 
 
-_QUANTITIES = (("x", "y", "height"), ("roll", "pitch", "yaw"))
 _NAMES = ({"x": "$x$", "y": "$y$", "height": "$z$"}, {"roll": "roll", "pitch": "pitch", "yaw": "yaw"})
-
-
-def _trunk_values(motion: Motion) -> tuple[Array, Array]:
-    """(steps, 3) [m] and (steps, 3) [rad], each broken where an angle jumps by a turn."""
-    angles = roll_pitch_yaw(motion["trunk_quaternion"])
-    angles[1:][np.abs(np.diff(angles, axis=0)) > math.pi] = np.nan
-    return motion["trunk_com_position"], angles
-
-
-def _goals(motion: Motion) -> dict[str, list[tuple[float, float, float]]]:
-    """Quantity -> goals: time [s], target, tolerance."""
-    horizon, end = float(motion.meta["horizon"]), float(motion["time"][-1])
-    found: dict[str, list[tuple[float, float, float]]] = {}
-    for criterion in motion.meta["task"]["success"].values():
-        if criterion["target"] is not None and criterion["at"] in ("horizon", "end", "hold"):
-            when = horizon if criterion["at"] == "horizon" else end
-            found.setdefault(criterion["quantity"], []).append(
-                (when, criterion["target"], criterion["tolerance"] or 0.0)
-            )
-    return found
 
 
 def _trunk(motions: Mapping[str, Motion]) -> Any:
     ((_, motion),) = motions.items()
     figure, grid = _figure(COLUMN, 3.7, 2, 1, sharex=True)
-    goals = _goals(motion)
-    for row, (values, unit) in enumerate(
-        zip(_trunk_values(motion), ("position [m]", "orientation [rad]"), strict=True)
-    ):
+    targets = goals(motion)
+    for row, (values, unit) in enumerate(zip(trunk_values(motion), ("position [m]", "orientation [rad]"), strict=True)):
         axes = grid[row, 0]
         _time_axis(axes, motion, label=row == 1)
         wanted: list[float] = []
         for k, (quantity, name) in enumerate(_NAMES[row].items()):
             colour, style = LIGHT.axes[k], _STYLES[k]
             axes.plot(motion["time"], values[:, k], color=colour, linestyle=style, label=name)
-            for when, target, tolerance in goals.get(quantity, []):
+            for when, target, tolerance in targets.get(quantity, []):
                 wanted += [target - tolerance, target + tolerance]
                 axes.plot([0.0, when], [target] * 2, color=colour, linewidth=0.7, dashes=(2, 3), zorder=1.5)
                 axes.errorbar(
@@ -299,7 +239,7 @@ def _trunk(motions: Mapping[str, Motion]) -> Any:
         handles = [
             _line(name, color=LIGHT.axes[k], linestyle=_STYLES[k]) for k, name in enumerate(_NAMES[row].values())
         ]
-        if any(quantity in goals for quantity in _QUANTITIES[row]):
+        if any(quantity in targets for quantity in QUANTITIES[row]):
             handles.append(
                 _line(
                     "goal",
@@ -342,8 +282,8 @@ def _trunks(motions: Mapping[str, Motion]) -> Any:
             axes, wanted = grid[row, k], []
             _time_axis(axes, longest, label=False)
             for motion, look in zip(motions.values(), looks, strict=True):
-                axes.plot(motion["time"], _trunk_values(motion)[row][:, k], **look)
-                for when, target, tolerance in _goals(motion).get(quantity, []):
+                axes.plot(motion["time"], trunk_values(motion)[row][:, k], **look)
+                for when, target, tolerance in goals(motion).get(quantity, []):
                     wanted += [target - tolerance, target + tolerance]
                     axes.plot(
                         when,
@@ -471,18 +411,11 @@ def _joint_grid(motion: Motion) -> tuple[Any, list[tuple[Any, int, str]]]:
                 axes.set_visible(False)
                 continue
             joint = leg["joints"][row]
-            axes.set_title(f"{name.upper()} {_short(joint, name)}")
+            axes.set_title(f"{name.upper()} {short(joint, name)}")
             _time_axis(axes, motion, label=False)
             places.append((axes, names.index(joint), name))
     figure.supxlabel(_time_label(motion), fontsize=7.5)
     return figure, places
-
-
-def _short(joint: str, leg: str) -> str:
-    """lf_haa of leg lf -> HAA."""
-    rest = joint[len(leg) :].strip("_-") if joint.lower().startswith(leg.lower()) else joint
-    rest = rest.removesuffix("_joint") or joint
-    return rest.upper() if len(rest) <= 4 else rest
 
 
 def _beyond(axes: Any, low: float | None, high: float | None) -> None:
@@ -586,7 +519,7 @@ def _kernels(motion: Motion) -> Any:
     top.set_ylabel(r"$\varphi_i / \Sigma_j \varphi_j$ [-]")
     top.set_xlim(0.0, horizon)
     top.set_ylim(0.0, None)
-    named = _independent(motion, kernels, weights, horizon)
+    named = policy_names(motion, kernels, weights)
     for k, (w, name) in enumerate(zip(weights, named, strict=True)):
         axes = figure.add_subplot(specification[1 + k // columns, k % columns])
         axes.plot(time, phi @ w, color=LIGHT.measured)
@@ -618,29 +551,3 @@ def _kernels(motion: Motion) -> Any:
     _key(figure, handles, 2)
     figure.align_ylabels()
     return figure
-
-
-def _independent(motion: Motion, kernels: GaussianKernels, weights: Array, horizon: float) -> list[str]:
-    """Which joints each policy moves, found by its reference: "LF, RF HAA"."""
-    rows = motion.horizon_steps
-    phi, _ = kernels.basis(motion["time"][:rows], horizon)
-    reference = motion["joint_position_reference"][:rows]
-    legs = {joint: leg for leg, entry in motion.meta["legs"].items() for joint in entry["joints"]}
-    names, taken = [], set[int]()
-    for number, w in enumerate(weights):
-        wanted = phi @ w
-        same = [
-            (joint, sign)
-            for joint in range(reference.shape[1])
-            for sign in (1.0, -1.0)
-            if joint not in taken and np.abs(reference[:, joint] - sign * wanted).max() < 1e-6
-        ]
-        chosen = dict(reversed(same))
-        joints = [str(motion["joint_names"][joint]) for joint in sorted(chosen)]
-        taken |= set(chosen)
-        if not joints or any(joint not in legs for joint in joints):
-            names.append(", ".join(joints) or f"policy {number + 1}")
-            continue
-        short = _short(joints[0], legs[joints[0]])
-        names.append(", ".join(legs[joint].upper() for joint in joints) + f" {short}")
-    return names

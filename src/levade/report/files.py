@@ -10,10 +10,11 @@ from levade.errors import LevadeError
 
 
 @contextmanager
-def writing(path: Path) -> Iterator[Path]:
+def writing(path: Path, *, instead: str = "give a file that can") -> Iterator[Path]:
     """A place beside a file to write it at; put in the file's place at the end, removed if something goes wrong.
 
     The file's directory is made if need be. Raises LevadeError if it cannot be written, before any work is done.
+    instead: what the reader of the error can do.
     """
     partial = path.with_name(f".{path.stem}.partial{path.suffix}")
     try:
@@ -22,11 +23,11 @@ def writing(path: Path) -> Iterator[Path]:
         path.parent.mkdir(parents=True, exist_ok=True)
         partial.touch()
     except OSError as error:
-        raise LevadeError(f"{path}: cannot be written ({error.strerror}); give a file that can") from None
+        raise LevadeError(f"{path}: cannot be written ({error.strerror}); {instead}") from None
     try:
         yield partial
         partial.replace(path)
     except OSError as error:
-        raise LevadeError(f"{path}: cannot be written ({error.strerror or error}); give a file that can") from None
+        raise LevadeError(f"{path}: cannot be written ({error.strerror or error}); {instead}") from None
     finally:
         partial.unlink(missing_ok=True)

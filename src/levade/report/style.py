@@ -126,17 +126,22 @@ DARK = Theme(
 
 def leg_colours(legs: Mapping[str, Mapping[str, Any]], theme: Theme) -> dict[str, str]:
     """Colour of each leg: leg name -> "#rrggbb". legs: as in a motion's meta, with the keys ``end`` and ``side``."""
-    free = {f"{end}_{side}" for end in ("front", "hind") for side in ("left", "right")}
-    others = list(theme.others)
-    colours = {}
+    places = leg_places(legs)
+    return {
+        name: theme.others[int(place[5:])] if place.startswith("other") else getattr(theme, place.replace("-", "_"))
+        for name, place in places.items()
+    }
+
+
+def leg_places(legs: Mapping[str, Mapping[str, Any]]) -> dict[str, str]:
+    """What each leg's colour is called in the stylesheet: leg name -> "front-left" and so on, or "other0"."""
+    free = {f"{end}-{side}" for end in ("front", "hind") for side in ("left", "right")}
+    places = {}
     for number, (name, leg) in enumerate(legs.items()):
-        place = f"{leg.get('end')}_{leg.get('side')}"
-        if place in free:
-            free.discard(place)
-            colours[name] = getattr(theme, place)
-        else:
-            colours[name] = others[number % len(others)]
-    return colours
+        place = f"{leg.get('end')}-{leg.get('side')}"
+        places[name] = place if place in free else f"other{number % len(LIGHT.others)}"
+        free.discard(place)
+    return places
 
 
 def stylesheet() -> str:

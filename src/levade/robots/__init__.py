@@ -10,8 +10,9 @@ A robot is one YAML file beside its model. ``data/hyq2max/robot.yaml`` is the ex
 from levade.robots.actuation import PID, Actuation, DCMotor
 from levade.robots.dimensions import Dimensions, dimensions
 from levade.robots.loading import builtin_robots, load_robot
-from levade.robots.robot import Leg, Robot
+from levade.robots.robot import Robot
 from levade.robots.symmetry import mirror_signs
+from levade.robots.understanding import Leg
 
 __all__ = [
     "PID",

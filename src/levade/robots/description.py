@@ -63,11 +63,11 @@ class CurveForm(_Form):
 
 
 class PIDForm(_Form):
-    """kp [Nm/rad], kd [Nm s/rad], torque [Nm], by default that of the limits."""
+    """kp [Nm/rad] and kd [Nm s/rad], by default those of `levade.robots.gains`; torque [Nm], by default that of the limits."""
 
     kind: Literal["pid"]
-    kp: PerJoint
-    kd: PerJointOrZero
+    kp: PerJoint | None = None
+    kd: PerJointOrZero | None = None
     torque: PerJoint | None = None
 
 
@@ -75,8 +75,8 @@ class DCMotorForm(_Form):
     """As `PIDForm`, and stall_torque [Nm], no_load_speed [rad/s], time_constant [s]: see `levade.robots.actuation`."""
 
     kind: Literal["dcmotor"]
-    kp: PerJoint
-    kd: PerJointOrZero
+    kp: PerJoint | None = None
+    kd: PerJointOrZero | None = None
     torque: PerJoint | None = None
     stall_torque: PerJoint
     no_load_speed: PerJoint
@@ -102,22 +102,24 @@ class VariantForm(_Form):
 
 
 class RobotForm(_Form):
-    """A whole robot.yaml.
+    """A whole robot.yaml. Only ``model`` has to be there: what is left out is derived from the model.
 
-    model: MJCF or URDF file, relative to this one. trunk: body with the free joint. actuation: the default among
-    actuations. linkage: joint -> torque curve, used only when asked for.
+    model: MJCF or URDF file, relative to this one. trunk: body with the free joint. fixed: joint -> angle [rad] at which
+    one that is in no leg is held. actuation: the default among actuations. linkage: joint -> torque curve, used only
+    when asked for.
     """
 
-    name: str
+    name: str = ""
     description: str = ""
     model: str
-    trunk: str
-    legs: Annotated[dict[str, LegForm], Field(min_length=1)]
-    postures: dict[str, Angles]
+    trunk: str | None = None
+    legs: dict[str, LegForm] = {}
+    fixed: dict[str, Number] = {}
+    postures: dict[str, Angles] = {}
     limits: LimitsForm = LimitsForm()
     linkage: dict[str, CurveForm] = {}
-    actuation: str
-    actuations: Annotated[dict[str, ActuationForm], Field(min_length=1)]
+    actuation: str | None = None
+    actuations: dict[str, ActuationForm] = {}
     variants: dict[str, VariantForm] = {}
 
 
@@ -125,9 +127,12 @@ def read_description(path: Path) -> RobotForm:
     """The checked content of a robot.yaml; `LevadeError` says which key is wrong and what would be right."""
     content = read_yaml(path, like="name, model, trunk, legs")
     try:
-        return RobotForm.model_validate(content)
+        form = RobotForm.model_validate(content)
     except ValidationError as error:
         raise LevadeError(f"{path}: {_first(error)}") from None
+    if form.actuation is None and len(form.actuations) > 1:
+        raise LevadeError(f"{path}: actuation: missing; say which of {', '.join(form.actuations)} is the default")
+    return form.model_copy(update={"name": form.name or Path(form.model).stem})
 
 
 def per_joint(

@@ -1,7 +1,8 @@
-"""Loading: from the name of a built-in robot, or the path of a robot.yaml, to a `Robot`."""
+"""Loading: from a name, an MJCF, a URDF or a robot.yaml to a `Robot`."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -9,14 +10,33 @@ import mujoco
 import numpy as np
 
 from levade.errors import LevadeError, did_you_mean
+from levade.robots import gains
 from levade.robots.actuation import PID, Actuation, DCMotor
-from levade.robots.robot import Leg, Robot
+from levade.robots.findings import note, warning
+from levade.robots.packages import find_package_robot
+from levade.robots.preparing import exclude_overlaps, fix_joints, float_freely, lighten, support_servos
+from levade.robots.reading import Draft, read_model
+from levade.robots.robot import Robot
+from levade.robots.standing import (
+    CROUCHED_EXTENSION,
+    NEUTRAL_EXTENSION,
+    STRETCHED_EXTENSION,
+    Bare,
+    neutral_from,
+)
+from levade.robots.understanding import Leg, find_legs, find_trunk, roles
+from levade.robots.visuals import thin_visuals
 from levade.trajectory import Array, JointLimits, TorqueCurve
 
 if TYPE_CHECKING:
     from levade.robots.description import RobotForm
 
 _BUILT_IN = Path(__file__).parent / "data"
+_MODELS = (".xml", ".urdf", ".mjcf")
+_NO_LIMIT = 4
+"""Times the torque that could carry the robot; above it, a number in a file stands for "no limit"."""
+_SERVO = "servo"
+"""Name of the actuation of a robot whose description names none."""
 
 
 def builtin_robots() -> list[tuple[str, str]]:
@@ -35,18 +55,19 @@ def load_robot(
     kp: float | None = None,
     kd: float | None = None,
 ) -> Robot:
-    """A built-in robot by name, or any robot by the path of its robot.yaml (or of the folder that holds one).
+    """A built-in robot by name, one of an installed package by ``package:robot``, or any robot by the path of its MJCF,
+    URDF or robot.yaml (or of the folder that holds one).
 
-    actuation, variant: names from the description; the default actuation and the plain model if left out.
+    What a robot.yaml leaves out is derived from the model, and for a model alone everything is; ``Robot.findings`` says
+    what and how. actuation, variant: names from the description; the default actuation and the plain model if left out.
     linkage: lower the torque limits by the linkage's curves. kp [Nm/rad], kd [Nm s/rad]: for all joints, instead of the
     description's. Raises `LevadeError`.
     """
-    from levade.robots.description import read_description
-
     path = _find(str(name_or_path))
-    form = read_description(path)
+    form = _describe(path)
+    valid_actuations = list(form.actuations) or [_SERVO]
     for value, key, valid in (
-        (actuation or form.actuation, "actuation", form.actuations),
+        (actuation or form.actuation, "actuation", valid_actuations),
         (variant, "variant", form.variants),
     ):
         if value is not None and value not in valid:
@@ -60,31 +81,42 @@ def load_robot(
             f"{path}: linkage: asked for, but the description has none; give the joints' torque curves there"
         )
 
-    legs = tuple(Leg(name, tuple(leg.joints), leg.foot, leg.side, leg.end) for name, leg in form.legs.items())
-    spec, assets = _read_model(path, form.model)
-    _check(spec, path, form, legs)
-    _strip(spec, form)
+    place = path.parent / form.model
+    if not place.is_file():
+        raise LevadeError(f"{path}: model: no file {place}")
+    draft = read_model(place)
+    if form.trunk is not None:
+        float_freely(draft, form.trunk, path)
     if variant is not None:
-        _apply_variant(spec, path, form, variant)
-    _compiled(spec, path, form)
-    mjcf = spec.to_xml()
-    model = mujoco.MjModel.from_xml_string(mjcf, assets)
-
-    joints = [joint for leg in legs for joint in leg.joints]
-    limits = _limits(model, joints, path, form, linkage)
+        _apply_variant(draft, path, form, variant)
+    bare = _understand(draft, path, form)
+    torque, velocity = _limits(draft, bare, path, form)
+    postures = _postures(draft, bare, path, form, torque)
+    joints = bare.joints
+    neutral = dict(zip(joints, postures["neutral"].tolist(), strict=True))
+    chosen = _actuation(actuation or form.actuation, draft, bare, path, form, neutral, torque, velocity, kp, kd)
+    exclude_overlaps(draft, bare, neutral)
+    if draft.urdf:
+        support_servos(draft, bare, neutral, chosen)
+    thin_visuals(draft, bare.model)
+    lighten(draft)
+    model = draft.compile()
+    curves = _curves(joints, path, form)
+    ranges = np.array([bare.ranges[joint] for joint in joints])
     return Robot(
         name=form.name,
-        mjcf=mjcf,
-        assets=assets,
-        trunk=form.trunk,
-        legs=legs,
-        limits=limits,
-        actuation=_actuation(actuation or form.actuation, joints, path, form, limits.torque, kp, kd),
-        postures=_postures(joints, path, form, limits),
+        mjcf=draft.spec.to_xml(),
+        assets=draft.assets,
+        trunk=model.body(bare.trunk).name,
+        legs=bare.legs,
+        limits=JointLimits(ranges[:, 0], ranges[:, 1], velocity, torque, curves if linkage else {}),
+        actuation=chosen,
+        postures=postures,
         description=form.description,
         variant=variant,
         linkage=linkage,
         source=str(path),
+        findings=tuple(draft.findings),
     )
 
 
@@ -98,104 +130,125 @@ def _find(name_or_path: str) -> Path:
         return built_in[name_or_path]
     if path.is_dir():
         path = path / "robot.yaml"
-    if path.suffix in (".xml", ".urdf", ".mjcf"):
-        raise LevadeError(
-            f"{path}: a model alone does not say which joints make a leg; give the robot.yaml that names it"
-        )
     if path.is_file():
         return path
-    if path.suffix in (".yaml", ".yml") or "/" in name_or_path or "\\" in name_or_path:
-        raise LevadeError(f"{path}: no such file; give a built-in robot or the path of a robot.yaml")
-    raise LevadeError(
-        f"no robot {name_or_path!r}; {did_you_mean(name_or_path, built_in)} (or the path of a robot.yaml)"
-    )
+    packaged = find_package_robot(name_or_path)
+    if packaged is not None:
+        return packaged
+    if path.suffix in (".yaml", ".yml", *_MODELS) or "/" in name_or_path or "\\" in name_or_path:
+        raise LevadeError(f"{path}: no such file; give a built-in robot, or the path of an MJCF, URDF or robot.yaml")
+    hint = did_you_mean(name_or_path, built_in)
+    raise LevadeError(f"no robot {name_or_path!r}; {hint} (or the path of an MJCF, URDF or robot.yaml)")
 
 
-def _read_model(description: Path, name: str) -> tuple[mujoco.MjSpec, dict[str, bytes]]:
-    """The model's spec and the files it needs, which it then names by their bare, unique names."""
-    path = description.parent / name
-    if not path.is_file():
-        raise LevadeError(f"{description}: model: no file {path}")
-    try:
-        spec = mujoco.MjSpec.from_file(str(path))
-    except ValueError as error:
-        raise LevadeError(f"{path}: {_one_line(error)}") from None
-    assets: dict[str, bytes] = {}
-    places = {}
-    for kind, folder in (("meshes", spec.meshdir), ("hfields", spec.meshdir), ("textures", spec.texturedir)):
-        for element in getattr(spec, kind):
-            if not element.file:
-                continue
-            place = path.parent / folder / element.file
-            if not place.is_file():
-                raise LevadeError(f"{path}: {kind}: no file {place}")
-            element.name = element.name or Path(element.file).stem
-            if place not in places:
-                places[place] = place.name if place.name not in assets else f"{len(assets)}-{place.name}"
-                assets[places[place]] = place.read_bytes()
-            element.file = places[place]
-    spec.meshdir = spec.texturedir = ""
-    spec.assets = assets
-    return spec, assets
+def _describe(path: Path) -> RobotForm:
+    """The description at a path; for a model, the robot.yaml beside it that describes it, or else a bare one."""
+    from levade.robots.description import RobotForm, read_description
+
+    if path.suffix.lower() not in _MODELS:
+        return read_description(path)
+    beside = path.with_name("robot.yaml")
+    if beside.is_file():
+        form = read_description(beside)
+        if Path(form.model).name == path.name:
+            return form
+    return RobotForm(name=path.stem, model=path.name)
 
 
-def _check(spec: mujoco.MjSpec, path: Path, form: RobotForm, legs: tuple[Leg, ...]) -> None:
-    """Check that the model has what the description names, where it should be, and no joint beside."""
-    bodies = [body.name for body in spec.bodies]
-    joints = {joint.name: joint for joint in spec.joints}
-    geoms = [geom.name for geom in spec.geoms]
-    if form.trunk not in bodies[1:]:
+def _understand(draft: Draft, path: Path, form: RobotForm) -> Bare:
+    """Trunk and legs, as described or found; whatever else moves is fixed."""
+    model = draft.compile()
+    where = str(path)
+    trunk = find_trunk(model, where)
+    if form.trunk is not None and model.body(trunk).name != form.trunk:
         raise LevadeError(
-            f"{path}: trunk: no body {form.trunk!r} in {form.model}; {did_you_mean(form.trunk, bodies[1:])}"
+            f"{path}: trunk: {form.trunk} is not the body that floats freely, {model.body(trunk).name} is"
         )
-    used: set[str] = set()
-    for leg in legs:
-        for joint in leg.joints:
-            where = f"{path}: legs.{leg.name}.joints"
-            if joint not in joints:
+    for joint in form.fixed:
+        names = [model.joint(j).name for j in range(model.njnt)]
+        if joint not in names:
+            raise LevadeError(f"{path}: fixed: no joint {joint!r} in {form.model}; {did_you_mean(joint, names)}")
+    if form.legs:
+        legs = _described_legs(model, trunk, path, form)
+        used = {joint for leg in legs for joint in leg.joints}
+        free = model.joint(int(model.body_jntadr[trunk])).name
+        others = [
+            name for j in range(model.njnt) for name in [model.joint(j).name] if name not in used and name != free
+        ]
+        for joint in others:
+            if joint not in form.fixed:
                 raise LevadeError(
-                    f"{where}: no joint {joint!r} in {form.model}; {did_you_mean(joint, filter(None, joints))}"
+                    f"{path}: legs: joint {joint} of {form.model} is in no leg; add it to one, or: fixed: {{{joint}: 0}}"
                 )
-            if joints[joint].type != mujoco.mjtJoint.mjJNT_HINGE:
+    else:
+        legs, others = find_legs(model, trunk, where)
+        kept = draft.keyframes[0].angles if draft.keyframes else {}
+        if others:
+            draft.findings.append(
+                note(
+                    ", ".join(others[:4]) + (f" and {len(others) - 4} more" if len(others) > 4 else ""),
+                    "in no leg: held fixed" + (f" as in keyframe {draft.keyframes[0].name}" if kept else " at zero"),
+                    "robot.yaml, fixed: {joint: angle} holds them elsewhere",
+                )
+            )
+        form = form.model_copy(update={"fixed": {**{j: kept.get(j, 0.0) for j in others}, **form.fixed}})
+    if others:
+        fix_joints(draft, {joint: form.fixed[joint] for joint in others}, path)
+        model = draft.compile()
+        trunk = find_trunk(model, where)
+    ranges = {}
+    for joint in (joint for leg in legs for joint in leg.joints):
+        handle = model.joint(joint)
+        limited = bool(handle.limited[0])
+        # the digits of the XML text, which is what is simulated
+        ranges[joint] = (
+            (float(f"{handle.range[0]:.6g}"), float(f"{handle.range[1]:.6g}")) if limited else (-np.inf, np.inf)
+        )
+    return Bare(model, trunk, legs, ranges)
+
+
+def _described_legs(model: mujoco.MjModel, trunk: int, path: Path, form: RobotForm) -> tuple[Leg, ...]:
+    """The legs that the description names, checked against the model."""
+    joints = {model.joint(j).name: j for j in range(model.njnt)}
+    geoms = [model.geom(g).name for g in range(model.ngeom)]
+    used: set[str] = set()
+    legs = []
+    for name, leg in form.legs.items():
+        where = f"{path}: legs.{name}.joints"
+        for joint in leg.joints:
+            if joint not in joints:
+                raise LevadeError(f"{where}: no joint {joint!r} in {form.model}; {did_you_mean(joint, joints)}")
+            if model.jnt_type[joints[joint]] != mujoco.mjtJoint.mjJNT_HINGE:
                 raise LevadeError(f"{where}: joint {joint} should be a hinge")
             if joint in used:
                 raise LevadeError(f"{where}: joint {joint} is there twice")
             used.add(joint)
-        for inner, outer in zip(leg.joints, leg.joints[1:], strict=False):
-            if joints[inner].parent.name not in _ancestors(joints[outer].parent):
-                raise LevadeError(f"{path}: legs.{leg.name}.joints: {inner} should be nearer to the trunk than {outer}")
-        if form.trunk not in _ancestors(joints[leg.joints[0]].parent):
-            raise LevadeError(
-                f"{path}: legs.{leg.name}.joints: {leg.joints[0]} does not hang on the trunk {form.trunk}"
-            )
+        bodies = [int(model.jnt_bodyid[joints[joint]]) for joint in leg.joints]
+        for inner, outer, body, further in zip(leg.joints, leg.joints[1:], bodies, bodies[1:], strict=False):
+            if body not in _ancestors(model, further):
+                raise LevadeError(f"{where}: {inner} should be nearer to the trunk than {outer}")
+        if trunk not in _ancestors(model, bodies[0]):
+            raise LevadeError(f"{where}: {leg.joints[0]} does not hang on the trunk {model.body(trunk).name}")
         if leg.foot not in geoms:
             hint = did_you_mean(leg.foot, filter(None, geoms))
-            raise LevadeError(f"{path}: legs.{leg.name}.foot: no geom {leg.foot!r} in {form.model}; {hint}")
-
-    trunk = spec.body(form.trunk)
-    free = [joint.type for joint in trunk.joints] == [mujoco.mjtJoint.mjJNT_FREE]
-    if not free and (trunk.joints or trunk.parent.name != "world"):
-        raise LevadeError(f"{path}: trunk: body {form.trunk} should have one free joint and no other")
-    for name, joint in joints.items():
-        if name not in used and joint.type != mujoco.mjtJoint.mjJNT_FREE:
-            raise LevadeError(
-                f"{path}: legs: joint {name} of {form.model} is in no leg; add it to one or fix it in the model"
-            )
+            raise LevadeError(f"{path}: legs.{name}.foot: no geom {leg.foot!r} in {form.model}; {hint}")
+        ordered = tuple(leg.joints)
+        legs.append(Leg(name, ordered, leg.foot, leg.side, leg.end, roles(model, ordered)))
+    return tuple(legs)
 
 
-def _strip(spec: mujoco.MjSpec, form: RobotForm) -> None:
-    """Make the model the bare robot: no actuators, no keyframes, a free joint on the trunk (URDF has none)."""
-    for element in [*spec.actuators, *spec.keys]:
-        spec.delete(element)
-    trunk = spec.body(form.trunk)
-    if not trunk.joints:
-        trunk.add_freejoint(name="root")
+def _ancestors(model: mujoco.MjModel, body: int) -> set[int]:
+    """Ids of the bodies between this one and the world, without either."""
+    found = set()
+    while (body := int(model.body_parentid[body])) != 0:
+        found.add(body)
+    return found
 
 
-def _apply_variant(spec: mujoco.MjSpec, path: Path, form: RobotForm, variant: str) -> None:
+def _apply_variant(draft: Draft, path: Path, form: RobotForm, variant: str) -> None:
     """Replace the inertials that the variant names."""
+    spec, model = draft.spec, draft.compile()
     bodies = [body.name for body in spec.bodies][1:]
-    model = _compiled(spec, path, form)
     for name, inertial in form.variants[variant].inertials.items():
         if name not in bodies:
             where = f"{path}: variants.{variant}.inertials"
@@ -215,73 +268,164 @@ def _apply_variant(spec: mujoco.MjSpec, path: Path, form: RobotForm, variant: st
             body.iquat = [1.0, 0.0, 0.0, 0.0]
 
 
-def _ancestors(body) -> set[str]:
-    """Names of the bodies between this one and the world, without either."""
-    names = set()
-    while (body := body.parent) is not None and body.name != "world":
-        names.add(body.name)
-    return names
-
-
-def _compiled(spec: mujoco.MjSpec, path: Path, form: RobotForm) -> mujoco.MjModel:
-    try:
-        return spec.compile()
-    except ValueError as error:
-        raise LevadeError(f"{path.parent / form.model}: {_one_line(error)}") from None
-
-
-def _limits(model: mujoco.MjModel, joints: list[str], path: Path, form: RobotForm, linkage: bool) -> JointLimits:
-    from levade.robots.description import joint_array, per_joint
-
-    limited = np.array([bool(model.joint(joint).limited[0]) for joint in joints])
-    lower, upper = np.array([model.joint(joint).range for joint in joints]).T
-    infinite = np.full(len(joints), np.inf)
-    curves = per_joint(form.linkage, joints, f"{path}: linkage", all_joints=False)
-    return JointLimits(
-        lower=np.where(limited, lower, -np.inf),
-        upper=np.where(limited, upper, np.inf),
-        velocity=joint_array(form.limits.velocity, joints, f"{path}: limits.velocity")
-        if form.limits.velocity
-        else infinite,
-        torque=joint_array(form.limits.torque, joints, f"{path}: limits.torque") if form.limits.torque else infinite,
-        torque_curves={joints.index(j): TorqueCurve(c.peak, c.rate, c.centre) for j, c in curves.items()}
-        if linkage
-        else {},
-    )
-
-
-def _actuation(
-    name: str, joints: list[str], path: Path, form: RobotForm, torque: Array, kp: float | None, kd: float | None
-) -> Actuation:
-    from levade.robots.description import PIDForm, joint_array
-
-    chosen = form.actuations[name]
-
-    def values(key: str) -> Array:
-        return joint_array(getattr(chosen, key), joints, f"{path}: actuations.{name}.{key}")
-
-    kps = values("kp") if kp is None else np.full(len(joints), float(kp))
-    kds = values("kd") if kd is None else np.full(len(joints), float(kd))
-    torques = values("torque") if chosen.torque else torque
-    if isinstance(chosen, PIDForm):
-        return PID(name, kps, kds, torques)
-    return DCMotor(name, kps, kds, torques, values("stall_torque"), values("no_load_speed"), chosen.time_constant)
-
-
-def _postures(joints: list[str], path: Path, form: RobotForm, limits: JointLimits) -> dict[str, Array]:
+def _limits(draft: Draft, bare: Bare, path: Path, form: RobotForm) -> tuple[Array, Array]:
+    """Torque [Nm] and velocity [rad/s] limits, (joints,): the description's, else the model's, else assumed."""
     from levade.robots.description import joint_array
 
-    if "neutral" not in form.postures:
-        raise LevadeError(f"{path}: postures: neutral is missing; give the angles of the standing robot")
-    postures = {}
+    joints = bare.joints
+    if form.limits.velocity:
+        velocity = joint_array(form.limits.velocity, joints, f"{path}: limits.velocity")
+    else:
+        velocity = np.array([draft.velocity.get(joint, np.inf) for joint in joints])
+    if form.limits.torque:
+        return joint_array(form.limits.torque, joints, f"{path}: limits.torque"), velocity
+    torque = np.array([draft.effort.get(joint, np.inf) for joint in joints])
+    mass = float(bare.model.body_mass.sum())
+    longest = max(bare.leg_length(leg) for leg in bare.legs)
+    assumed = gains.assumed_torque(mass, longest)
+    missing = [joint for joint, limit in zip(joints, torque, strict=True) if limit > _NO_LIMIT * assumed]
+    if missing and not form.actuations:
+        torque[torque > _NO_LIMIT * assumed] = assumed
+        draft.findings.append(
+            warning(
+                f"joints {', '.join(missing)}" if len(missing) < len(joints) else "all joints",
+                f"have no torque limit; {assumed:.3g} Nm is assumed",
+                "robot.yaml, limits: {torque: ...} gives the real one",
+            )
+        )
+    return torque, velocity
+
+
+def _curves(joints: tuple[str, ...], path: Path, form: RobotForm) -> dict[int, TorqueCurve]:
+    from levade.robots.description import per_joint
+
+    curves = per_joint(form.linkage, joints, f"{path}: linkage", all_joints=False)
+    return {joints.index(joint): TorqueCurve(c.peak, c.rate, c.centre) for joint, c in curves.items()}
+
+
+def _postures(draft: Draft, bare: Bare, path: Path, form: RobotForm, torque: Array) -> dict[str, Array]:
+    """The description's postures, and those that every robot has: neutral, crouched, stretched."""
+    from levade.robots.description import joint_array
+
+    joints = bare.joints
+    postures: dict[str, Array] = {}
     for name, table in form.postures.items():
         angles = postures[name] = joint_array(table, joints, f"{path}: postures.{name}")
-        for joint, angle, lower, upper in zip(joints, angles, limits.lower, limits.upper, strict=True):
+        for joint, angle in zip(joints, angles, strict=True):
+            lower, upper = bare.ranges[joint]
             if not lower <= angle <= upper:
                 where = f"{path}: postures.{name}: {joint} = {angle:g} rad"
                 raise LevadeError(f"{where} is outside its range {lower:.4g} .. {upper:.4g} rad")
+    understood = all({"hfe", "kfe"} <= set(leg.roles) for leg in bare.legs)
+    if "neutral" not in postures:
+        if not understood:
+            raise LevadeError(f"{path}: postures: neutral is missing; give the angles of the standing robot")
+        found = _neutral(draft, bare, path, torque)
+        postures = {"neutral": np.array([found[joint] for joint in joints]), **postures}
+    for name, extension in (("crouched", CROUCHED_EXTENSION), ("stretched", STRETCHED_EXTENSION)):
+        derived = bare.posture(extension) if understood and name not in postures else None
+        if derived is not None:
+            postures[name] = np.array([derived[joint] for joint in joints])
     return postures
 
 
-def _one_line(error: Exception) -> str:
-    return " ".join(str(error).split())
+def _neutral(draft: Draft, bare: Bare, path: Path, torque: Array) -> dict[str, float]:
+    keyframe = neutral_from(bare, draft.keyframes)
+    if keyframe is not None:
+        angles, name = keyframe
+        draft.findings.append(note("posture neutral", f"is keyframe {name or 'without a name'} of the model"))
+        return angles
+    reachable = None
+    for extension in NEUTRAL_EXTENSION:
+        angles = bare.posture(extension)
+        if angles is None:
+            continue
+        reachable = reachable or (angles, extension)
+        needed = bare.static_torque(angles)
+        if all(abs(needed[joint]) <= limit for joint, limit in zip(bare.joints, torque, strict=True)):
+            break
+    else:
+        if reachable is None:
+            raise LevadeError(
+                f"{path}: no standing posture within the joints' ranges has the feet under the hips; give one:"
+                " robot.yaml, postures: {neutral: {joint: angle}}"
+            )
+        angles, extension = reachable
+        needed = bare.static_torque(angles)
+        joint = max(bare.joints, key=lambda j: abs(needed[j]) / torque[bare.joints.index(j)])
+        draft.findings.append(
+            warning(
+                f"joint {joint}",
+                f"needs {abs(needed[joint]):.3g} Nm to stand, more than its limit",
+                "check the limits and the masses",
+            )
+        )
+    draft.findings.append(
+        note("posture neutral", f"found by search: feet under the hips, {extension:.0%} of the leg's length below")
+    )
+    return angles
+
+
+def _actuation(
+    name: str | None,
+    draft: Draft,
+    bare: Bare,
+    path: Path,
+    form: RobotForm,
+    neutral: Mapping[str, float],
+    torque: Array,
+    velocity: Array,
+    kp: float | None,
+    kd: float | None,
+) -> Actuation:
+    """The actuators: the description's, else the model's servos, else servos with derived gains."""
+    from levade.robots.description import PIDForm, joint_array
+
+    joints = bare.joints
+    name = name or next(iter(form.actuations), _SERVO)
+    chosen = form.actuations.get(name)
+
+    def values(key: str) -> Array | None:
+        table = getattr(chosen, key, None)
+        return None if table is None else joint_array(table, joints, f"{path}: actuations.{name}.{key}")
+
+    kps = values("kp") if kp is None else np.full(len(joints), float(kp))
+    kds = values("kd") if kd is None else np.full(len(joints), float(kd))
+    if chosen is None and set(joints) <= set(draft.servos):
+        kept = [draft.servos[joint] for joint in joints]
+        kps = np.array([servo.kp for servo in kept], dtype=float) if kps is None else kps
+        kds = np.array([servo.kd for servo in kept], dtype=float) if kds is None else kds
+        draft.findings.append(
+            note("gains", f"are the model's own servos': {_range(kps, 'Nm/rad')}, {_range(kds, 'Nm s/rad')}")
+        )
+    if kps is None or kds is None:
+        mass = float(bare.model.body_mass.sum())
+        derived = gains.stiffness(mass, max(bare.leg_length(leg) for leg in bare.legs))
+        kps = np.full(len(joints), derived) if kps is None else kps
+        if kds is None:
+            inertia = max(bare.joint_inertia(neutral).values())
+            kds = np.full(len(joints), gains.damping(float(kps.max()), inertia))
+        draft.findings.append(
+            note(
+                "gains",
+                f"derived from mass and inertia: {_range(kps, 'Nm/rad')}, {_range(kds, 'Nm s/rad')}",
+                "robot.yaml, actuations: {servo: {kind: pid, kp: ..., kd: ...}} gives others",
+            )
+        )
+    torques = values("torque")
+    torques = torque if torques is None else torques
+    if isinstance(chosen, PIDForm) or (chosen is None and not np.isfinite(velocity).all()):
+        return PID(name, kps, kds, torques)
+    if chosen is None:
+        lines = [gains.speed_line(float(t), float(v)) for t, v in zip(torques, velocity, strict=True)]
+        stall, no_load = np.array(lines).T
+        return DCMotor(name, kps, kds, torques, stall, no_load, 0.0)
+    stall, no_load = values("stall_torque"), values("no_load_speed")
+    assert stall is not None
+    assert no_load is not None
+    return DCMotor(name, kps, kds, torques, stall, no_load, chosen.time_constant)
+
+
+def _range(values: Array, unit: str) -> str:
+    low, high = float(values.min()), float(values.max())
+    return f"{low:.3g} {unit}" if low == high else f"{low:.3g} to {high:.3g} {unit}"

@@ -21,22 +21,10 @@ import numpy as np
 
 from levade.errors import LevadeError, did_you_mean
 from levade.robots.actuation import Actuation
+from levade.robots.findings import Finding
+from levade.robots.shapes import support
+from levade.robots.understanding import Leg
 from levade.trajectory import Array, JointLimits, LegGeometry
-
-
-@dataclass(frozen=True)
-class Leg:
-    """One leg.
-
-    joints: names from the trunk outward. foot: name of the geom that stands on the ground. side: "left" or "right".
-    end: "front" or "hind".
-    """
-
-    name: str
-    joints: tuple[str, ...]
-    foot: str
-    side: str
-    end: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +36,7 @@ class Robot:
     postures: name -> (joints,) [rad], always with "neutral".
     variant: name of the description's variant, None for the plain model.
     linkage: whether ``limits`` has the linkage's torque curves. source: the description's path, for messages.
+    findings: what was noticed, chosen and left out when the robot was read.
     """
 
     name: str
@@ -62,6 +51,7 @@ class Robot:
     variant: str | None = None
     linkage: bool = False
     source: str = ""
+    findings: tuple[Finding, ...] = ()
 
     @property
     def joint_names(self) -> tuple[str, ...]:
@@ -191,13 +181,5 @@ class Robot:
 
 
 def _depth(model: mujoco.MjModel, data: mujoco.MjData, geom: str) -> float:
-    """How far the geom reaches below the world's origin [m]: its bounding box does, unless a sphere or a capsule."""
-    i = model.geom(geom).id
-    rotation = data.geom_xmat[i].reshape(3, 3)
-    kind, size = model.geom_type[i], model.geom_size[i]
-    if kind == mujoco.mjtGeom.mjGEOM_SPHERE:
-        return float(size[0] - data.geom_xpos[i, 2])
-    if kind == mujoco.mjtGeom.mjGEOM_CAPSULE:
-        return float(size[0] + size[1] * abs(rotation[2, 2]) - data.geom_xpos[i, 2])
-    centre = data.geom_xpos[i] + rotation @ model.geom_aabb[i, :3]
-    return float(np.abs(rotation[2]) @ model.geom_aabb[i, 3:] - centre[2])
+    """How far the geom reaches below the world's origin [m]."""
+    return -float(support(model, data, model.geom(geom).id, np.array([0.0, 0.0, -1.0]))[2])

@@ -1,0 +1,43 @@
+"""Arrays as text, for a page: base64 of little-endian numbers, so that a motion stays small and exact.
+
+    pack(points)                    # {"dtype": "f4", "shape": [75, 3], "data": "AACAPw..."}
+    unpack(pack(points))            # the same, as float32
+
+The page reads them with a typed array (`web/src/player-data.js`).
+"""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from levade.trajectory import Array
+
+UNIT = 32767
+"""An int16 of this size stands for 1, in what `pack_unit` writes."""
+
+_DTYPES = ("f4", "i2", "u2", "u4")
+
+
+def pack(values: Any, dtype: str = "f4") -> dict[str, Any]:
+    """dtype: "f4", "i2", "u2" or "u4". Numbers that do not fit are the caller's mistake: nothing is clipped."""
+    values = np.asarray(values)
+    assert dtype in _DTYPES
+    data = np.ascontiguousarray(values, dtype=f"<{dtype}").tobytes()
+    return {"dtype": dtype, "shape": list(values.shape), "data": base64.b64encode(data).decode("ascii")}
+
+
+def pack_unit(values: Array) -> dict[str, Any]:
+    """Numbers between -1 and 1, to 1.6e-5: quaternions, for one. Raises ValueError for others."""
+    if not (np.abs(values) <= 1.0 + 1e-9).all():
+        raise ValueError("pack_unit takes numbers between -1 and 1")
+    return pack(np.round(np.clip(values, -1.0, 1.0) * UNIT), "i2")
+
+
+def unpack(packed: Mapping[str, Any]) -> Array:
+    """What was packed, in the type it was packed in; of `pack_unit`, multiples of 1 / `UNIT`, still as int16."""
+    data = base64.b64decode(packed["data"])
+    return np.frombuffer(data, dtype=f"<{packed['dtype']}").reshape(packed["shape"])

@@ -1,0 +1,113 @@
+"""report.html: a motion on one page that needs no network, with a 3D player, plots that follow it, and where it is from.
+
+    path = write_page(motion, "rearing/report.html", progress_csv="rearing/progress.csv", source="motion.npz")
+
+The page's script and look are `web/` of the repository, bundled into `src/levade/report/web/`; its colours are
+`levade.report.style`'s. The same motion gives the same bytes.
+"""
+
+from __future__ import annotations
+
+import html
+import json
+import math
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from levade import __version__
+from levade.errors import LevadeError
+from levade.motion import Motion
+from levade.report.files import writing
+from levade.report.scene import scene_data
+from levade.report.series import read_progress, series_data
+from levade.report.style import stylesheet
+from levade.report.summary import provenance_data, summary_data
+
+_MARK = '<meta name="generator" content="levade'
+"""What tells a page of ours from other files."""
+
+_PAGE = """<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+{mark} {version}">
+<title>{title}</title>
+<link rel="icon" href="data:,">
+<style>{style}</style>
+</head>
+<body>
+<noscript><p>{title}. This page draws itself with JavaScript, which is off.</p></noscript>
+<script type="application/json" id="levade-data">{data}</script>
+<script>{script}</script>
+</body>
+</html>
+"""
+
+
+def write_page(
+    motion: Motion, path: str | Path, *, progress_csv: str | Path | None = None, source: str | None = None
+) -> Path:
+    """Write a motion's page. Returns its path.
+
+    progress_csv: of the motion's search; without it there is no plot of the cost. source: the motion's file, as the
+    page should call it. Raises LevadeError if the file cannot be written, or is there and is no page of levade.
+    """
+    path = Path(path)
+    if not _replaceable(path):
+        raise LevadeError(
+            f"{path}: is no report of levade's and would be replaced; move it away, or write none: --no-report"
+        )
+    with writing(path, instead="write none: --no-report") as partial:
+        text = page(motion, progress_csv=progress_csv, source=source)
+        partial.write_text(text, encoding="utf-8", newline="\n")
+    return path
+
+
+def page(motion: Motion, *, progress_csv: str | Path | None = None, source: str | None = None) -> str:
+    """The page as text."""
+    progress = None if progress_csv is None else read_progress(progress_csv)
+    provenance = provenance_data(motion) | {"written_by": f"levade {__version__}", "motion": source}
+    data = {
+        "summary": summary_data(motion),
+        "series": series_data(motion, progress),
+        "scene": scene_data(motion),
+        "provenance": provenance,
+    }
+    title = f"{provenance['task']} on {provenance['robot']}, seed {provenance['seed']}"
+    return _PAGE.format(
+        mark=_MARK,
+        version=__version__,
+        title=html.escape(title),
+        style=stylesheet() + _bundled("report.css").replace("</style", "<\\/style"),
+        data=_json(data),
+        script=_bundled("report.js").replace("</script", "<\\/script").replace("<!--", "<\\!--"),
+    )
+
+
+def _json(data: Any) -> str:
+    """JSON that can stand in a script element: nothing in it ends the element or begins a comment."""
+    return json.dumps(_sound(data), ensure_ascii=False, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+
+
+def _sound(data: Any) -> Any:
+    """JSON has no infinity and no NaN: null instead."""
+    if isinstance(data, dict):
+        return {key: _sound(value) for key, value in data.items()}
+    if isinstance(data, list | tuple):
+        return [_sound(value) for value in data]
+    return None if isinstance(data, float) and not math.isfinite(data) else data
+
+
+def _bundled(name: str) -> str:
+    return (files("levade.report") / "web" / name).read_text(encoding="utf-8")
+
+
+def _replaceable(path: Path) -> bool:
+    """Whether nothing is there, or a page of levade's; what cannot be read is left to the writing to complain of."""
+    try:
+        with path.open("rb") as file:
+            return _MARK.encode() in file.read(2000)
+    except OSError:
+        return True

@@ -1,0 +1,252 @@
+"""A motion as the page's 3D player takes it: one JSON object, small enough to put into the page.
+
+    scene = scene_data(motion)
+    json.dumps(scene)                       # about 0.1 MB for a motion of 0.3 s
+    scene["layers"]                         # what can be shown: [{"name": "path", "label": ..., "shown": True}, ...]
+
+``model``: shapes (`levade.report.shapes`). ``motion``: poses of the bodies at ``time``, and what is drawn over them.
+``palette``: colours of both themes. Arrays as in `levade.report.packing`; SI units, quaternions x-y-z-w. Poses are those of
+recorded rows, never of a time between: the first is the start, the horizon's and the last are always among them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from levade.motion import Motion
+from levade.report.packing import pack, pack_unit
+from levade.report.rendering import FIELD_OF_VIEW, Camera, load_model, replay
+from levade.report.shapes import moving_bodies, shapes_of
+from levade.report.style import DARK, LIGHT, Theme, leg_colours
+from levade.trajectory import Array, roll_pitch_yaw
+
+Rows = NDArray[np.int64]
+
+RATE = 250.0
+"""[Hz], at most so many poses a second: what is between them is interpolated."""
+
+FRAMES = 3000
+"""At most so many poses."""
+
+_ARROW = 0.22
+"""Length of an arrow as large as the robot's weight, by the reach of its legs."""
+
+_LONGEST = 0.8
+"""Where arrows end, by that reach: impacts of a step or two are larger, and get a second tip instead."""
+
+
+def scene_data(motion: Motion) -> dict[str, Any]:
+    """The page's scene of a motion. Raises LevadeError if the motion's model is damaged."""
+    model = load_model(motion)
+    rows = frame_rows(len(motion["time"]), motion.horizon_steps, float(motion.meta["timestep"]))
+    qpos = configurations(motion, model)[rows]
+    position, quaternion = body_poses(model, qpos)
+    shapes = shapes_of(model)
+    moving: dict[str, Any] = {
+        "time": pack(np.concatenate([[0.0], motion["time"]])[rows]),
+        "horizon": float(motion.meta["horizon"]),
+        "position": pack(position),
+        "quaternion": pack_unit(quaternion),
+        "reference": _reference(motion, model, rows, qpos),
+        "path": pack(_recorded(motion["trunk_com_position"], rows)),
+        "forces": _forces(motion, model, rows),
+        "goal": _goal(motion, model),
+    }
+    camera = Camera()
+    return {
+        "version": 1,
+        "robot": motion.meta["robot"],
+        "model": shapes,
+        "motion": moving,
+        "layers": _layers(shapes, moving),
+        "camera": {"azimuth": camera.azimuth, "elevation": camera.elevation, "fov": FIELD_OF_VIEW},
+        "palette": {"light": _palette(motion, LIGHT), "dark": _palette(motion, DARK)},
+    }
+
+
+def frame_rows(steps: int, horizon_steps: int, timestep: float) -> Rows:
+    """(frames,) rows that are kept of steps + 1, of which row 0 is the start: evenly spaced, horizon and end added."""
+    stride = max(1, math.ceil(1.0 / (RATE * timestep) - 1e-9), math.ceil(steps / FRAMES))
+    return np.unique(np.concatenate([np.arange(0, steps + 1, stride), [min(horizon_steps, steps), steps]]))
+
+
+def configurations(motion: Motion, model: Any) -> Array:
+    """(steps + 1, nq): the start, and what was recorded. Replayed, if the model has more joints than were recorded."""
+    free = int(model.body(motion.meta["trunk"]).jntadr[0])
+    root = int(model.jnt_qposadr[free])
+    joints = _joint_addresses(motion, model)
+    if model.nq != 7 + len(joints):
+        return replay(motion).qpos
+    qpos = np.tile(motion["qpos0"], (len(motion["time"]) + 1, 1))
+    qpos[1:, root : root + 3] = motion["trunk_position"]
+    qpos[1:, root + 3 : root + 7] = motion["trunk_quaternion"]
+    qpos[1:, joints] = motion["joint_position"]
+    sound = np.isfinite(qpos).all(axis=1)  # a trial that diverged stays where it last was
+    return qpos[np.maximum.accumulate(np.where(sound, np.arange(len(qpos)), 0))]
+
+
+def body_poses(model: Any, qpos: Array) -> tuple[Array, Array]:
+    """(rows, bodies, 3) [m] and (rows, bodies, 4) x-y-z-w, continuous, of the bodies that move, at (rows, nq)."""
+    bodies = moving_bodies(model)
+    data = mujoco.MjData(model)
+    position, quaternion = np.empty((len(qpos), len(bodies), 3)), np.empty((len(qpos), len(bodies), 4))
+    for row, configuration in enumerate(qpos):
+        data.qpos[:] = configuration
+        mujoco.mj_kinematics(model, data)
+        position[row], quaternion[row] = data.xpos[bodies], data.xquat[bodies]
+    quaternion = np.roll(quaternion, -1, axis=-1)
+    turned = np.sum(quaternion[1:] * quaternion[:-1], axis=-1) < 0.0
+    quaternion[1:][np.logical_xor.accumulate(turned, axis=0)] *= -1.0
+    return position, quaternion
+
+
+def _joint_addresses(motion: Motion, model: Any) -> list[int]:
+    return [int(model.joint(str(name)).qposadr[0]) for name in motion["joint_names"]]
+
+
+def _recorded(values: Array, rows: Rows) -> Array:
+    """Rows of something recorded at the end of each step; the start is like the first step. Never NaN."""
+    return np.nan_to_num(values[np.maximum(rows - 1, 0)], posinf=0.0, neginf=0.0)
+
+
+def _reference(motion: Motion, model: Any, rows: Rows, qpos: Array) -> dict[str, Any]:
+    """Poses of the legs at the reference angles, on the measured trunk: bodies (places), position, quaternion."""
+    wanted = qpos.copy()
+    wanted[:, _joint_addresses(motion, model)] = _recorded(motion["joint_position_reference"], rows)
+    bodies, trunk = moving_bodies(model), model.body(motion.meta["trunk"]).id
+    legs = [place for place, body in enumerate(bodies) if model.body_weldid[body] != model.body_weldid[trunk]]
+    position, quaternion = body_poses(model, wanted)
+    return {"bodies": legs, "position": pack(position[:, legs]), "quaternion": pack_unit(quaternion[:, legs])}
+
+
+def _forces(motion: Motion, model: Any, rows: Rows) -> dict[str, Any]:
+    """Contact force on each foot [N], and where: the foot's body (place), centre in it and radius [m], and leg."""
+    places = {body: place for place, body in enumerate(moving_bodies(model))}
+    feet = []
+    for name, leg in motion.meta["legs"].items():
+        geom = model.geom(leg["foot"])
+        radius = float(np.min(geom.size[geom.size > 0], initial=geom.rbound[0])) if len(geom.size) else 0.0
+        feet.append(
+            {
+                "leg": name,
+                "body": places[int(geom.bodyid[0])],
+                "centre": np.round(geom.pos, 6).tolist(),
+                "radius": round(radius, 6),
+            }
+        )
+    force = _recorded(motion["foot_contact_force"], rows)
+    reach = _reach(model, motion)
+    weight = 9.81 * float(model.body_mass.sum())
+    scale, longest = force_scale(weight, _ARROW * reach), round(_LONGEST * reach, 3)
+    beyond = bool(np.linalg.norm(force, axis=-1).max(initial=0.0) > scale * longest)
+    return {"feet": feet, "force": pack(force), "scale": scale, "longest": longest, "beyond": beyond}
+
+
+def force_scale(force: float, length: float) -> float:
+    """[N/m], how many newtons a metre of arrow stands for: a round number, that force no longer than that length [m]."""
+    least = max(force, 1.0) / length
+    decade = 10.0 ** math.floor(math.log10(least))
+    return next(step * decade for step in (1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0) if step * decade >= least * (1 - 1e-9))
+
+
+def _reach(model: Any, motion: Motion) -> float:
+    """[m], from the trunk along its longest leg."""
+    trunk, reaches = model.body(motion.meta["trunk"]).id, [0.1]
+    for leg in motion.meta["legs"].values():
+        geom = model.geom(leg["foot"])
+        body, reach = int(geom.bodyid[0]), float(np.linalg.norm(geom.pos))
+        while body not in (0, trunk):
+            reach += float(np.linalg.norm(model.body_pos[body]))
+            body = int(model.body_parentid[body])
+        reaches.append(reach)
+    return max(reaches)
+
+
+def _goal(motion: Motion, model: Any) -> dict[str, Any] | None:
+    """What is required of the trunk at the horizon: a box around the trunk where it should be, or None.
+
+    Angles and coordinates that nothing is required of are those that were reached.
+    """
+    wanted = {}
+    for name, criterion in (motion.meta["task"].get("success") or {}).items():
+        quantity, at = criterion.get("quantity") or name, criterion.get("at") or "horizon"
+        if at == "horizon" and isinstance(criterion.get("target"), int | float):
+            wanted[quantity] = float(criterion["target"])
+    if not wanted.keys() & {"roll", "pitch", "yaw", "x", "y", "height"}:
+        return None
+    row = min(motion.horizon_steps, len(motion["time"])) - 1
+    centre, attitude = motion["trunk_com_position"][row], motion["trunk_quaternion"][row]
+    if not (np.isfinite(centre).all() and np.isfinite(attitude).all()):
+        return None
+    reached = roll_pitch_yaw(attitude)
+    angles = [wanted.get(name, float(reached[axis])) for axis, name in enumerate(("roll", "pitch", "yaw"))]
+    centre = [wanted.get(name, float(centre[axis])) for axis, name in enumerate(("x", "y", "height"))]
+    quaternion, frame = np.empty(4), np.empty(9)
+    mujoco.mju_euler2Quat(quaternion, np.array(angles[::-1]), "zyx")
+    mujoco.mju_quat2Mat(frame, quaternion)
+    low, high = _trunk_box(model, motion.meta["trunk"])
+    offset = (low + high) / 2 - np.asarray(motion.meta["trunk_com_offset"])
+    return {
+        "centre": np.round(centre, 6).tolist(),  # of mass
+        "box": np.round(np.asarray(centre) + frame.reshape(3, 3) @ offset, 6).tolist(),
+        "half": np.round((high - low) / 2, 6).tolist(),
+        "quaternion": np.round(np.roll(quaternion, -1), 7).tolist(),
+        "quantities": wanted,
+    }
+
+
+def _trunk_box(model: Any, trunk: str) -> tuple[Array, Array]:
+    """Two corners, in the trunk's frame [m], of a box round the trunk's geoms."""
+    geoms = np.flatnonzero(model.geom_bodyid == model.body(trunk).id)
+    if not len(geoms):
+        return np.full(3, -0.1), np.full(3, 0.1)
+    frames = np.empty((len(geoms), 9))
+    for frame, geom in zip(frames, geoms, strict=True):
+        mujoco.mju_quat2Mat(frame, model.geom_quat[geom])
+    frames = frames.reshape(-1, 3, 3)
+    centre = model.geom_pos[geoms] + np.einsum("gij,gj->gi", frames, model.geom_aabb[geoms, :3])
+    half = np.einsum("gij,gj->gi", np.abs(frames), model.geom_aabb[geoms, 3:])
+    return (centre - half).min(axis=0), (centre + half).max(axis=0)
+
+
+def _layers(shapes: Mapping[str, Any], moving: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """What a reader can show or hide: name, label, and whether it is shown at first."""
+    layers = [
+        ("robot", "robot", True),
+        ("reference", "reference", False),
+        ("path", "path of the trunk", True),
+        ("forces", _forces_text(moving["forces"]), True),
+    ]
+    if moving["goal"]:
+        layers.append(("goal", f"goal ({_goal_text(moving['goal']['quantities'])})", True))
+    if any(geom["layer"] == "collision" for geom in shapes["geoms"]):
+        layers.append(("collision", "collision shapes", False))
+    return [{"name": name, "label": label, "shown": shown} for name, label, shown in layers]
+
+
+def _forces_text(forces: Mapping[str, Any]) -> str:
+    double = f"; double tip: over {forces['scale'] * forces['longest'] / 1000:.1f} kN" if forces["beyond"] else ""
+    return f"contact forces (1 m = {forces['scale']:g} N{double})"
+
+
+def _goal_text(wanted: Mapping[str, float]) -> str:
+    """Such as "pitch -60°, height 0.9 m"."""
+    texts = []
+    for name, value in wanted.items():
+        angle = name in ("roll", "pitch", "yaw", "tilt")
+        number = f"{math.degrees(value):.3g}" if angle else f"{value:.3g}"
+        if angle or name in ("x", "y", "height"):
+            texts.append(f"{name} {number.replace('-', chr(0x2212))}{'°' if angle else ' m'}")
+    return ", ".join(texts)
+
+
+def _palette(motion: Motion, theme: Theme) -> dict[str, Any]:
+    names = ("sky", "ground", "ground_line", "ghost", "goal", "limit", "accent", "muted")
+    colours: dict[str, Any] = {name: getattr(theme, name) for name in names}
+    return colours | {"legs": list(leg_colours(motion.meta["legs"], theme).values())}

@@ -1,0 +1,217 @@
+"""What a motion's figures and page draw, as numbers: curves over time, goals, limits, the search, the policies.
+
+series_data(motion, progress)      # JSON for the page; web/src/plots.js draws it
+trunk_values(motion), goals(motion), read_progress(path), policy_names(motion, kernels, weights)
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from levade.errors import LevadeError
+from levade.motion import Motion
+from levade.policies import GaussianKernels
+from levade.report.packing import pack
+from levade.report.style import leg_places
+from levade.trajectory import Array, roll_pitch_yaw
+
+_TOUCHES = 1.0
+"""[N], contact force from which a foot counts as on the ground."""
+
+
+@dataclass(frozen=True)
+class Progress:
+    """progress.csv: a row per generation. stage: (generations,) names; others: column -> (generations,)."""
+
+    stage: tuple[str, ...]
+    columns: Mapping[str, Array]
+
+    def __getitem__(self, name: str) -> Array:
+        return self.columns[name]
+
+
+def read_progress(path: str | Path) -> Progress:
+    """Raises LevadeError if there is no progress.csv of a solve."""
+    path = Path(path)
+    try:
+        with path.open(newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        if not rows:
+            raise ValueError("no generation")
+        columns = {
+            name: np.array([float(row[name] or "nan") for row in rows])
+            for name in (
+                "trials",
+                "cost_best",
+                "cost_generation_best",
+                "cost_generation_median",
+                "cost_generation_worst",
+            )
+        }
+        return Progress(tuple(row["stage"] for row in rows), columns)
+    except OSError as error:
+        raise LevadeError(f"{path}: cannot be read ({error.strerror}); give the progress.csv of a solve") from None
+    except (KeyError, ValueError, TypeError, csv.Error):
+        raise LevadeError(f"{path}: is no progress.csv of a solve, or is damaged") from None
+
+
+def series_data(motion: Motion, progress: Progress | None = None) -> dict[str, Any]:
+    """All curves of a motion, for web/src/plots.js: SI units; arrays over time as in `levade.report.packing`.
+
+    progress: of the motion's search; None for no curve of the cost.
+    """
+    meta, names = motion.meta, [str(name) for name in motion["joint_names"]]
+    position, orientation = trunk_values(motion)
+    legs, limits = meta["legs"], meta["limits"]
+    places = leg_places(legs)
+    force = motion["foot_contact_force"]
+    return {
+        "time": pack(motion["time"]),
+        "horizon": float(meta["horizon"]),
+        "end": float(motion["time"][-1]),
+        "trunk": {"position": pack(position), "orientation": pack(orientation), "goals": _goal_rows(motion)},
+        "legs": [
+            {
+                "name": name,
+                "colour": places[name],
+                "joints": [
+                    {
+                        "index": names.index(joint),
+                        "name": joint,
+                        "short": short(joint, name),
+                        **{key: limits[key][names.index(joint)] for key in ("lower", "upper", "velocity", "torque")},
+                    }
+                    for joint in leg["joints"]
+                ],
+            }
+            for name, leg in legs.items()
+        ],
+        "joints": {
+            "reference": pack(motion["joint_position_reference"]),
+            "position": pack(motion["joint_position"]),
+            "velocity": pack(motion["joint_velocity"]),
+            "torque": pack(motion["joint_torque"]),
+        },
+        "feet": {
+            "vertical": pack(force[..., 2]),
+            "horizontal": pack(np.hypot(force[..., 0], force[..., 1])),
+            "touches": _TOUCHES,
+        },
+        "cost": None if progress is None else cost_data(progress, meta["trials_to_success"]),
+        "policy": _policy_data(motion),
+    }
+
+
+def cost_data(progress: Progress, trials_to_success: int | None) -> dict[str, Any]:
+    """The search: a row per generation; null where a cost is not finite. stages: where each begins."""
+    stages = [
+        {"name": name, "start": float(progress["trials"][i - 1]) if i else 0.0}
+        for i, name in enumerate(progress.stage)
+        if i == 0 or name != progress.stage[i - 1]
+    ]
+    return {
+        "trials": [int(count) for count in progress["trials"]],
+        "best": _numbers(progress["cost_best"]),
+        "low": _numbers(progress["cost_generation_best"]),
+        "median": _numbers(progress["cost_generation_median"]),
+        "high": _numbers(progress["cost_generation_worst"]),
+        "stages": stages,
+        "first_success": trials_to_success,
+    }
+
+
+def _numbers(values: Array) -> list[float | None]:
+    return [float(value) if math.isfinite(value) else None for value in values]
+
+
+def _policy_data(motion: Motion) -> dict[str, Any]:
+    """The kernels over the horizon and, per policy, its weights at the kernels' means and what they add up to."""
+    choice, horizon = motion.meta["task"]["policy"], float(motion.meta["horizon"])
+    kernels = GaussianKernels(choice["kernels"], choice["variance"], choice["time"])
+    weights = motion["weights"].reshape(-1, kernels.kernels)
+    time = np.linspace(0.0, horizon, 201)
+    phi, _ = kernels.basis(time, horizon)
+    names = policy_names(motion, kernels, weights)
+    return {
+        "time": pack(time),
+        "kernels": pack(phi),
+        "means": pack(kernels.means * horizon),
+        "policies": [
+            {"name": name, "weights": pack(w), "angle": pack(phi @ w)} for name, w in zip(names, weights, strict=True)
+        ],
+    }
+
+
+QUANTITIES = (("x", "y", "height"), ("roll", "pitch", "yaw"))
+"""What success criteria call the columns of `trunk_values`."""
+
+
+def trunk_values(motion: Motion) -> tuple[Array, Array]:
+    """(steps, 3) [m], of its centre of mass, and (steps, 3) [rad], not a number where an angle jumps by a turn."""
+    angles = roll_pitch_yaw(motion["trunk_quaternion"])
+    angles[1:][np.abs(np.diff(angles, axis=0)) > math.pi] = np.nan
+    return motion["trunk_com_position"], angles
+
+
+def goals(motion: Motion) -> dict[str, list[tuple[float, float, float]]]:
+    """Quantity -> goals: time [s], target, tolerance."""
+    horizon, end = float(motion.meta["horizon"]), float(motion["time"][-1])
+    found: dict[str, list[tuple[float, float, float]]] = {}
+    for criterion in motion.meta["task"]["success"].values():
+        if criterion["target"] is not None and criterion["at"] in ("horizon", "end", "hold"):
+            when = horizon if criterion["at"] == "horizon" else end
+            found.setdefault(criterion["quantity"], []).append(
+                (when, criterion["target"], criterion["tolerance"] or 0.0)
+            )
+    return found
+
+
+def _goal_rows(motion: Motion) -> list[dict[str, Any]]:
+    wanted = goals(motion)
+    return [
+        {"what": what, "column": column, "time": when, "target": target, "tolerance": tolerance}
+        for what, quantities in zip(("position", "orientation"), QUANTITIES, strict=True)
+        for column, quantity in enumerate(quantities)
+        for when, target, tolerance in wanted.get(quantity, [])
+    ]
+
+
+def short(joint: str, leg: str) -> str:
+    """lf_haa of leg lf -> HAA."""
+    rest = joint[len(leg) :].strip("_-") if joint.lower().startswith(leg.lower()) else joint
+    rest = rest.removesuffix("_joint") or joint
+    return rest.upper() if len(rest) <= 4 else rest
+
+
+def policy_names(motion: Motion, kernels: GaussianKernels, weights: Array) -> list[str]:
+    """Which joints each policy moves, found by its reference: "LF, RF HAA". weights: (policies, kernels)."""
+    horizon = float(motion.meta["horizon"])
+    rows = motion.horizon_steps
+    phi, _ = kernels.basis(motion["time"][:rows], horizon)
+    reference = motion["joint_position_reference"][:rows]
+    legs = {joint: leg for leg, entry in motion.meta["legs"].items() for joint in entry["joints"]}
+    names, taken = [], set[int]()
+    for number, w in enumerate(weights):
+        wanted = phi @ w
+        same = [
+            (joint, sign)
+            for joint in range(reference.shape[1])
+            for sign in (1.0, -1.0)
+            if joint not in taken and np.abs(reference[:, joint] - sign * wanted).max() < 1e-6
+        ]
+        chosen = dict(reversed(same))
+        joints = [str(motion["joint_names"][joint]) for joint in sorted(chosen)]
+        taken |= set(chosen)
+        if not joints or any(joint not in legs for joint in joints):
+            names.append(", ".join(joints) or f"policy {number + 1}")
+            continue
+        name = short(joints[0], legs[joints[0]])
+        names.append(", ".join(legs[joint].upper() for joint in joints) + f" {name}")
+    return names

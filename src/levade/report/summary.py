@@ -1,0 +1,152 @@
+"""What a motion came to, as the page says it: verdict, criteria, peaks against limits, cost terms, and where it is from.
+
+summary_data(motion)        # JSON; web/src/summary.js draws it
+provenance_data(motion)     # JSON; with the command that gives the same motion again
+"""
+
+from __future__ import annotations
+
+import math
+import shlex
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from levade.costs.success import CIRCULAR, QUANTITIES
+from levade.errors import LevadeError
+from levade.motion import Motion
+from levade.tasks import builtin_tasks, load_task, task_from_dict, task_to_dict, task_to_yaml
+
+WHEN = {
+    "horizon": "At the horizon T",
+    "end": "At the end",
+    "max": "Largest of the whole motion",
+    "min": "Smallest of the whole motion",
+    "hold": "At the worst instant of the hold",
+}
+
+
+def summary_data(motion: Motion) -> dict[str, Any]:
+    """Goal against result, peaks against limits, cost terms; SI units, null where there is no number."""
+    meta = motion.meta
+    criteria = [
+        _criterion(name, criterion, meta["errors"][name]) for name, criterion in meta["task"]["success"].items()
+    ]
+    terms = [
+        {"name": name, "value": value, "weight": meta["task"]["costs"][name]["weight"]}
+        for name, value in meta["cost_terms"].items()
+    ]
+    return {
+        "success": bool(meta["success"]),
+        "verdict": _verdict(motion, criteria),
+        "criteria": criteria,
+        "peaks": list(_peaks(motion)),
+        "cost": float(meta["cost"]),
+        "terms": [term | {"weighted": term["weight"] * term["value"]} for term in terms],
+        "trials": int(meta["trials"]),
+        "trials_to_success": meta["trials_to_success"],
+    }
+
+
+def _criterion(name: str, criterion: Mapping[str, Any], error: float) -> dict[str, Any]:
+    target, low, high = criterion["target"], criterion["minimum"], criterion["maximum"]
+    tolerance = criterion["tolerance"] or 0.0
+    if target is not None:
+        result: float | None = target + error
+        if criterion["quantity"] in CIRCULAR:
+            result = math.remainder(target + error, 2 * math.pi)
+    else:
+        result = None if error == 0 else (low if error < 0 else high) + error
+    return {
+        "name": name,
+        "quantity": criterion["quantity"],
+        "when": WHEN[criterion["at"]],
+        "unit": QUANTITIES[criterion["quantity"]],
+        "target": target,
+        "minimum": low,
+        "maximum": high,
+        "tolerance": tolerance,
+        "result": result,
+        "error": error,
+        "met": abs(error) <= tolerance,
+    }
+
+
+def _verdict(motion: Motion, criteria: list[dict[str, Any]]) -> str:
+    missed = sum(not criterion["met"] for criterion in criteria)
+    if motion.meta["diverged"]:
+        return "the simulation diverged"
+    if not criteria:
+        return "nothing was required"
+    if not missed:
+        return "every criterion met" if len(criteria) > 1 else "its criterion met"
+    return f"{missed} of {len(criteria)} criteria missed" if len(criteria) > 1 else "its criterion missed"
+
+
+def _peaks(motion: Motion) -> Iterator[dict[str, Any]]:
+    """The joint that comes nearest to its limit, or goes furthest beyond, in torque and speed; and in its range."""
+    limits, names = motion.meta["limits"], [str(name) for name in motion["joint_names"]]
+    for what, unit, array, limit in (
+        ("torque", "Nm", "joint_torque", limits["torque"]),
+        ("speed", "rad/s", "joint_velocity", limits["velocity"]),
+    ):
+        peak = np.abs(motion[array]).max(axis=0)
+        bounds = np.array([math.inf if value is None else value for value in limit])
+        joint = int(np.argmax(peak / bounds)) if np.isfinite(bounds).any() else int(np.argmax(peak))
+        bounded = math.isfinite(bounds[joint])
+        yield {
+            "what": f"joint {what}",
+            "joint": names[joint],
+            "unit": unit,
+            "value": float(peak[joint]),
+            "limit": float(bounds[joint]) if bounded else None,
+            "share": float(peak[joint] / bounds[joint]) if bounded else None,
+        }
+    lower = np.array([-math.inf if value is None else value for value in limits["lower"]])
+    upper = np.array([math.inf if value is None else value for value in limits["upper"]])
+    if not (np.isfinite(lower) & np.isfinite(upper)).any():
+        return
+    with np.errstate(invalid="ignore"):
+        share = np.abs(motion["joint_position"] - (lower + upper) / 2) / ((upper - lower) / 2)
+    row, joint = np.unravel_index(np.nanargmax(share), share.shape)
+    yield {
+        "what": "joint angle",
+        "joint": names[joint],
+        "unit": "rad",
+        "value": float(motion["joint_position"][row, joint]),
+        "limit": [float(lower[joint]), float(upper[joint])],
+        "share": float(share[row, joint]),
+    }
+
+
+def provenance_data(motion: Motion) -> dict[str, Any]:
+    """Where a motion comes from: task, robot, seed, versions, and the command that gives it again.
+
+    task_yaml: the task with every default filled in. command: as typed in a shell; where the task differs from the
+    built-in one of its name, it speaks of a task.yaml, which is ``task_yaml``.
+    """
+    meta = motion.meta
+    name = meta["task"]["name"]
+    known = name in builtin_tasks() and task_to_dict(load_task(name)) == meta["task"]
+    try:
+        text = task_to_yaml(task_from_dict(dict(meta["task"]), where=name))
+    except LevadeError:  # it speaks of files that are not here
+        text = None
+    return {
+        "task": name,
+        "description": meta["task"]["description"],
+        "robot": meta["robot"],
+        "seed": meta["seed"],
+        "timestep": meta["timestep"],
+        "horizon": meta["horizon"],
+        "hold": max(0.0, float(motion["time"][-1]) - meta["horizon"]),
+        "engine": meta["engine"],
+        "versions": meta["versions"],
+        "trials": meta["trials"],
+        "trials_to_success": meta["trials_to_success"],
+        "stopped": meta["stopped"],
+        "command": shlex.join(["levade", "solve", name if known else "task.yaml", "--seed", str(meta["seed"])]),
+        "builtin": known,
+        "task_yaml": text,
+    }

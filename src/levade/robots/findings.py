@@ -1,0 +1,33 @@
+"""Findings: what levade noticed about a robot's file, and what to do about it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One thing worth knowing about a robot.
+
+    kind: "note", of what levade chose or left out, or "warning", of what may spoil the motion. where: joint, body, geom or
+    file. what: one line. remedy: what to change, and where; empty for notes that ask for nothing.
+    """
+
+    kind: Literal["note", "warning"]
+    where: str
+    what: str
+    remedy: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.where}: {self.what}" + (f"; {self.remedy}" if self.remedy else "")
+
+
+def note(where: str, what: str, remedy: str = "") -> Finding:
+    """A `Finding` of what levade chose."""
+    return Finding("note", where, what, remedy)
+
+
+def warning(where: str, what: str, remedy: str) -> Finding:
+    """A `Finding` of what may spoil the motion."""
+    return Finding("warning", where, what, remedy)

@@ -1,0 +1,40 @@
+"""Servo gains and torque limits for robots whose files give none, from their mass and size."""
+
+from __future__ import annotations
+
+import math
+
+GRAVITY = 9.81
+GIVE = 0.1
+"""[rad], by which a joint gives way when a leg bears its share of the weight at the length of one link."""
+DAMPING_RATIO = 0.7
+
+
+def stiffness(mass: float, leg_length: float) -> float:
+    """kp [Nm/rad]: m g l / (4 give), l half the leg's length, so that robots of every size sag by the same share of it.
+
+    mass: [kg], of the robot. leg_length: [m].
+    """
+    return mass * GRAVITY * 0.5 * leg_length / (4 * GIVE)
+
+
+def damping(kp: float, inertia: float) -> float:
+    """kd [Nm s/rad] for a damping ratio of 0.7: 2 zeta sqrt(kp I).
+
+    inertia: [kg m2], of the whole leg about its hip, the largest that a joint swings.
+    """
+    return 2 * DAMPING_RATIO * math.sqrt(kp * inertia)
+
+
+def assumed_torque(mass: float, leg_length: float) -> float:
+    """[Nm], of a joint whose file gives no limit: two legs bear the robot on half a leg's length as a lever, once.
+
+    It is 294 Nm for HyQ2Max (data sheet: 120 to 250 Nm), 27 Nm for Go1 (23.7 to 35.6 Nm).
+    """
+    return mass * GRAVITY * 0.5 * leg_length
+
+
+def speed_line(torque: float, velocity: float) -> tuple[float, float]:
+    """(stall torque [Nm], no-load speed [rad/s]) of a servo that is given by a torque and a speed limit: full torque up to
+    three quarters of the speed, none at all of it."""
+    return 4 * torque, velocity

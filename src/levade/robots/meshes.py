@@ -1,0 +1,114 @@
+"""Mesh files: where a robot's file says they are, and in a form that MuJoCo reads."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path, PurePosixPath
+
+import numpy as np
+
+from levade.errors import LevadeError
+
+READABLE = (".stl", ".obj", ".msh")
+"""Suffixes that MuJoCo reads."""
+
+CONVERTIBLE = (".dae", ".ply", ".glb", ".gltf", ".off", ".3mf")
+"""Suffixes that trimesh, of the extra `meshes`, reads."""
+
+_LARGEST = 200_000
+"""Faces that MuJoCo takes of an STL file."""
+
+
+def find_mesh(reference: str, beside: Path) -> Path | None:
+    """The file that a URDF or MJCF names; None if there is none.
+
+    reference: a path relative to ``beside``, the folder of the robot's file, or absolute; ``file://...``; or
+    ``package://NAME/...``, where NAME is a folder above the robot's file, or in the ROS paths (ROS_PACKAGE_PATH,
+    AMENT_PREFIX_PATH). Of paths that another machine wrote down, the tail counts: the file below the nearest folder
+    above that has it.
+    """
+    for place in _places(reference, beside):
+        try:
+            if place.is_file():
+                return place
+        except OSError:  # a name too long, or with characters that no file has
+            continue
+    return None
+
+
+def _places(reference: str, beside: Path) -> Iterator[Path]:
+    beside = beside.resolve()
+    scheme, separator, rest = reference.partition("://")
+    if separator and scheme in ("package", "model"):
+        package, _, inside = rest.partition("/")
+        for folder in (beside, *beside.parents):
+            if folder.name == package:
+                yield folder / inside
+            yield folder / rest
+        for variable, middle in (
+            ("ROS_PACKAGE_PATH", ""),
+            ("AMENT_PREFIX_PATH", "share"),
+            ("GZ_SIM_RESOURCE_PATH", ""),
+        ):
+            for root in filter(None, os.environ.get(variable, "").split(os.pathsep)):
+                yield Path(root) / middle / rest
+        tail = PurePosixPath(inside)
+    else:
+        path = rest if separator else reference
+        yield beside / path  # an absolute path stays what it is
+        tail = PurePosixPath(path.replace("\\", "/"))
+    parts = [part for part in tail.parts if part not in ("/", ".", "..")]
+    for folder in (beside, *list(beside.parents)[:3]):
+        for first in range(len(parts)):
+            yield folder.joinpath(*parts[first:])
+
+
+def read_mesh(path: Path) -> tuple[str, bytes]:
+    """(suffix, content) of a mesh in a form that MuJoCo reads; others are converted to STL.
+
+    Raises LevadeError if the form is unknown, needs the extra `meshes`, or the file is broken.
+    """
+    suffix = path.suffix.lower()
+    if suffix in READABLE:
+        content = path.read_bytes()
+        return (".stl", _binary_stl(path)) if suffix == ".stl" and _is_text_stl(content) else (suffix, content)
+    if suffix not in CONVERTIBLE:
+        raise LevadeError(f"{path.name}: cannot read {suffix or 'a mesh without suffix'}; convert it to .stl or .obj")
+    return ".stl", _binary_stl(path)
+
+
+def _is_text_stl(content: bytes) -> bool:
+    """Whether it is the text form, which MuJoCo does not read; binary files may begin with "solid" too."""
+    faces = int.from_bytes(content[80:84], "little") if len(content) >= 84 else -1
+    return content[:5] == b"solid" and len(content) != 84 + 50 * faces
+
+
+def _binary_stl(path: Path) -> bytes:
+    try:
+        import trimesh
+    except ImportError:
+        raise LevadeError(
+            f"{path.name}: MuJoCo does not read {path.suffix}; install levade[meshes], or convert it to binary .stl or .obj"
+        ) from None
+    try:
+        mesh = trimesh.load_mesh(path, process=False)
+        vertices, faces = np.asarray(mesh.vertices, dtype=float), np.asarray(mesh.faces)
+    except Exception as error:  # readers of foreign files raise whatever they like
+        if isinstance(error, ImportError):
+            raise LevadeError(
+                f"{path.name}: reading {path.suffix} needs {error.name}; install levade[meshes]"
+            ) from None
+        raise LevadeError(f"{path.name}: not a mesh that can be read ({type(error).__name__}: {error})") from None
+    if not len(faces) or not np.isfinite(vertices).all():
+        raise LevadeError(f"{path.name}: has no surface; a mesh needs triangles")
+    if len(faces) > _LARGEST:
+        raise LevadeError(f"{path.name}: has {len(faces)} faces, more than {_LARGEST}; simplify it")
+    return stl(vertices[faces])
+
+
+def stl(triangles: np.ndarray) -> bytes:
+    """A binary STL file of triangles (n, 3, 3) [m]."""
+    record = np.zeros(len(triangles), dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+    record["corners"] = triangles
+    return bytes(80) + len(triangles).to_bytes(4, "little") + record.tobytes()

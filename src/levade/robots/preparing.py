@@ -1,0 +1,118 @@
+"""Preparing: what has to be done to a robot's spec before it can be put down and moved."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import mujoco
+import numpy as np
+
+from levade.errors import LevadeError, did_you_mean
+from levade.robots.actuation import Actuation
+from levade.robots.findings import note
+from levade.robots.reading import Draft
+from levade.robots.standing import Bare
+
+_TIMESTEP = 0.002
+"""[s], at which servos have to be stable: the default of `levade.engines.Physics`."""
+_OVERLAP = 1e-4
+"""[m]"""
+
+
+def float_freely(draft: Draft, trunk: str, path: Path) -> None:
+    """A free joint on the trunk that a description names, where the model has none."""
+    spec = draft.spec
+    bodies = [body.name for body in spec.bodies[1:]]
+    if trunk not in bodies:
+        raise LevadeError(f"{path}: trunk: no body {trunk!r} in {draft.path.name}; {did_you_mean(trunk, bodies)}")
+    body = spec.body(trunk)
+    free = [joint.type for joint in body.joints] == [mujoco.mjtJoint.mjJNT_FREE]
+    if not free and (body.joints or body.parent.name != "world"):
+        raise LevadeError(f"{path}: trunk: body {trunk} should have one free joint and no other")
+    if not free:
+        body.add_freejoint(name="root")
+
+
+def fix_joints(draft: Draft, angles: Mapping[str, float], path: Path) -> None:
+    """Take joints out of the model, their bodies staying where the angles [rad] (or, of slides, [m]) put them."""
+    spec = draft.spec
+    for name, value in angles.items():
+        joint = spec.joint(name)
+        body = joint.parent
+        axis = np.asarray(joint.axis, dtype=float)
+        quaternion, turn = np.asarray(body.quat, dtype=float), np.empty(4)
+        if not np.isclose(np.linalg.norm(quaternion), 1.0) or len(body.joints) > 1:
+            raise LevadeError(
+                f"{path}: joint {name} cannot be held fixed: its body has several joints; fix it in the model"
+            )
+        turned = np.empty(3)
+        if joint.type == mujoco.mjtJoint.mjJNT_HINGE:
+            mujoco.mju_axisAngle2Quat(turn, axis / np.linalg.norm(axis), value)
+            anchor, moved = np.asarray(joint.pos, dtype=float), np.empty(3)
+            mujoco.mju_rotVecQuat(moved, anchor, turn)
+            mujoco.mju_rotVecQuat(turned, anchor - moved, quaternion)
+            product = np.empty(4)
+            mujoco.mju_mulQuat(product, quaternion, turn)
+            body.quat = product
+        elif joint.type == mujoco.mjtJoint.mjJNT_SLIDE:
+            mujoco.mju_rotVecQuat(turned, axis / np.linalg.norm(axis) * value, quaternion)
+        else:
+            raise LevadeError(f"{path}: joint {name} cannot be held fixed: it is neither a hinge nor a slide")
+        body.pos = np.asarray(body.pos, dtype=float) + turned
+        for tendon_or_equality in [e for e in spec.equalities if name in (e.name1, e.name2)]:
+            spec.delete(tendon_or_equality)
+        spec.delete(joint)
+
+
+def exclude_overlaps(draft: Draft, bare: Bare, neutral: Mapping[str, float]) -> None:
+    """Let bodies that touch in the neutral posture pass through each other: their shapes are wider than the robot."""
+    data = bare.data_at(neutral)
+    mujoco.mj_collision(bare.model, data)
+    pairs: dict[tuple[int, int], float] = {}
+    for contact in data.contact:
+        one, other = sorted(int(bare.model.geom_bodyid[geom]) for geom in contact.geom)
+        if contact.dist < -_OVERLAP and one != other:
+            pairs[one, other] = min(pairs.get((one, other), 0.0), float(contact.dist))
+    for (one, other), depth in pairs.items():
+        names = [bare.model.body(body).name for body in (one, other)]
+        draft.spec.add_exclude(name=f"{names[0]}-{names[1]}-at-rest", bodyname1=names[0], bodyname2=names[1])
+        draft.findings.append(
+            note(
+                f"bodies {names[0]} and {names[1]}",
+                f"overlap by {-depth * 1000:.0f} mm in the neutral posture: contact between them is left out",
+            )
+        )
+
+
+def support_servos(draft: Draft, bare: Bare, neutral: Mapping[str, float], actuation: Actuation) -> None:
+    """Armature for links that are too light for their servo's damping at the time step, once its torque saturates."""
+    inertia = bare.joint_inertia(neutral)
+    raised = {}
+    for joint, kd in zip(bare.joints, actuation.kd, strict=True):
+        least = float(kd) * _TIMESTEP
+        if inertia[joint] < least:
+            raised[joint] = least - inertia[joint]
+            element = draft.spec.joint(joint)
+            element.armature = float(np.asarray(element.armature).ravel()[0]) + raised[joint]
+    if raised:
+        largest = max(raised.values())
+        draft.findings.append(
+            note(
+                f"joints {', '.join(raised)}" if len(raised) < len(bare.joints) else "all joints",
+                f"get up to {largest:.2g} kg m2 of reflected rotor inertia (armature), without which servos of this damping"
+                " are unstable",
+            )
+        )
+
+
+def lighten(draft: Draft) -> None:
+    """Take what no geom uses out of the assets."""
+    spec = draft.spec
+    used = {geom.meshname for geom in spec.geoms if geom.meshname} | {g.hfieldname for g in spec.geoms if g.hfieldname}
+    for element in [*spec.meshes, *spec.hfields]:
+        if element.name not in used:
+            spec.delete(element)
+    files = {e.file for kind in ("meshes", "hfields", "textures") for e in getattr(spec, kind) if e.file}
+    for name in [name for name in draft.assets if name not in files]:
+        del draft.assets[name]

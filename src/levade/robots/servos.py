@@ -1,0 +1,61 @@
+"""What the actuators of an MJCF say about its joints: torque limits, and gains where they are position servos."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import mujoco
+
+
+@dataclass(frozen=True)
+class Servo:
+    """What drives a joint. torque [Nm], infinite if it has no limit; kp [Nm/rad] and kd [Nm s/rad], None for a motor."""
+
+    torque: float
+    kp: float | None = None
+    kd: float | None = None
+
+
+def read_servos(model: mujoco.MjModel) -> dict[str, Servo]:
+    """Joint -> servo, of every hinge that an actuator drives.
+
+    MuJoCo's affine position servo, force = gain * ctrl - kp * length - kd * velocity with gain = kp, is kept as it is; of
+    other actuators only the limit counts.
+    """
+    servos: dict[str, Servo] = {}
+    for i in range(model.nu):
+        kind = int(model.actuator_trntype[i])
+        if kind not in (int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT)):
+            continue
+        joint = int(model.actuator_trnid[i, 0])
+        if model.jnt_type[joint] != mujoco.mjtJoint.mjJNT_HINGE:
+            continue
+        name = model.joint(joint).name
+        gear = abs(float(model.actuator_gear[i, 0]))
+        limits = []
+        if model.actuator_forcelimited[i]:
+            limits.append(gear * float(abs(model.actuator_forcerange[i]).min()))
+        if model.jnt_actfrclimited[joint]:
+            limits.append(float(abs(model.jnt_actfrcrange[joint]).min()))
+        gain, bias = model.actuator_gainprm[i], model.actuator_biasprm[i]
+        fixed = model.actuator_gaintype[i] == mujoco.mjtGain.mjGAIN_FIXED
+        affine = model.actuator_biastype[i] == mujoco.mjtBias.mjBIAS_AFFINE
+        kp = kd = None
+        if fixed and affine and gain[0] > 0 and math.isclose(gain[0], -bias[1], rel_tol=1e-9):
+            kp, kd = float(gain[0]) * gear**2, float(-bias[2]) * gear**2
+        elif fixed and not affine and model.actuator_ctrllimited[i]:  # a motor: its command is its force
+            limits.append(gear * float(gain[0]) * float(abs(model.actuator_ctrlrange[i]).min()))
+        positive = [limit for limit in limits if limit > 0]
+        servos[name] = Servo(min(positive, default=math.inf), kp, kd)
+    for joint in range(model.njnt):
+        name = model.joint(joint).name
+        if (
+            model.jnt_actfrclimited[joint]
+            and name not in servos
+            and model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_HINGE
+        ):
+            limit = float(abs(model.jnt_actfrcrange[joint]).min())
+            if limit > 0:
+                servos[name] = Servo(limit)
+    return servos

@@ -1,0 +1,59 @@
+"""How far geoms reach: the farthest point of a shape in a direction, exactly, from MuJoCo's model."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+
+from levade.trajectory import Array
+
+
+def support(model: mujoco.MjModel, data: mujoco.MjData, geom: int, direction: Array) -> Array:
+    """(3,) [m], the point of a geom that is farthest in a direction (3,), in the world. data: with kinematics."""
+    rotation = data.geom_xmat[geom].reshape(3, 3)
+    unit = np.asarray(direction, dtype=float) / np.linalg.norm(direction)
+    d = rotation.T @ unit
+    size, kind = model.geom_size[geom], model.geom_type[geom]
+    sign = np.where(d < 0, -1.0, 1.0)
+    if kind == mujoco.mjtGeom.mjGEOM_SPHERE:
+        point = size[0] * d
+    elif kind == mujoco.mjtGeom.mjGEOM_CAPSULE:
+        point = size[0] * d + [0.0, 0.0, sign[2] * size[1]]
+    elif kind == mujoco.mjtGeom.mjGEOM_CYLINDER:
+        radial = float(np.hypot(d[0], d[1]))
+        disc = size[0] * d[:2] / radial if radial > 1e-12 else np.zeros(2)
+        point = np.array([*disc, sign[2] * size[1]])
+    elif kind == mujoco.mjtGeom.mjGEOM_ELLIPSOID:
+        point = size**2 * d / max(float(np.linalg.norm(size * d)), 1e-12)
+    elif kind == mujoco.mjtGeom.mjGEOM_BOX:
+        point = sign * size
+    elif kind == mujoco.mjtGeom.mjGEOM_MESH:
+        mesh = int(model.geom_dataid[geom])
+        first = int(model.mesh_vertadr[mesh])
+        vertices = model.mesh_vert[first : first + int(model.mesh_vertnum[mesh])]
+        point = vertices[int(np.argmax(vertices @ d))].astype(float)
+    else:  # the box around it
+        point = model.geom_aabb[geom, :3] + sign * model.geom_aabb[geom, 3:]
+    return data.geom_xpos[geom] + rotation @ point
+
+
+def reach(model: mujoco.MjModel, data: mujoco.MjData, geom: int, origin: Array) -> float:
+    """[m], about how far a geom reaches from a point: its farthest point in the direction of its centre."""
+    away = data.geom_xpos[geom] - origin
+    if np.linalg.norm(away) < 1e-9:
+        return float(model.geom_rbound[geom])
+    best = 0.0
+    for _ in range(3):  # the farthest point's own direction leads to one that is farther still
+        point = support(model, data, geom, away)
+        best, away = max(best, float(np.linalg.norm(point - origin))), point - origin
+    return best
+
+
+def tip(model: mujoco.MjModel, data: mujoco.MjData, geom: int, joint: int) -> Array:
+    """(3,) [m], in the world: where a foot ends: the centre of a sphere, else the point farthest from its joint."""
+    if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_SPHERE:
+        return data.geom_xpos[geom].copy()
+    away = data.geom_xpos[geom] - data.xanchor[joint]
+    for _ in range(3):
+        away = support(model, data, geom, away) - data.xanchor[joint]
+    return data.xanchor[joint] + away

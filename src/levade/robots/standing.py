@@ -1,0 +1,175 @@
+"""Standing: postures with the feet under the hips, found from kinematics, and what they ask of the joints."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from levade.robots.reading import Keyframe
+from levade.robots.shapes import tip
+from levade.robots.understanding import Leg
+from levade.trajectory import Array
+
+NEUTRAL_EXTENSION = (0.75, 0.8, 0.85, 0.9)
+"""Hip above foot as a share of the leg's length: the first at which the joints can carry the robot is the neutral one."""
+CROUCHED_EXTENSION, STRETCHED_EXTENSION = 0.45, 0.95
+
+_NAMES = ("home", "stand", "standing", "neutral", "default", "nominal")
+_SCAN = 181
+_MARGIN = 0.02  # rad from the end of a range
+
+
+@dataclass(frozen=True)
+class Bare:
+    """A model without ground or actuators, its legs, and the joints' ranges: joint -> (lower, upper) [rad]."""
+
+    model: mujoco.MjModel
+    trunk: int
+    legs: tuple[Leg, ...]
+    ranges: Mapping[str, tuple[float, float]]
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        return tuple(joint for leg in self.legs for joint in leg.joints)
+
+    def data_at(self, angles: Mapping[str, float]) -> mujoco.MjData:
+        """Kinematics with the trunk frame on the world frame; joints that are not named at zero."""
+        data = mujoco.MjData(self.model)
+        data.qpos[:] = 0.0
+        data.qpos[int(self.model.jnt_qposadr[self.model.body_jntadr[self.trunk]]) + 3] = 1.0
+        for joint, angle in angles.items():
+            data.joint(joint).qpos[0] = angle
+        mujoco.mj_kinematics(self.model, data)
+        mujoco.mj_comPos(self.model, data)
+        return data
+
+    def tip(self, data: mujoco.MjData, leg: Leg) -> Array:
+        """(3,) [m], where the leg's foot ends, in the trunk frame."""
+        return tip(self.model, data, self.model.geom(leg.foot).id, self.model.joint(leg.joints[-1]).id)
+
+    def leg_length(self, leg: Leg) -> float:
+        """[m], from hip flexion over the knee to the end of the foot, along the links."""
+        data = self.data_at(self._zero(leg))
+        hip, knee = (data.joint(leg.joints[leg.roles.index(role)]).xanchor for role in ("hfe", "kfe"))
+        axis = data.joint(leg.joints[leg.roles.index("hfe")]).xaxis
+        flat = np.eye(3) - np.outer(axis, axis)
+        return float(np.linalg.norm(flat @ (knee - hip)) + np.linalg.norm(flat @ (self.tip(data, leg) - knee)))
+
+    def _zero(self, leg: Leg) -> dict[str, float]:
+        return {joint: float(np.clip(0.0, *self.ranges[joint])) for joint in leg.joints}
+
+    def posture(self, extension: float) -> dict[str, float] | None:
+        """Joint -> angle [rad] with every foot under its hip, ``extension`` leg lengths below; None if out of range."""
+        angles: dict[str, float] = {}
+        for leg in self.legs:
+            found = self._stand(leg, extension)
+            if found is None:
+                return None
+            angles.update(found)
+        return angles
+
+    def _stand(self, leg: Leg, extension: float) -> dict[str, float] | None:
+        """Knee angles at which hip and foot are so far apart, each with the hip angle that puts the foot below the hip."""
+        angles = self._zero(leg)
+        hip, knee = (leg.joints[leg.roles.index(role)] for role in ("hfe", "kfe"))
+        data = self.data_at(angles)
+        anchor, axis = data.joint(hip).xanchor, data.joint(hip).xaxis
+        pivot, hinge = data.joint(knee).xanchor, data.joint(knee).xaxis
+        shank = self.tip(data, leg) - pivot
+        flat = np.eye(3) - np.outer(axis, axis)
+        wanted = extension * self.leg_length(leg)
+
+        def across(bend: Array) -> Array:
+            """(n, 3) [m], from hip to foot across the hip's axis, with the knee bent further by (n,) [rad]."""
+            c, s = np.cos(bend)[:, None], np.sin(bend)[:, None]
+            turned = shank * c + np.cross(hinge, shank) * s + hinge * (hinge @ shank) * (1 - c)
+            return (pivot - anchor + turned) @ flat
+
+        lower, upper = (limit - angles[knee] for limit in self.ranges[knee])
+        if not np.isfinite([lower, upper]).all() or upper - lower > 2 * np.pi:
+            lower, upper = -np.pi, np.pi
+        scan = np.linspace(lower + _MARGIN, upper - _MARGIN, _SCAN)
+        gaps = np.linalg.norm(across(scan), axis=1) - wanted
+        candidates = []
+        for k in np.flatnonzero(np.signbit(gaps[:-1]) != np.signbit(gaps[1:])):
+            low, high = float(scan[k]), float(scan[k + 1])
+            for _ in range(50):
+                middle = 0.5 * (low + high)
+                gap = np.linalg.norm(across(np.array([middle]))) - wanted
+                low, high = (middle, high) if np.signbit(gap) == np.signbit(gaps[k]) else (low, middle)
+            bend = 0.5 * (low + high)
+            vector = across(np.array([bend]))[0]
+            down = flat @ np.array([0.0, 0.0, -1.0])
+            turn = float(np.arctan2(axis @ np.cross(vector, down), vector @ down))
+            turned = _within(angles[hip] + turn, *self.ranges[hip])
+            if turned is not None:
+                candidates.append({**angles, knee: angles[knee] + bend, hip: turned})
+        if not candidates:
+            return None
+        return min(candidates, key=lambda bent: self._outward(leg, bent))
+
+    def _outward(self, leg: Leg, angles: Mapping[str, float]) -> float:
+        """How far the knee is from the line hip - foot, away from the middle of the robot [m]: where both ways are in range,
+        knees bend inward, as HyQ's and ANYmal's."""
+        data = self.data_at(angles)
+        hip, knee = (data.joint(leg.joints[leg.roles.index(role)]).xanchor for role in ("hfe", "kfe"))
+        ahead = float(knee[0] - 0.5 * (hip[0] + self.tip(data, leg)[0]))
+        return ahead if leg.end == "front" else -ahead
+
+    def static_torque(self, angles: Mapping[str, float]) -> dict[str, float]:
+        """Joint -> torque [Nm] that carries the robot on vertical foot forces of least norm."""
+        model, data = self.model, self.data_at(angles)
+        mujoco.mj_forward(model, data)
+        contacts, rows = [], []
+        for leg in self.legs:
+            point, body = self.tip(data, leg), int(model.geom_bodyid[model.geom(leg.foot).id])
+            jacobian = np.zeros((3, model.nv))
+            mujoco.mj_jac(model, data, jacobian, None, point, body)
+            contacts.append(jacobian[2])
+        free = int(model.jnt_dofadr[model.body_jntadr[self.trunk]])
+        base = np.array([row[free : free + 6] for row in contacts]).T
+        rows = np.array(contacts)
+        force = np.linalg.lstsq(base[2:5], data.qfrc_bias[free + 2 : free + 5], rcond=None)[0]
+        torque = data.qfrc_bias - data.qfrc_passive - rows.T @ force
+        return {joint: float(torque[int(model.joint(joint).dofadr[0])]) for joint in self.joints}
+
+    def joint_inertia(self, angles: Mapping[str, float]) -> dict[str, float]:
+        """Joint -> inertia [kg m2] about its axis of all that it carries outward, armature included."""
+        data = self.data_at(angles)
+        mujoco.mj_makeM(self.model, data)
+        full = np.zeros((self.model.nv, self.model.nv))
+        mujoco.mj_fullM(self.model, data, full)
+        return {joint: float(full[i, i]) for joint in self.joints for i in [int(self.model.joint(joint).dofadr[0])]}
+
+
+def neutral_from(bare: Bare, keyframes: Sequence[Keyframe]) -> tuple[dict[str, float], str] | None:
+    """(angles, name) of the keyframe that stands: trunk level, joints in range, feet below the hips; None if none does."""
+    standing = [frame for frame in keyframes if _stands(bare, frame)]
+    if not standing:
+        return None
+    preferred = [frame for name in _NAMES for frame in standing if frame.name.lower() == name]
+    chosen = (preferred or standing)[0]
+    return {joint: chosen.angles[joint] for joint in bare.joints}, chosen.name
+
+
+def _stands(bare: Bare, frame: Keyframe) -> bool:
+    _, x, y, _ = frame.quaternion / max(float(np.linalg.norm(frame.quaternion)), 1e-9)
+    if 1.0 - 2.0 * (x * x + y * y) < 0.98 or not set(bare.joints) <= set(frame.angles):
+        return False
+    angles = {joint: frame.angles[joint] for joint in bare.joints}
+    if any(not lower <= angles[joint] <= upper for joint, (lower, upper) in bare.ranges.items()):
+        return False
+    data = bare.data_at(angles)
+    feet = np.array([bare.tip(data, leg)[2] for leg in bare.legs])
+    lengths = np.array([bare.leg_length(leg) for leg in bare.legs])
+    hips = np.array([data.joint(leg.joints[leg.roles.index("hfe")]).xanchor[2] for leg in bare.legs])
+    return bool(np.ptp(feet) < 0.1 * lengths.mean() and ((hips - feet) > 0.5 * lengths).all())
+
+
+def _within(angle: float, lower: float, upper: float) -> float | None:
+    """The angle, or the same one a turn away, inside a range; None if none is."""
+    turned = (angle + turns * 2 * np.pi for turns in (0, -1, 1))
+    return next((float(a) for a in turned if lower + _MARGIN <= a <= upper - _MARGIN), None)

@@ -1,0 +1,310 @@
+"""URDF: from what robot makers publish to what MuJoCo's own URDF reader takes.
+
+The reader then makes the bodies: links that are fixed to another are fused with it (mass, inertia and shapes), the root
+link gets a free joint. What is mended on the way, and why, goes into the findings.
+"""
+
+from __future__ import annotations
+
+import math
+import xml.etree.ElementTree as ET
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from levade.errors import LevadeError
+from levade.robots.findings import Finding, note, warning
+from levade.robots.meshes import find_mesh, read_mesh
+
+_WORLD = "levade-world"
+_DUMMY = 1e-4
+"""[kg]: links below it are markers that somebody's parser needed, not bodies."""
+_BIG_VISUAL = 1_500_000
+"""[bytes]: visual meshes above it are left out; motion files carry their meshes along."""
+_KNOWN_JOINTS = ("revolute", "continuous", "prismatic", "fixed")
+
+
+@dataclass
+class UrdfSource:
+    """A URDF, mended.
+
+    text: for MuJoCo's reader; its meshes are named by bare, unique names. assets: name -> content.
+    effort [Nm], velocity [rad/s]: joint -> limit, where the file has a positive one.
+    """
+
+    text: str
+    assets: dict[str, bytes] = field(default_factory=dict)
+    effort: dict[str, float] = field(default_factory=dict)
+    velocity: dict[str, float] = field(default_factory=dict)
+    findings: list[Finding] = field(default_factory=list)
+
+
+def read_urdf(path: Path, content: str) -> UrdfSource:
+    """Read and mend a URDF. Raises LevadeError for what cannot be simulated, with the link or joint and the remedy."""
+    root = _parse(path, content)
+    source = UrdfSource("")
+    for extra in [*root.findall("transmission"), *root.findall("gazebo"), *root.findall("ros2_control")]:
+        root.remove(extra)
+    links = {_name(link, path): link for link in root.findall("link")}
+    if not links:
+        raise LevadeError(f"{path}: has no links; it is no robot")
+    joints = {_name(joint, path): joint for joint in root.findall("joint")}
+    parents = _tree(path, links, joints)
+    roots = [name for name in links if name not in parents]
+    if len(roots) != 1:
+        raise LevadeError(
+            f"{path}: has {len(roots)} root links ({', '.join(roots[:3]) or 'a loop'}); it should have one"
+        )
+    base = _real_root(root, links, joints, roots[0])
+    _check_joints(path, joints, source)
+    losses: dict[str, list[tuple[str, str]]] = {}
+    for name, link in links.items():
+        _mend_inertial(
+            path, name, link, fixed=name == base or joints[parents[name]].get("type") == "fixed", source=source
+        )
+        _mend_shapes(path, name, link, source, losses)
+    source.findings += [_lost(kind, links_and_problems) for kind, links_and_problems in losses.items()]
+    _add_floating_base(root, base)
+    _say_how_to_compile(root)
+    source.text = ET.tostring(root, encoding="unicode")
+    return source
+
+
+def _parse(path: Path, content: str) -> ET.Element:
+    try:
+        root = ET.fromstring(content.encode())
+    except ET.ParseError as error:
+        raise LevadeError(f"{path}: broken XML ({error}); mend it there") from None
+    if root.tag != "robot":
+        raise LevadeError(f"{path}: starts with <{root.tag}>; a URDF starts with <robot>, an MJCF with <mujoco>")
+    if any(element.tag.startswith("{") and "xacro" in element.tag for element in root.iter()):
+        raise LevadeError(f"{path}: still holds xacro macros; expand them first: xacro {path.name} > robot.urdf")
+    return root
+
+
+def _name(element: ET.Element, path: Path) -> str:
+    name = element.get("name")
+    if not name:
+        raise LevadeError(f"{path}: a <{element.tag}> has no name; every link and joint needs one")
+    return name
+
+
+def _tree(path: Path, links: dict[str, ET.Element], joints: dict[str, ET.Element]) -> dict[str, str]:
+    """Link -> the joint that it hangs on."""
+    parents: dict[str, str] = {}
+    for name, joint in joints.items():
+        for end in ("parent", "child"):
+            element = joint.find(end)
+            link = None if element is None else element.get("link")
+            if link not in links:
+                raise LevadeError(f"{path}: joint {name}: its {end} link {link!r} is not in the file")
+            if end == "child":
+                if link in parents:
+                    raise LevadeError(
+                        f"{path}: link {link} hangs on two joints, {parents[link]} and {name}; levade simulates trees only"
+                    )
+                parents[link] = name
+    return parents
+
+
+def _real_root(root: ET.Element, links: dict[str, ET.Element], joints: dict[str, ET.Element], base: str) -> str:
+    """The link that floats: not a "world" that the file itself ties the robot to by a floating or fixed joint."""
+    while True:
+        hanging = [(name, joint) for name, joint in joints.items() if _link(joint, "parent") == base]
+        bare = links[base].find("inertial") is None and links[base].find("collision") is None
+        floating = len(hanging) == 1 and hanging[0][1].get("type") == "floating"
+        world = len(hanging) == 1 and base == "world" and hanging[0][1].get("type") == "fixed"
+        if not (bare and (floating or world)):
+            return base
+        name, joint = hanging[0]
+        root.remove(links.pop(base))
+        root.remove(joints.pop(name))
+        base = _link(joint, "child")
+
+
+def _link(joint: ET.Element, end: str) -> str:
+    element = joint.find(end)
+    return "" if element is None else element.get("link", "")
+
+
+def _check_joints(path: Path, joints: dict[str, ET.Element], source: UrdfSource) -> None:
+    for name, joint in joints.items():
+        kind = joint.get("type", "")
+        if kind not in _KNOWN_JOINTS:
+            raise LevadeError(
+                f"{path}: joint {name}: type {kind!r} is none that levade simulates; {', '.join(_KNOWN_JOINTS)}"
+            )
+        if joint.find("mimic") is not None and kind != "fixed":
+            joint.set("type", "fixed")
+            source.findings.append(note(f"joint {name}", "mimics another joint, which is not simulated: held fixed"))
+            continue
+        limit = joint.find("limit")
+        if limit is None or kind == "fixed":
+            continue
+        for key, table in (("effort", source.effort), ("velocity", source.velocity)):
+            value = _number(limit.get(key), f"{path}: joint {name}: limit {key}")
+            if value is not None and 0 < value < math.inf:
+                table[name] = value
+        lower = _number(limit.get("lower"), f"{path}: joint {name}: limit lower")
+        upper = _number(limit.get("upper"), f"{path}: joint {name}: limit upper")
+        if kind == "revolute" and lower is not None and upper is not None and lower > upper:
+            raise LevadeError(
+                f"{path}: joint {name}: limits are inverted, lower {lower:g} is above upper {upper:g}; exchange them"
+            )
+        if kind == "revolute" and (lower or 0.0) == (upper or 0.0):
+            joint.set("type", "continuous")
+            source.findings.append(
+                warning(f"joint {name}", "has no range: turns without end", "give <limit lower= upper=>")
+            )
+
+
+def _mend_inertial(path: Path, name: str, link: ET.Element, *, fixed: bool, source: UrdfSource) -> None:
+    inertial = link.find("inertial")
+    if inertial is None:
+        if not fixed:
+            source.findings.append(
+                warning(
+                    f"link {name}", "has no inertial", "give its mass and inertia, or its motion is that of nothing"
+                )
+            )
+        return
+    mass_element, inertia = inertial.find("mass"), inertial.find("inertia")
+    mass = _number(None if mass_element is None else mass_element.get("value"), f"{path}: link {name}: mass") or 0.0
+    if mass < 0:
+        raise LevadeError(f"{path}: link {name}: mass {mass:g} kg is negative")
+    if mass <= _DUMMY:
+        link.remove(inertial)
+        return
+    if inertia is None:
+        raise LevadeError(
+            f"{path}: link {name}: has a mass but no <inertia>; give it, [kg m2] about its centre of mass"
+        )
+    xx, yy, zz, xy, xz, yz = (
+        _number(inertia.get(key), f"{path}: link {name}: inertia {key}") or 0.0
+        for key in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+    )
+    tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    principal = np.linalg.eigvalsh(tensor)
+    if principal[0] > 0 and principal[0] + principal[1] >= principal[2] * (1 - 1e-6):
+        return
+    # what no body can have: the sphere of the same mean inertia, or of 2 cm where there is none at all
+    mean = float(np.mean(np.diag(tensor)))
+    mended = mean if mean > 0 else 0.4 * mass * 0.02**2
+    for key in ("ixx", "iyy", "izz"):
+        inertia.set(key, repr(mended))
+    for key in ("ixy", "ixz", "iyz"):
+        inertia.set(key, "0")
+    what = (
+        "is not positive"
+        if principal[0] <= 0
+        else "breaks the triangle inequality (two of its moments are below the third)"
+    )
+    kilograms = f"{mass:.3g} kg"
+    source.findings.append(
+        warning(
+            f"link {name}",
+            f"its inertia {what}; {mended:.3g} kg m2 about every axis is taken for its {kilograms}",
+            "mend it in the file",
+        )
+    )
+
+
+def _mend_shapes(
+    path: Path, name: str, link: ET.Element, source: UrdfSource, losses: dict[str, list[tuple[str, str]]]
+) -> None:
+    """Give meshes their content, and leave out those that cannot be had."""
+    collisions = link.findall("collision")
+    primitives = [shape for shape in collisions if shape.find("geometry/mesh") is None]
+    for kind, shapes in (("visual", link.findall("visual")), ("collision", collisions)):
+        for shape in shapes:
+            geometry = shape.find("geometry")
+            mesh = None if geometry is None else geometry.find("mesh")
+            if geometry is None or len(geometry) == 0:
+                link.remove(shape)
+                continue
+            if mesh is None:
+                continue
+            problem = _attach_mesh(path, mesh, source, largest=_BIG_VISUAL if kind == "visual" else None)
+            if problem is None:
+                continue
+            link.remove(shape)
+            loss = "visual" if kind == "visual" else "part" if primitives else "whole"
+            losses.setdefault(loss, []).append((name, problem))
+
+
+def _lost(kind: str, losses: list[tuple[str, str]]) -> Finding:
+    """One finding for all links that lost a mesh in the same way."""
+    names = list(dict.fromkeys(name for name, _ in losses))
+    problem = losses[0][1]
+    where = f"link{'s' * (len(names) > 1)} {', '.join(names[:3])}" + (
+        f" and {len(names) - 3} more" if len(names) > 3 else ""
+    )
+    if kind == "visual":
+        return note(where, f"not shown as meshes: {problem}")
+    if kind == "part":
+        return warning(where, f"collides as primitives only: {problem}", "put the files where the URDF says")
+    return warning(
+        where,
+        f"collides with nothing: {problem}",
+        "put the files where the URDF says, or give the links collision primitives",
+    )
+
+
+def _attach_mesh(path: Path, mesh: ET.Element, source: UrdfSource, *, largest: int | None) -> str | None:
+    """Name the mesh's content; a reason if it cannot be had."""
+    reference = mesh.get("filename", "")
+    place = find_mesh(reference, path.parent)
+    if place is None:
+        return f"{reference} is missing"
+    scale = mesh.get("scale", "1 1 1")
+    if largest is not None and place.stat().st_size > 3 * largest:
+        return f"{place.name} is large ({place.stat().st_size / 1e6:.1f} MB)"
+    try:
+        suffix, content = read_mesh(place)
+    except LevadeError as error:
+        return str(error)
+    if largest is not None and len(content) > largest:
+        return f"{place.name} is large ({len(content) / 1e6:.1f} MB)"
+    # MuJoCo names a mesh asset after its file: one file for each scale and content
+    for known, other in source.assets.items():
+        if other == content and known.split("@")[-1] == f"{scale}{suffix}".replace(" ", "_"):
+            mesh.set("filename", known)
+            return None
+    name = f"{place.stem}-{len(source.assets)}@{scale}{suffix}".replace(" ", "_")
+    source.assets[name] = content
+    mesh.set("filename", name)
+    return None
+
+
+def _add_floating_base(root: ET.Element, base: str) -> None:
+    ET.SubElement(root, "link", name=_WORLD)
+    joint = ET.SubElement(root, "joint", name="root", type="floating")
+    ET.SubElement(joint, "parent", link=_WORLD)
+    ET.SubElement(joint, "child", link=base)
+
+
+def _say_how_to_compile(root: ET.Element) -> None:
+    extension = root.find("mujoco")
+    if extension is None:
+        extension = ET.SubElement(root, "mujoco")
+    compiler = extension.find("compiler")
+    if compiler is None:
+        compiler = ET.SubElement(extension, "compiler")
+    for key in ("meshdir", "texturedir", "assetdir"):
+        compiler.attrib.pop(key, None)
+    compiler.attrib.update(
+        fusestatic="true", discardvisual="false", strippath="false", inertiafromgeom="false", balanceinertia="false"
+    )
+
+
+def _number(text: str | None, where: str) -> float | None:
+    if text is None:
+        return None
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if math.isnan(value):
+        raise LevadeError(f"{where}: {text!r} is not a number")
+    return value

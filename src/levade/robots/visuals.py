@@ -1,0 +1,71 @@
+"""Visuals: meshes that are only looked at, made small enough to travel with every motion file."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+
+from levade.robots.meshes import stl
+from levade.robots.reading import Draft
+from levade.trajectory import Array
+
+_SMALL = 150_000
+"""[bytes]: meshes below it stay as they are."""
+_CELLS = 40
+"""Along the longest edge of a mesh; vertices in one cell of the grid become one."""
+
+
+def thin_visuals(draft: Draft, model: mujoco.MjModel) -> None:
+    """Replace large meshes that no collision needs by coarse ones, and drop textures, which then have no place.
+
+    model: compiled from the draft's spec.
+    """
+    spec = draft.spec
+    colliding = {geom.meshname for geom in spec.geoms if geom.meshname and (geom.contype or geom.conaffinity)}
+    weighing = {geom.meshname for geom in spec.geoms if geom.meshname and not geom.parent.explicitinertial}
+    for mesh in spec.meshes:
+        content = draft.assets.get(mesh.file, b"")
+        if mesh.name in colliding or mesh.name in weighing or len(content) <= _SMALL:
+            continue
+        triangles = _triangles(model, mesh.name)
+        name = f"{mesh.name.replace('/', '-')}.coarse.stl"
+        draft.assets[name] = stl(cluster(triangles))
+        mesh.file, mesh.scale = name, [1.0, 1.0, 1.0]
+        mesh.refpos, mesh.refquat = [0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]
+        mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL  # of a surface that need not be closed any more
+    for material in spec.materials:
+        if any(material.textures):
+            material.textures = [""] * len(material.textures)
+            if min(material.rgba[:3]) > 0.99:
+                material.rgba = [0.62, 0.64, 0.67, material.rgba[3]]
+    for texture in list(spec.textures):
+        spec.delete(texture)
+    spec.assets = draft.assets
+
+
+def cluster(triangles: Array) -> Array:
+    """Fewer triangles (m, 3, 3) of the same shape: vertices that share a cell of a grid become their mean."""
+    vertices = triangles.reshape(-1, 3)
+    low = vertices.min(axis=0)
+    cell = max(float((vertices.max(axis=0) - low).max()) / _CELLS, 1e-9)
+    keys = np.floor((vertices - low) / cell).astype(np.int64) @ np.array([1, 1 << 20, 1 << 40])
+    _, inverse = np.unique(keys, return_inverse=True)
+    counts = np.bincount(inverse)
+    means = np.stack([np.bincount(inverse, vertices[:, k]) / counts for k in range(3)], axis=1)
+    corners = inverse.reshape(-1, 3)
+    distinct = (corners[:, 0] != corners[:, 1]) & (corners[:, 1] != corners[:, 2]) & (corners[:, 2] != corners[:, 0])
+    corners = corners[distinct]
+    _, first = np.unique(np.sort(corners, axis=1), axis=0, return_index=True)
+    kept = means[corners[np.sort(first)]]
+    return kept if len(kept) >= 4 else triangles
+
+
+def _triangles(model: mujoco.MjModel, name: str) -> Array:
+    """(n, 3, 3) [m], of a compiled mesh in the frame of its file, scaled."""
+    i = model.mesh(name).id
+    first, count = int(model.mesh_vertadr[i]), int(model.mesh_vertnum[i])
+    face, faces = int(model.mesh_faceadr[i]), int(model.mesh_facenum[i])
+    rotation = np.empty(9)
+    mujoco.mju_quat2Mat(rotation, model.mesh_quat[i].astype(float))
+    vertices = model.mesh_vert[first : first + count].astype(float) @ rotation.reshape(3, 3).T + model.mesh_pos[i]
+    return vertices[model.mesh_face[face : face + faces]]
