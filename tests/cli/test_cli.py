@@ -129,7 +129,8 @@ def test_a_task_file_with_a_mistake(run, tmp_path: Path) -> None:
     status, out, err = run("solve", "mine.yaml")
     assert (status, out) == (2, "")
     assert err == (
-        "levade: mine.yaml.costs.position.z: '90 deg' is an angle, but this is a length; units here: m, cm, mm, height, leg, trunk\n"
+        "levade: mine.yaml.costs.position.z: '90 deg' is an angle, but this is a length; units here: m, cm, mm, height,"
+        " leg, trunk\n"
     )
     (tmp_path / "mine.yaml").write_bytes(b"\x00\xff")
     assert run("solve", "mine.yaml")[0] == 2

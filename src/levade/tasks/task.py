@@ -53,7 +53,7 @@ class PolicyChoice:
         right), "all" (one for all legs), "independent" (one each, as the paper's recovery), or lists of leg names.
     initial: the first mean of the search: "hold" what the joints were told last, or "interpolate" in a straight line from
         the joint angles at the start to the posture ``goal``.
-    goal: name of a posture of the robot, or joint -> angle [rad] on top of the neutral one.
+    goal: a posture, as in `levade.engines.Settled`.
     depart, settle: shares of the horizon in which every reference leaves what the joints were told last, and goes over to
         the goal; 0 leaves the ends to the weights. See `levade.policies.Ends`.
     """
@@ -63,7 +63,7 @@ class PolicyChoice:
     time: Literal["normalised", "seconds"] = "normalised"
     groups: Literal["pairs", "sides", "all", "independent"] | tuple[tuple[str, ...], ...] = "independent"
     initial: Literal["hold", "interpolate"] = "hold"
-    goal: str | Mapping[str, float] = "neutral"
+    goal: str | Mapping[str, float | str] = "neutral"
     depart: float = 0.0
     settle: float = 0.0
 
