@@ -264,6 +264,7 @@ def test_every_unit_has_its_size(unit: str) -> None:
         ({"search": {"population": 3}}, "search.population: 3 should be 4 or more; leave it out for the usual one"),
         ({"search": {"step": -0.1}}, "search.step: -0.1 should be a positive number of rad"),
         ({"search": {"smoothness": -0.1}}, "search.smoothness: -0.1 should be 0 or more"),
+        ({"search": {"restart": 0}}, "search.restart: 0 should be at least 1; leave it out to go on"),
         ({"search": {"polish": -1}}, "search.polish: -1 should be 0 or more trials"),
         ({"robot": "hyq2max"}, "robot: should be a table of keys and values, is 'hyq2max'"),
         (
