@@ -281,6 +281,8 @@ class _Search:
     best: Trial | None = None
     stage: int = 0
     stage_trials: int = 0
+    attempt: int = 0
+    attempt_trials: int = 0
     trials: int = 0
     generations: int = 0
     diverged: int = 0
@@ -341,6 +343,7 @@ def solve(
             search.generations += 1
             search.trials += len(candidates)
             search.stage_trials += len(candidates)
+            search.attempt_trials += len(candidates)
             search.diverged += int(record.evaluation.diverged.sum())
             if search.trials_to_success is None and record.evaluation.success.any():
                 search.trials_to_success = search.trials
@@ -369,14 +372,20 @@ def solve(
             if since is not None and polish is not None and since >= polish:
                 stopped = "success"
                 break
-            if search.stage + 1 < len(stages) and _ends(stage, search, record.evaluation):
-                search.stage += 1
-                before = search.hold_steps
-                if aim is not None:
-                    aim.forget()
-                _enter(search, objective, stages[search.stage], optimizer)
-                if search.hold_steps != before:
-                    _reconsider(search, objective, weights, search.hold_steps)
+            if _hopeless(task, search):
+                search.attempt, search.attempt_trials = search.attempt + 1, 0
+                optimizer = make_optimizer(objective, seed, attempt=search.attempt)
+                following = 0
+            elif search.stage + 1 < len(stages) and _ends(stage, search, record.evaluation):
+                following = search.stage + 1
+            else:
+                continue
+            search.stage, before = following, search.hold_steps
+            if aim is not None:
+                aim.forget()
+            _enter(search, objective, stages[search.stage], optimizer)
+            if search.hold_steps != before:
+                _reconsider(search, objective, weights, search.hold_steps)
     except KeyboardInterrupt:
         stopped = "interrupted"
     if search.best is None:
@@ -396,8 +405,8 @@ def solve(
     )
 
 
-def make_optimizer(objective: Objective, seed: int) -> Optimizer:
-    """The task's optimizer, at the objective's initial weights."""
+def make_optimizer(objective: Objective, seed: int, *, attempt: int = 0) -> Optimizer:
+    """The task's optimizer, at the objective's initial weights; each attempt draws other random numbers."""
     search = objective.task.search
     policy = objective.policy
     factor = None
@@ -407,7 +416,7 @@ def make_optimizer(objective: Objective, seed: int) -> Optimizer:
         objective.initial_weights,
         factor=factor,
         step=search.step,
-        seed=seed,
+        seed=(seed, attempt) if attempt else seed,
         population=search.population,
         step_adaptation=search.step_adaptation,
     )
@@ -440,6 +449,12 @@ def _enter(search: _Search, objective: Objective, stage: Stage, optimizer: Optim
     search.hold_steps = min(round(share), task.hold_steps)
     if stage.step != 1.0:
         optimizer.scale_step(stage.step)
+
+
+def _hopeless(task: Task, search: _Search) -> bool:
+    """Whether the search has gone on for so long without a success that it had better start anew."""
+    restart = task.search.restart
+    return restart is not None and search.trials_to_success is None and search.attempt_trials >= restart
 
 
 def _ends(stage: Stage, search: _Search, evaluation: Evaluation) -> bool:

@@ -267,3 +267,11 @@ def test_its_own_units_follow_from_its_dimensions(robot: Robot) -> None:
     assert size.leg == pytest.approx(UPPER + LOWER)
     assert size.trunk == pytest.approx(2 * HAA_X)
     assert 0.5 * 9.81 * size.fall**2 == pytest.approx(size.height)
+
+
+def test_some_legs_take_a_posture_and_some_joints_an_angle(robot: Robot) -> None:
+    neutral, low = robot.posture("neutral"), robot.posture("crouched")
+    np.testing.assert_array_equal(robot.posture({"hind": "crouched"}), [*neutral[:6], *low[6:]])
+    np.testing.assert_array_equal(robot.posture({"left": "crouched"})[[0, 1, 2, 6, 7, 8]], low[[0, 1, 2, 6, 7, 8]])
+    both = robot.posture({"hind": "crouched", "front": "h2m", "lh_haa": 0.2})
+    np.testing.assert_array_equal(both, [*robot.posture("h2m")[:6], 0.2, *low[7:]])

@@ -144,7 +144,7 @@ def test_units_become_si() -> None:
                 "slope": "5 deg",
                 "boxes": [{"position": ["10 cm", 0, "50mm"], "size": [1, 1, "10 cm"], "yaw": "90deg"}],
             },
-            start={"fall": {"height": "65 cm", "roll": "-30 deg", "time": "1e3 ms"}},
+            start={"fall": {"height": "65 cm", "roll": "-30 deg", "time": "1e3 ms", "posture": {"lf_haa": "9 deg"}}},
             costs={
                 "orientation": {"weight": 1, "pitch": "-60 deg"},
                 "linear_velocity": {"weight": 1, "z": "1 m/s"},
@@ -163,6 +163,7 @@ def test_units_become_si() -> None:
     assert task.scene.boxes[0].yaw == pytest.approx(math.pi / 2)
     assert dataclasses.asdict(task.start.choice)["roll"] == pytest.approx(math.radians(-30))
     assert dataclasses.asdict(task.start.choice)["time"] == 1.0
+    assert dataclasses.asdict(task.start.choice)["posture"] == {"lf_haa": pytest.approx(math.pi / 20)}
     targets = {name: dataclasses.asdict(cost.term) for name, cost in task.costs.items()}
     assert targets["orientation"]["pitch"] == task.success["pitch"].target == pytest.approx(-math.pi / 3)
     assert targets["angular_velocity"]["z"] == pytest.approx(math.pi / 2)
@@ -227,8 +228,8 @@ def test_every_unit_has_its_size(unit: str) -> None:
         ({"start": {"settled": {}, "fall": {"height": 1}}}, "start: give one of settled and fall"),
         ({"start": {"fall": {}}}, "start.fall.height: missing"),
         (
-            {"start": {"settled": {"posture": {"*_haa": "low"}}}},
-            "start.settled.posture.*_haa: should be a valid number",
+            {"start": {"settled": {"posture": {"*_haa": "3 cm"}}}},
+            "start.settled.posture.*_haa: '3 cm' is a length, but this is an angle; units here: rad, deg",
         ),
         ({"start": {"settled": {"posture": 3}}}, "start.settled.posture: should be a valid string, is 3"),
         ({"horizon": 0}, "horizon: 0.0 s should be at least one time step (0.002 s); 0.3 to 3 s is usual"),
@@ -263,6 +264,7 @@ def test_every_unit_has_its_size(unit: str) -> None:
         ({"search": {"population": 3}}, "search.population: 3 should be 4 or more; leave it out for the usual one"),
         ({"search": {"step": -0.1}}, "search.step: -0.1 should be a positive number of rad"),
         ({"search": {"smoothness": -0.1}}, "search.smoothness: -0.1 should be 0 or more"),
+        ({"search": {"restart": 0}}, "search.restart: 0 should be at least 1; leave it out to go on"),
         ({"search": {"polish": -1}}, "search.polish: -1 should be 0 or more trials"),
         ({"robot": "hyq2max"}, "robot: should be a table of keys and values, is 'hyq2max'"),
         (
@@ -329,6 +331,11 @@ def test_tasks_that_are_not_there(name: str, message: str) -> None:
         (["robot.actuation=hydralic"], r"actuation: no actuation 'hydralic'; did you mean hydraulic\?"),
         (["robot.kp=-1"], r"kp should be a number that is not negative"),
         (["start.settled.posture={lf_ha: 0.1}"], r"^start.settled.posture: .*no joint 'lf_ha'; did you mean lf_haa\?"),
+        (
+            ["start.settled.posture={hnd: crouched}"],
+            r"^start.settled.posture: .*no leg 'hnd' to take the posture 'crou",
+        ),
+        (["start.settled.posture={hind: low}"], r"^start.settled.posture: .*no posture 'low'; valid names: crouched"),
         (["start.settled.posture=netral"], r"^start.settled.posture: .*no posture 'netral'; did you mean neutral\?"),
         (
             ["policy.initial=interpolate", "policy.goal=stand"],

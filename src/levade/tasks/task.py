@@ -53,7 +53,7 @@ class PolicyChoice:
         right), "all" (one for all legs), "independent" (one each, as the paper's recovery), or lists of leg names.
     initial: the first mean of the search: "hold" what the joints were told last, or "interpolate" in a straight line from
         the joint angles at the start to the posture ``goal``.
-    goal: name of a posture of the robot, or joint -> angle [rad] on top of the neutral one.
+    goal: a posture, as in `levade.engines.Settled`.
     depart, settle: shares of the horizon in which every reference leaves what the joints were told last, and goes over to
         the goal; 0 leaves the ends to the weights. See `levade.policies.Ends`.
     """
@@ -63,7 +63,7 @@ class PolicyChoice:
     time: Literal["normalised", "seconds"] = "normalised"
     groups: Literal["pairs", "sides", "all", "independent"] | tuple[tuple[str, ...], ...] = "independent"
     initial: Literal["hold", "interpolate"] = "hold"
-    goal: str | Mapping[str, float] = "neutral"
+    goal: str | Mapping[str, float | str] = "neutral"
     depart: float = 0.0
     settle: float = 0.0
 
@@ -122,6 +122,8 @@ class Search:
         none, as plain CMA-ES has it. modes: search only over so many of the smoothest directions of each joint's weights;
         all if None. step_adaptation: see `levade.optimizers.CMAES`.
     aim: whether one candidate of each generation is aimed at the criteria: see `levade.optimizers.Aim`.
+    restart: trials without a success after which the search starts anew, from the first stage, with other random numbers:
+        whoever rolled to the wrong side seldom finds the way back. None goes on to the end of the budget.
     polish: trials to go on for after the first success, for a lower cost; None goes on to the end of the budget.
     changes: of the costs' weights on the way.
     """
@@ -134,6 +136,7 @@ class Search:
     modes: int | None = None
     step_adaptation: Literal["csa", "tpa"] = "tpa"
     aim: bool = True
+    restart: int | None = None
     polish: int | None = 0
     changes: tuple[Change, ...] = ()
 
@@ -268,5 +271,7 @@ def _check_search(search: Search) -> None:
         raise LevadeError(f"search.step: {search.step} should be a positive number of rad; 0.05 to 0.3 is usual")
     if not (math.isfinite(search.smoothness) and search.smoothness >= 0):
         raise LevadeError(f"search.smoothness: {search.smoothness} should be 0 or more, as a share of the horizon")
+    if search.restart is not None and search.restart < 1:
+        raise LevadeError(f"search.restart: {search.restart} should be at least 1; leave it out to go on")
     if search.polish is not None and search.polish < 0:
         raise LevadeError(f"search.polish: {search.polish} should be 0 or more trials")

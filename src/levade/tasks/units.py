@@ -66,10 +66,17 @@ def to_si(
     Raises LevadeError for a unit that does not exist or does not fit the key.
     """
     if isinstance(content, Mapping):
-        return {
-            key: to_si(value, where=f"{where}.{key}", measures=measured(str(key), content), robot=robot)
-            for key, value in content.items()
-        }
+        table = {}
+        for key, value in content.items():
+            inside = f"{where}.{key}"
+            if key in ("posture", "goal") and isinstance(value, Mapping) and "weight" not in value:
+                table[key] = {
+                    joint: to_si(angle, where=f"{inside}.{joint}", measures="an angle")
+                    for joint, angle in value.items()
+                }
+            else:
+                table[key] = to_si(value, where=inside, measures=measured(str(key), content), robot=robot)
+        return table
     if isinstance(content, (list, tuple)):
         return [to_si(value, where=f"{where}.{i}", measures=measures, robot=robot) for i, value in enumerate(content)]
     match = _NUMBER.fullmatch(content) if isinstance(content, str) and not _is_number(content) else None
