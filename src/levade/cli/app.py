@@ -72,7 +72,9 @@ def solve(
     robot: Annotated[str | None, typer.Option(help="Another robot: a name, or its robot.yaml.")] = None,
     seed: Annotated[int, typer.Option(min=0, help="Of the search; the same seed gives the same motion.")] = 0,
     trials: Annotated[int | None, typer.Option(help="Budget, instead of the task's.")] = None,
-    optimizer: Annotated[str | None, typer.Option(help="Instead of the task's.")] = None,
+    optimizer: Annotated[
+        str | None, typer.Option(help="cma, pi2, pi2-cma, mppi, cem or random, instead of the task's.")
+    ] = None,
     change: Annotated[
         list[str] | None, typer.Option("--set", metavar="PATH=VALUE", help="Change a value of the task. Repeatable.")
     ] = None,
