@@ -51,24 +51,31 @@ def bench(
     *,
     processes: int = 1,
     force: bool = False,
+    others: Sequence[Result] = (),
     observe: Callable[[Progress], object] | None = None,
 ) -> Bench:
     """Run the cases of a plan that have no result in the directory yet.
 
     plan: None goes on with the directory's own. processes: cases at a time, each on one thread; results do not depend
-    on it. force: begin anew. observe: called before the first case, after each, and about once a second between.
+    on it. force: begin anew. others: results that will be reported beside these.
+    observe: called before the first case, after each, and about once a second between.
     KeyboardInterrupt, from it or from the keyboard, ends the bench; what is done is kept.
     Raises LevadeError before anything is written if a case does not fit together, or if results in the directory are of
-    other tasks, budgets or versions under the same names.
+    other tasks, budgets or versions under the same names, or if one of ``others`` has the name of a case.
     """
-    if plan is None:
-        if not (directory / PLAN).is_file():
-            raise LevadeError(f"{directory}: no bench to go on with; name tasks (--tasks rearing) or a plan's file")
-        plan = read_plan(directory / PLAN)
+    plan = plan or plan_of(directory)
     wanted = cases(plan)
     path = directory / RESULTS
     before = [] if force or not path.exists() else read(path)
     _check_same(path, before, wanted)
+    keys = {case.key for case in wanted} | {result.key for result in before}
+    for other in others:
+        if other.key in keys:
+            task, robot, optimizer, seed = other.key
+            raise LevadeError(
+                f"{task} on {robot}, {optimizer}, seed {seed}: is in this bench and in what is added to it"
+            )
+        keys.add(other.key)
     try:
         directory.mkdir(parents=True, exist_ok=True)
         (directory / PLAN).write_text(plan_to_yaml(plan), encoding="utf-8")
@@ -96,6 +103,13 @@ def bench(
     ordered = in_order(done.values(), wanted)
     write(path, ordered)
     return Bench(ordered, len(left))
+
+
+def plan_of(directory: Path) -> Plan:
+    """The plan that a directory was last called with. Raises LevadeError if there is none."""
+    if not (directory / PLAN).is_file():
+        raise LevadeError(f"{directory}: no bench to go on with; name tasks (--tasks rearing) or a plan's file")
+    return read_plan(directory / PLAN)
 
 
 def report(results: Sequence[Result], directory: Path, *, format: str = "pdf") -> tuple[list[Path], list[str]]:

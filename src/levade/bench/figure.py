@@ -61,7 +61,7 @@ def _figure(
 ) -> Any:
     from matplotlib.figure import Figure
 
-    heights = [0.95 + 0.17 * max(len(optimizers), 4) for optimizers in groups.values()]
+    heights = [1.05 + 0.19 * max(len(optimizers), 3) for optimizers in groups.values()]
     figure = Figure(figsize=(PAGE, sum(heights)), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.04, h_pad=0.04, wspace=0.03, hspace=0.03)  # type: ignore[union-attr]
     grid = figure.subplots(
@@ -78,30 +78,23 @@ def _figure(
 def _curves(
     axes: Any, optimizers: Mapping[str, list[Result]], looks: Mapping[str, Mapping[str, Any]], what: str
 ) -> None:
-    ends = []
-    for name, runs in optimizers.items():
-        amounts, shares = success_curve(runs, what)
-        amount, _ = spent(runs, what)
-        end = _budget(runs, what) or amount.max()
-        ends += [amounts[0] if amounts.size else end, end]
+    curves = {name: success_curve(runs, what) for name, runs in optimizers.items()}
+    ends = {name: _budget(runs, what) or spent(runs, what)[0].max() for name, runs in optimizers.items()}
+    first = min([amounts[0] for amounts, _ in curves.values() if amounts.size] or list(ends.values()))
+    low = max(first, 2.0) / 2
+    for name, (amounts, shares) in curves.items():
         look = dict(looks[name])
         marker = look.pop("marker")
-        x, y = (
-            np.concatenate([[0.0], amounts, [end]]),
-            np.concatenate([[0.0], shares, shares[-1:] if amounts.size else [0]]),
-        )
+        last = shares[-1:] if amounts.size else np.zeros(1)
+        x, y = np.concatenate([[low], amounts, [ends[name]]]), np.concatenate([[0.0], shares, last])
         axes.step(x, y, where="post", clip_on=False, zorder=3, **look)
         if amounts.size:
-            axes.plot(
-                amounts[-1], shares[-1], marker=marker, markersize=3.5, color=look["color"], clip_on=False, zorder=4
-            )
-    axes.set_xscale("log")
-    low, high = 10 ** math.floor(math.log10(max(min(ends) / 1.5, 1))), max(ends)
-    axes.set_xlim(low, high)
+            axes.plot(amounts[-1], last, marker=marker, markersize=3.5, color=look["color"], clip_on=False, zorder=4)
+    _log_axis(axes, low, max(ends.values()))
     axes.set_ylim(0, 1)
     axes.set_yticks([0, 0.5, 1])
     axes.set_xlabel(BUDGETS[what])
-    axes.set_ylabel("share of runs that succeeded")
+    axes.set_ylabel("runs that succeeded")
 
 
 def _expected(
@@ -115,6 +108,7 @@ def _expected(
         axes.annotate(won, (1.0, y), xycoords=("axes fraction", "data"), xytext=(3, 0), textcoords="offset points",
                       va="center", ha="left", color=LIGHT.muted, fontsize=6.5)  # fmt: skip
         if math.isinf(ert.value):
+            axes.annotate("no success", (0.03, y), xycoords=("axes fraction", "data"), va="center", color=LIGHT.muted)
             continue
         high = ert.high if math.isfinite(ert.high) else ert.value
         axes.plot([ert.low, high], [y, y], color=colour, linewidth=1.4, solid_capstyle="butt")
@@ -125,8 +119,7 @@ def _expected(
         if math.isinf(ert.high):
             axes.annotate("", (0.995, y), xycoords=("axes fraction", "data"), xytext=(ert.value, y), textcoords="data",
                           arrowprops={"arrowstyle": "->", "color": colour, "linewidth": 1.0, "shrinkA": 0})  # fmt: skip
-    axes.set_xscale("log")
-    _log_limits(axes, shown)
+    _log_axis(axes, min(shown) / 1.25, max(shown) * 1.25) if shown else axes.set_xticks([])
     _rows(axes, optimizers, looks, named=True)
     axes.set_xlabel(f"expected {BUDGETS[what]} to success")
 
@@ -145,8 +138,7 @@ def _costs(axes: Any, optimizers: Mapping[str, list[Result]], looks: Mapping[str
         axes.plot(np.median(cost), y, marker="|", markersize=11, markeredgewidth=1.4, color=colour)
         everything += cost.tolist()
     if min(everything) > 0:
-        axes.set_xscale("log")
-        _log_limits(axes, everything)
+        _log_axis(axes, min(everything) / 1.25, max(everything) * 1.25)
     _rows(axes, optimizers, looks, named=False)
     axes.set_xlabel("final cost (hollow: no success)")
 
@@ -162,21 +154,24 @@ def _rows(axes: Any, optimizers: Mapping[str, Any], looks: Mapping[str, Mapping[
             label.set_color(looks[name]["color"])
 
 
-def _log_limits(axes: Any, values: Sequence[float]) -> None:
-    """Round a little beyond the values; ticks in between where they span less than a factor of ten."""
-    if not values:
-        axes.set_xlim(1, 10)
-        axes.tick_params(labelbottom=False)
-        return
-    low, high = min(values) / 1.25, max(values) * 1.25
-    axes.set_xlim(low, high)
-    if high / low < 30:
-        from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
+def _log_axis(axes: Any, low: float, high: float) -> None:
+    """A logarithmic axis with plain numbers: decades, and a few in between where there is room."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-        few = (1.0, 2.0, 5.0) if high / low < 12 else (1.0, 3.0)
-        axes.xaxis.set_major_locator(LogLocator(subs=few))
-        axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-        axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.set_xscale("log")
+    axes.set_xlim(low, high)
+    span = high / low
+    between = (1.0, 2.0, 5.0) if span < 25 else (1.0, 3.0) if span < 100 else (1.0,)
+    axes.xaxis.set_major_locator(LogLocator(subs=between, numticks=6 if span > 1e4 else 12))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: _plain(value)))
+    axes.xaxis.set_minor_formatter(NullFormatter())
+
+
+def _plain(value: float) -> str:
+    """200, 20k, 2M, 0.02."""
+    if value >= 1e6:
+        return f"{value / 1e6:g}M"
+    return f"{value / 1e3:g}k" if value >= 1e4 else f"{value:g}"
 
 
 def _budget(runs: Sequence[Result], what: str) -> float | None:

@@ -17,7 +17,7 @@ import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 from levade.document import build, read_yaml
 from levade.errors import LevadeError, did_you_mean
@@ -59,6 +59,8 @@ class Plan:
                 raise LevadeError(f"{name}: {min(twice)} is there twice")
         if not self.seed_list or min(self.seed_list) < 0 or len(set(self.seed_list)) < len(self.seed_list):
             raise LevadeError(f"seeds: {self.seeds} should be a number from 1, or a list of different ones from 0")
+        if self.until not in get_args(Until):
+            raise LevadeError(f"until: {self.until!r} should be success or budget")
         for name, value in (("trials", self.trials), ("steps", self.steps)):
             if value is not None and not value >= 1:
                 raise LevadeError(f"{name}: {value} should be at least 1")

@@ -9,6 +9,7 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
+import threading
 import traceback
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -35,7 +36,7 @@ def run_cases(
     left = list(reversed(cases))
     workers: list[_Worker] = []
     try:
-        with _one_thread():
+        with _one_thread(), _uninterrupted():
             workers += [_Worker() for _ in range(min(processes, len(cases)))]
         for worker in workers:
             worker.give(left.pop())
@@ -97,6 +98,7 @@ class _Worker:
 def _serve(connection: Connection) -> None:
     """A process: results for cases, until nobody asks any more."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
     while True:
         try:
             case: Case = connection.recv()
@@ -112,6 +114,19 @@ def _serve(connection: Connection) -> None:
             connection.send(answer)
         except OSError:
             return
+
+
+@contextmanager
+def _uninterrupted() -> Iterator[None]:
+    """Processes that start now do not hear the keyboard, not even before `_serve`."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 @contextmanager

@@ -17,6 +17,9 @@ HEADINGS = (
     "final cost",
 )
 
+SHORT_HEADINGS = ("optimizer", "success", "trials to success", "ERT [trials]", "ERT [core-s]", "final cost")
+"""What fits a terminal: no intervals of the core-seconds, no quartiles of the cost."""
+
 _ENDS = {
     "success": "when it has succeeded and polished",
     "budget": "when its budget is spent",
@@ -24,13 +27,20 @@ _ENDS = {
 }
 
 
-def rows(summaries: Sequence[Summary]) -> list[tuple[str, ...]]:
-    """Cells under `HEADINGS` for summaries of one task and robot."""
+def rows(summaries: Sequence[Summary], *, short: bool = False) -> list[tuple[str, ...]]:
+    """Cells under `HEADINGS`, or `SHORT_HEADINGS`, for summaries of one task and robot."""
+    if short:
+        return [
+            (*cells[:4], number(summary.ert["core_seconds"].value), number(summary.cost[1]))
+            for summary, cells in zip(summaries, rows(summaries), strict=True)
+        ]
     return [
         (
             summary.optimizer,
             f"{summary.successes}/{summary.runs}",
-            f"{number(summary.median)} ({number(summary.least)} – {number(summary.most)})",
+            f"{number(summary.median)} ({number(summary.least)} – {number(summary.most)})"
+            if summary.successes
+            else "∞",
             interval(summary.ert["trials"]),
             interval(summary.ert["steps"], unit=1000.0),
             interval(summary.ert["core_seconds"]),
@@ -48,13 +58,13 @@ def by_case(summaries: Sequence[Summary]) -> dict[tuple[str, str], list[Summary]
     return found
 
 
-def legend(summaries: Sequence[Summary]) -> str:
+def legend(summaries: Sequence[Summary], *, short: bool = False) -> str:
     """What the columns mean, in a sentence or two."""
     ends = " or ".join(dict.fromkeys(_ENDS[summary.until] for summary in summaries))
     return (
         "Trials to success: median of all runs (least – most), ∞ for a run without. ERT: expected running time, what all"
         f" runs spent until success or their end over the number of successes [{LEVEL:.0%} bootstrap interval]. Final cost:"
-        f" median (quartiles) of the best trial at a run's end, {ends}."
+        f" median {'' if short else '(quartiles) '}of the best trial at a run's end, {ends}."
     )
 
 
@@ -68,7 +78,9 @@ def markdown(summaries: Sequence[Summary]) -> str:
 
 
 def interval(value: Interval, *, unit: float = 1.0) -> str:
-    """Value and limits in a unit: 310 [250 – 402]."""
+    """Value and limits in a unit: 310 [250 – 402]; ∞ alone where there is no success."""
+    if math.isinf(value.value):
+        return "∞"
     return f"{number(value.value / unit)} [{number(value.low / unit)} – {number(value.high / unit)}]"
 
 
