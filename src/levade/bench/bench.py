@@ -82,7 +82,7 @@ def bench(
     except OSError as error:
         raise LevadeError(f"{directory}: cannot be written ({error.strerror}); give a directory that can") from None
     write(path, before)  # without what was cut off
-    done = {result.key: result for result in before}
+    done = {result.key for result in before}
     total = len(wanted)
     left = [case for case in wanted if case.key not in done]
     latest: Result | None = None
@@ -95,14 +95,14 @@ def bench(
         tell()
         for case, result in run_cases(tuple(left), processes=processes, waiting=tell):
             append(path, result)
-            done[result.key] = latest = result
+            latest = result
             left.remove(case)
             tell()
     except KeyboardInterrupt:
         pass
-    ordered = in_order(done.values(), wanted)
+    ordered = in_order(read(path), wanted)  # the file knows best: an interrupt may come between any two lines above
     write(path, ordered)
-    return Bench(ordered, len(left))
+    return Bench(ordered, total - len({case.key for case in wanted} & {result.key for result in ordered}))
 
 
 def plan_of(directory: Path) -> Plan:

@@ -8,7 +8,7 @@ import math
 import os
 import signal
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -49,10 +49,14 @@ def bench_and_report(
         raise LevadeError(f"--format {format}: should be one of {', '.join(FORMATS)}")
     plan = _plan(file, directory, {name: value for name, value in options.items() if value is not None}, changes)
     others = [result for path in add for result in read(path)]
-    with _terminated_is_interrupted(), _Display(console, quiet=as_json and not console.is_terminal) as display:
-        done = bench(
-            plan, directory, processes=processes or _cores(), force=force, others=others, observe=display.update
-        )
+    with _interruptible() as asked, _Display(console, quiet=as_json and not console.is_terminal) as display:
+
+        def watch(progress: Progress) -> None:
+            display.update(progress)
+            if asked():
+                raise KeyboardInterrupt
+
+        done = bench(plan, directory, processes=processes or _cores(), force=force, others=others, observe=watch)
     results = [*done.results, *others]
     written, missing = report(results, directory, format=format)
     written.insert(0, directory / "results.csv")
@@ -162,14 +166,17 @@ class _Display:
 
 
 @contextmanager
-def _terminated_is_interrupted() -> Iterator[None]:
-    """SIGTERM ends the bench as Ctrl-C does."""
+def _interruptible() -> Iterator[Callable[[], bool]]:
+    """Ctrl-C and SIGTERM end the bench between two looks at its processes."""
+    asked = False
 
-    def interrupt(number: int, frame: object) -> None:
-        raise KeyboardInterrupt
+    def ask(number: int, frame: object) -> None:
+        nonlocal asked
+        asked = True
 
-    before = signal.signal(signal.SIGTERM, interrupt)
+    before = {number: signal.signal(number, ask) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
-        yield
+        yield lambda: asked
     finally:
-        signal.signal(signal.SIGTERM, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)
