@@ -6,7 +6,7 @@ written, missing = report(result.results, Path("out"))
 Processes start as fresh interpreters: a script that calls `bench` does so under ``if __name__ == "__main__":``.
 """
 
-from levade.bench.bench import Bench, Progress, bench, plan_of, report
+from levade.bench.comparison import Bench, Progress, bench, plan_of, report
 from levade.bench.measures import Summary, summarise
 from levade.bench.plan import Plan, read_plan
 from levade.bench.results import Result, read

@@ -1,7 +1,7 @@
 """Processes that run cases side by side, one thread each; a case's result does not depend on how many there are.
 
-A process is told the next case when it has sent the last result. Interrupts are for the parent: it stops the processes, and
-loses no more than the cases that they were at.
+A process is told the next case when it has sent the last result. Signals that ask to end are for the parent, even where all
+get them, as from the keyboard: it kills the processes, and loses no more than the cases that they were at.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from levade.bench.results import Result
 from levade.errors import LevadeError
 
 _ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
+_FOR_THE_PARENT = (signal.SIGINT, signal.SIGTERM)
 
 
 def run_cases(
@@ -36,7 +37,7 @@ def run_cases(
     left = list(reversed(cases))
     workers: list[_Worker] = []
     try:
-        with _one_thread(), _uninterrupted():
+        with _one_thread(), _undisturbed():
             workers += [_Worker() for _ in range(min(processes, len(cases)))]
         for worker in workers:
             worker.give(left.pop())
@@ -91,14 +92,14 @@ class _Worker:
 
     def end(self) -> None:
         self.connection.close()
-        self.process.terminate()
+        self.process.kill()
         self.process.join()
 
 
 def _serve(connection: Connection) -> None:
     """A process: results for cases, until nobody asks any more."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    for number in _FOR_THE_PARENT:
+        signal.signal(number, signal.SIG_IGN)
     while True:
         try:
             case: Case = connection.recv()
@@ -117,16 +118,17 @@ def _serve(connection: Connection) -> None:
 
 
 @contextmanager
-def _uninterrupted() -> Iterator[None]:
-    """Processes that start now do not hear the keyboard, not even before `_serve`."""
+def _undisturbed() -> Iterator[None]:
+    """Processes that start now do not hear signals that are for the parent, not even before `_serve`."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    before = {number: signal.signal(number, signal.SIG_IGN) for number in _FOR_THE_PARENT}
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 @contextmanager
