@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from levade.costs import DIVERGED, errors, evaluate, total
 from levade.engines import MujocoEngine
 from levade.errors import LevadeError, did_you_mean
-from levade.optimizers import OPTIMIZERS, Aim, Optimizer
+from levade.optimizers import OPTIMIZERS, Aim, Injectable, Optimizer, settings
 from levade.policies import Ends, Follower, GaussianKernels, Group, Policy, smoothness_factor
 from levade.robots import Leg, Robot, load_robot, mirror_signs
 from levade.tasks import Change, PolicyChoice, Stage, Task, looks_at_hold
@@ -68,6 +68,7 @@ class Objective:
         self.state = self.engine.start(task.start.choice)
         self.policy = make_policy(task, self.robot, start=self.state.joint_reference)
         self.evaluate(self.initial_weights[None])  # terms that cannot be evaluated say so now
+        make_optimizer(self, seed=0)  # and so do settings of its own that an optimizer does not take
 
     @cached_property
     def initial_weights(self) -> Array:
@@ -313,8 +314,9 @@ def solve(
     objective = task if isinstance(task, Objective) else Objective(task, threads=threads)
     task = objective.task
     stages, search = task.stages, _Search()
-    aim = Aim() if task.search.aim and task.success else None
     optimizer = make_optimizer(objective, seed)
+    injectable = optimizer if isinstance(optimizer, Injectable) else None
+    aim = Aim() if task.search.aim and task.success and injectable is not None else None
     earlier = deque(records)
     weights = _weights(task, 0)
     stopped = "budget"
@@ -337,8 +339,8 @@ def solve(
             if aim is not None:
                 aim.tell(candidates, _missed(task, record.evaluation), cost)
                 proposal = aim.propose()
-                if proposal is not None:
-                    optimizer.inject(proposal)
+                if proposal is not None and injectable is not None:
+                    injectable.inject(proposal)
 
             search.generations += 1
             search.trials += len(candidates)
@@ -375,6 +377,7 @@ def solve(
             if _hopeless(task, search):
                 search.attempt, search.attempt_trials = search.attempt + 1, 0
                 optimizer = make_optimizer(objective, seed, attempt=search.attempt)
+                injectable = optimizer if isinstance(optimizer, Injectable) else None
                 following = 0
             elif search.stage + 1 < len(stages) and _ends(stage, search, record.evaluation):
                 following = search.stage + 1
@@ -412,14 +415,18 @@ def make_optimizer(objective: Objective, seed: int, *, attempt: int = 0) -> Opti
     factor = None
     if search.smoothness > 0 or search.modes is not None:
         factor = smoothness_factor(policy.kernels, search.smoothness, policy.independent_joints, modes=search.modes)
-    return OPTIMIZERS[search.optimizer](
-        objective.initial_weights,
-        factor=factor,
-        step=search.step,
-        seed=(seed, attempt) if attempt else seed,
-        population=search.population,
-        step_adaptation=search.step_adaptation,
-    )
+    own: dict[str, Any] = dict(search.settings)
+    if "step_adaptation" in settings(search.optimizer):
+        own = {"step_adaptation": search.step_adaptation, **own}
+    with _at("search.settings."):
+        return OPTIMIZERS[search.optimizer](
+            objective.initial_weights,
+            factor=factor,
+            step=search.step,
+            seed=(seed, attempt) if attempt else seed,
+            population=search.population,
+            **own,
+        )
 
 
 def _weights(task: Task, generation: int) -> dict[str, float]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import pty
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -14,6 +15,7 @@ import pytest
 from levade import __version__
 from levade.cli import main
 from levade.motion import Motion
+from levade.optimizers import OPTIMIZERS
 
 QUICK = ["--set", "search.population=8", "--trials", "16", "--set", "horizon=0.06"]
 LOOSE = ["--set", "success.pitch.tolerance=9", "--set", "success.height.tolerance=9"]
@@ -52,6 +54,9 @@ def test_help_and_version(run) -> None:
     assert (status, err) == (0, "")
     for option in ("--robot", "--seed", "--trials", "--optimizer", "--set", "--out", "--json", "--resume"):
         assert option in out
+    listed = re.search(r"--optimizer \S+ (.*?), instead of", " ".join(out.split()))
+    assert listed is not None
+    assert re.split(", | or ", listed[1]) == list(OPTIMIZERS)
 
 
 @pytest.mark.parametrize(
@@ -72,6 +77,7 @@ def test_help_and_version(run) -> None:
         ("solve rearing --robot hyq2", "no robot 'hyq2'; did you mean hyq2max?"),
         ("solve rearing --robot my/robot.yaml", "my/robot.yaml: no such file"),
         ("solve rearing --optimizer cmaes", "--set search.optimizer: no optimizer 'cmaes'; did you mean cma?"),
+        ("solve rearing --optimizer pi", "no optimizer 'pi'; did you mean pi2?"),
         ("tasks show rearin", "no task 'rearin'; did you mean rearing?"),
         ("tasks show rearing --robot hyq2max", "tasks show: --robot goes with --full, which gives numbers for a robot"),
         ("tasks shw", "No such command 'shw'."),

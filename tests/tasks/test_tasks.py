@@ -259,6 +259,11 @@ def test_every_unit_has_its_size(unit: str) -> None:
             "stages.0.hold: False, but every cost of the task looks at the hold; say hold: true",
         ),
         ({"search": {"optimizer": "cmaes"}}, "search.optimizer: no optimizer 'cmaes'; did you mean cma?"),
+        ({"search": {"settings": {"elite": 0.2}}}, "search.settings: no 'elite' for cma; it takes none"),
+        (
+            {"search": {"optimizer": "cem", "settings": {"elit": 0.2}}},
+            "search.settings: no 'elit' for cem; did you mean elite?",
+        ),
         ({"search": {"trials": 0}}, "search.trials: 0 should be at least 1; the paper has about 3000"),
         ({"search": {"trials": "many"}}, "search.trials: should be a valid integer"),
         ({"search": {"population": 3}}, "search.population: 3 should be 4 or more; leave it out for the usual one"),
@@ -352,6 +357,10 @@ def test_tasks_that_are_not_there(name: str, message: str) -> None:
         ),
         (["costs.effort={term: posture, position: [1], weight: 1}"], r"1 angles for a robot of 12 joints"),
         (["scene.boxes=[{position: [0, 0, 0.4], size: [1, 1, 0.8]}]"], r"^start: .*box0.* overlap by 0.\d+ m"),
+        (
+            ["search.optimizer=cem", "search.settings={elite: 2}"],
+            r"^search.settings.elite: 2.0 should be a share, more than 0 and at most 1",
+        ),
     ],
 )
 def test_what_does_not_fit_the_robot(changes: list[str], message: str) -> None:

@@ -23,12 +23,16 @@ app = typer.Typer(
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object, and nothing else, on standard output.")]
 
 
+_SEVERAL = ("--tasks", "--robots", "--optimizers", "--add")
+"""Options of ``bench`` that take all words up to the next option."""
+
+
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line; whatever is wrong with the input is one line on standard error and exit status 2."""
     # typer names these by its own copy of click since 0.26, by click itself before
     _, usage_error, click_exception, *_ = typer.BadParameter.__mro__
     try:
-        status = app(args=arguments, standalone_mode=False)
+        status = app(args=_spread(sys.argv[1:] if arguments is None else arguments), standalone_mode=False)
     except LevadeError as error:
         _fail(str(error))
     except usage_error as error:  # type: ignore[misc]
@@ -45,6 +49,21 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except (KeyboardInterrupt, typer.Abort):
         sys.exit(130)
     sys.exit(status if isinstance(status, int) else 0)
+
+
+def _spread(arguments: Sequence[str]) -> list[str]:
+    """``bench --tasks A B`` as ``bench --tasks A --tasks B``, which is how several values can be told to typer."""
+    if not arguments or arguments[0] != "bench":
+        return list(arguments)
+    taken: list[str] = []
+    option: str | None = None
+    for word in arguments:
+        if word.startswith("-"):
+            option = word if word in _SEVERAL else None
+        elif option is not None and taken[-1] != option:
+            taken.append(option)
+        taken.append(word)
+    return taken
 
 
 def _fail(message: str) -> NoReturn:
@@ -72,7 +91,9 @@ def solve(
     robot: Annotated[str | None, typer.Option(help="Another robot: a name, or its robot.yaml.")] = None,
     seed: Annotated[int, typer.Option(min=0, help="Of the search; the same seed gives the same motion.")] = 0,
     trials: Annotated[int | None, typer.Option(help="Budget, instead of the task's.")] = None,
-    optimizer: Annotated[str | None, typer.Option(help="Instead of the task's.")] = None,
+    optimizer: Annotated[
+        str | None, typer.Option(help="cma, pi2, pi2-cma, mppi, cem or random, instead of the task's.")
+    ] = None,
     change: Annotated[
         list[str] | None, typer.Option("--set", metavar="PATH=VALUE", help="Change a value of the task. Repeatable.")
     ] = None,
@@ -151,6 +172,60 @@ def show(
 
     pictures = Pictures(figures, format, strip, poses, video, slow, camera)
     return show_motions(motions, pictures, report=not as_json if report is None else report, as_json=as_json)
+
+
+@app.command()
+def bench(
+    plan: Annotated[Path | None, typer.Argument(metavar="FILE", help="A plan: see docs/bench.md.")] = None,
+    tasks: Annotated[list[str] | None, typer.Option(metavar="NAME ...", help="Names or files.")] = None,
+    robots: Annotated[
+        list[str] | None, typer.Option(metavar="NAME ...", help="Names or files, instead of each task's own.")
+    ] = None,
+    optimizers: Annotated[
+        list[str] | None, typer.Option(metavar="NAME ...", help="Instead of each task's own; see solve --optimizer.")
+    ] = None,
+    seeds: Annotated[int | None, typer.Option(help="How many, from 0; by default 5.")] = None,
+    trials: Annotated[int | None, typer.Option(help="Budget of a run, instead of the task's.")] = None,
+    steps: Annotated[float | None, typer.Option(help="Budget of a run in physics steps, too.")] = None,
+    until: Annotated[
+        str | None, typer.Option(help="When a run ends: success (and polished; the default) or budget.")
+    ] = None,
+    change: Annotated[
+        list[str] | None, typer.Option("--set", metavar="PATH=VALUE", help="Change a value of every task. Repeatable.")
+    ] = None,
+    out: Annotated[Path, typer.Option(help="Directory to write, or to go on in.")] = Path("bench"),
+    processes: Annotated[int, typer.Option(min=0, help="Runs at a time; 0 for one per core. No effect on them.")] = 0,
+    force: Annotated[bool, typer.Option("--force", help="Begin anew; the directory's results are lost.")] = False,
+    add: Annotated[list[Path] | None, typer.Option(metavar="FILE ...", help="Report these results.csv, too.")] = None,
+    format: Annotated[str, typer.Option(help="Of the figures: pdf, svg or png.")] = "pdf",
+    as_json: Json = False,
+) -> int:
+    """Compare optimizers: tasks x robots x optimizers x seeds, in parallel. Called again, goes on where it stopped.
+
+    Exit status: 0 every run is done, 1 it was interrupted, 2 the input is wrong.
+    """
+    from levade.cli.benching import bench_and_report
+
+    options = {
+        "tasks": tuple(tasks) if tasks else None,
+        "robots": tuple(robots) if robots else None,
+        "optimizers": tuple(optimizers) if optimizers else None,
+        "seeds": seeds,
+        "trials": trials,
+        "steps": steps,
+        "until": until,
+    }
+    return bench_and_report(
+        file=plan,
+        options=options,
+        changes=change or [],
+        add=add or [],
+        directory=out,
+        processes=processes,
+        force=force,
+        format=format,
+        as_json=as_json,
+    )
 
 
 @app.command()

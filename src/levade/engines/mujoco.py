@@ -33,6 +33,7 @@ class MujocoEngine:
     """Rolls out joint references of one robot in one scene.
 
     threads: of the batch; 0 for one per core. Results do not depend on it.
+    steps: physics steps of all roll-outs so far; a trial that breaks down counts in full.
     Not to be used from several Python threads at once.
     """
 
@@ -40,6 +41,7 @@ class MujocoEngine:
         self.robot = robot
         self.scene = scene
         self.physics = physics
+        self.steps = 0
         self._threads = threads
         self.xml = self._compose(gain_scale=1.0)
         self.assets = dict(robot.assets)
@@ -85,6 +87,7 @@ class MujocoEngine:
         """
         model, layout = self.model, self._layout
         n, steps = reference.position.shape[:2]
+        self.steps += n * steps
         recorded = ["qpos", "qvel", "actuator_force"]
         if feet or bodies:
             recorded.append("sensordata")

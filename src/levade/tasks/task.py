@@ -10,7 +10,7 @@ from typing import Literal
 from levade.costs import Criterion, Term
 from levade.engines import Fall, Physics, Settled
 from levade.errors import LevadeError, did_you_mean
-from levade.optimizers import OPTIMIZERS
+from levade.optimizers import OPTIMIZERS, settings
 from levade.scenes import Scene
 
 
@@ -125,6 +125,7 @@ class Search:
     restart: trials without a success after which the search starts anew, from the first stage, with other random numbers:
         whoever rolled to the wrong side seldom finds the way back. None goes on to the end of the budget.
     polish: trials to go on for after the first success, for a lower cost; None goes on to the end of the budget.
+    settings: numbers that only this optimizer takes, such as {elite: 0.2}; see its class in `levade.optimizers`.
     changes: of the costs' weights on the way.
     """
 
@@ -138,6 +139,7 @@ class Search:
     aim: bool = True
     restart: int | None = None
     polish: int | None = 0
+    settings: Mapping[str, float] = field(default_factory=dict)
     changes: tuple[Change, ...] = ()
 
     def factors(self, generation: int) -> dict[str, float]:
@@ -263,6 +265,11 @@ def _check_search(search: Search) -> None:
         raise LevadeError(
             f"search.optimizer: no optimizer {search.optimizer!r}; {did_you_mean(search.optimizer, OPTIMIZERS)}"
         )
+    own = [name for name in settings(search.optimizer) if name != "step_adaptation"]
+    for name in search.settings:
+        if name not in own:
+            hint = did_you_mean(name, own) if own else "it takes none"
+            raise LevadeError(f"search.settings: no {name!r} for {search.optimizer}; {hint}")
     if search.trials < 1:
         raise LevadeError(f"search.trials: {search.trials} should be at least 1; the paper has about 3000")
     if search.population is not None and not 4 <= search.population <= 100_000:
