@@ -25,7 +25,7 @@ class CEM(Learner):
         *,
         factor: Array | None = None,
         step: float,
-        seed: int,
+        seed: int | tuple[int, ...],
         population: int | None = None,
         elite: float = 0.25,
         smoothing: float = 0.5,

@@ -25,7 +25,7 @@ class MPPI(Learner):
         *,
         factor: Array | None = None,
         step: float,
-        seed: int,
+        seed: int | tuple[int, ...],
         population: int | None = None,
         temperature: float = 0.1,
         decay: float = 0.97,

@@ -30,7 +30,13 @@ class Sampler(ABC):
     """
 
     def __init__(
-        self, mean: Array, *, factor: Array | None = None, step: float, seed: int, population: int | None = None
+        self,
+        mean: Array,
+        *,
+        factor: Array | None = None,
+        step: float,
+        seed: int | tuple[int, ...],
+        population: int | None = None,
     ) -> None:
         self._mean = np.asarray(mean, dtype=np.float64)
         self._factor = np.eye(self._mean.size) if factor is None else np.asarray(factor, dtype=np.float64)
