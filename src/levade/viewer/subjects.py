@@ -10,7 +10,7 @@ from pathlib import Path
 
 from levade.document import read_yaml
 from levade.errors import LevadeError, did_you_mean
-from levade.robots import Robot, builtin_robots, load_robot
+from levade.robots import Robot, builtin_robots, find_package_robot, load_robot
 from levade.run import MOTION, TASK
 from levade.tasks import Task, builtin_tasks, load_task
 
@@ -40,6 +40,8 @@ def find(name: str) -> Found:
     if name in tasks:
         return Found(task=load_task(name))
     path = Path(name)
+    if ":" in name and not path.exists() and find_package_robot(name) is not None:
+        return Found(robot=load_robot(name))
     if path.is_dir():
         path = _in_directory(path)
     if not path.is_file():
@@ -49,7 +51,7 @@ def find(name: str) -> Found:
     if path.suffix in (".yaml", ".yml"):
         return _from_yaml(path)
     if path.suffix in (".xml", ".urdf", ".mjcf"):
-        return Found(robot=load_robot(path))  # which says why a model alone will not do
+        return Found(robot=load_robot(path))
     return Found(motion=path)
 
 
