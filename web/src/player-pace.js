@@ -1,13 +1,16 @@
-// How finely to draw: as the screen can show what stands still, coarser what moves where the graphics cannot keep up.
+// How finely to draw: what stands still finer than the screen shows it, what moves coarser where the graphics cannot keep up.
 
 const SLOW = 0.045; // s a picture
 const FAST = 0.02;
-const FINEST = 2; // pixels of the canvas for one of the page
-const COARSEST = 0.6;
+const LEAST = 1.5; // pixels of the canvas for one of the page: more than one, for smooth edges
+const MOST = 2;
+const COARSE = 0.6;
 
 export class Pace {
-  constructor() {
-    this.share = 1;
+  // software: without graphics hardware, pictures take a hundred times as long
+  constructor(software) {
+    this.software = software;
+    this.share = software ? COARSE : 1;
     this.start();
   }
 
@@ -17,11 +20,11 @@ export class Pace {
   }
 
   get ratio() {
-    return this.finest * (this.moving ? this.share : 1);
+    return this.moving ? Math.max(COARSE, this.finest * this.share) : this.finest;
   }
 
   get finest() {
-    return Math.min(window.devicePixelRatio || 1, FINEST);
+    return this.software ? 1 : Math.min(Math.max(window.devicePixelRatio || 1, LEAST), MOST);
   }
 
   // passed: seconds since the picture before, 0 if that is long ago. The ratio for the next one.
@@ -37,7 +40,13 @@ export class Pace {
   }
 
   change(factor) {
-    this.share = Math.min(1, Math.max(this.share * factor, COARSEST / this.finest));
+    this.share = Math.min(1, Math.max(this.share * factor, COARSE / this.finest));
     this.start();
   }
+}
+
+export function isSoftware(gl) {
+  const more = gl.getExtension("WEBGL_debug_renderer_info");
+  const name = more ? gl.getParameter(more.UNMASKED_RENDERER_WEBGL) : "";
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 }

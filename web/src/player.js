@@ -14,11 +14,12 @@ import { locate, unpack } from "./player-data.js";
 import { Forces, Goal, goalCorners, Path } from "./player-overlays.js";
 import { cornersOf, Robot } from "./player-robot.js";
 import { Stage } from "./player-stage.js";
-import { Pace } from "./player-pace.js";
+import { isSoftware, Pace } from "./player-pace.js";
 import { CameraView } from "./player-view.js";
 
 const LAYERS = ["robot", "reference", "path", "forces", "goal", "collision"];
 const STILL = 24; // poses of the motion that the camera makes room for
+const SLIDING = 200; // ms
 const LARGE = 1.5; // m: obstacles with a longer half edge need not be seen whole
 
 export function createPlayer(element, scene, options = {}) {
@@ -29,7 +30,9 @@ export function createPlayer(element, scene, options = {}) {
   let picture = null;
   let theme = options.theme ?? "light";
   let frame = 0;
-  let before = 0;
+  let before = 0; // when the last picture was, while things move
+  let drawn = -Infinity;
+  let later = 0;
 
   const tell = () => listeners.forEach((listener) => listener(clock.time, clock.playing));
 
@@ -42,9 +45,14 @@ export function createPlayer(element, scene, options = {}) {
     const passed = before ? Math.min(Math.max(now - before, 0) / 1000, 0.5) : 0;
     const moved = clock.advance(passed);
     if (moved) tell();
-    const gliding = picture?.draw(clock.time, clock.playing, passed) ?? false;
+    // soon after another picture somebody is moving the slider: coarse now, fine when that is over
+    const sliding = now - drawn < SLIDING && !clock.playing;
+    drawn = now;
+    const gliding = picture?.draw(clock.time, clock.playing || sliding, passed) ?? false;
     before = clock.playing || gliding ? now : 0;
     if (before) wake();
+    clearTimeout(later);
+    if (!before && picture?.coarse) later = setTimeout(wake, SLIDING + 20);
   }
 
   try {
@@ -161,6 +169,7 @@ export function createPlayer(element, scene, options = {}) {
     },
     dispose() {
       cancelAnimationFrame(frame);
+      clearTimeout(later);
       document.removeEventListener("keydown", onKey);
       listeners.clear();
       picture?.dispose();
@@ -217,7 +226,7 @@ class Picture {
     });
     this.observer.observe(element);
     this.overlays = [];
-    this.pace = new Pace();
+    this.pace = new Pace(isSoftware(renderer.getContext()));
     this.follow = false;
     this.trunk = new THREE.Vector3();
     this.resize();
@@ -302,6 +311,10 @@ class Picture {
     this.renderer.setPixelRatio(this.pace.ratio);
     this.renderer.setSize(width, height, false);
     this.view.resize(width / height);
+  }
+
+  get coarse() {
+    return this.renderer.getPixelRatio() < this.pace.finest;
   }
 
   // Draws the motion at a time; true while the view is still gliding. passed: since the picture before [s], or 0.
