@@ -84,6 +84,9 @@ META = (
 )
 """Keys of ``meta``."""
 
+LATER = ("cost_weights",)
+"""Keys of ``meta`` that files of earlier versions lack."""
+
 # what numpy and zipfile raise for files that are damaged, or something else
 _UNREADABLE = (
     *(OSError, ValueError, EOFError, AttributeError, TypeError, LookupError, RuntimeError, MemoryError, SyntaxError),

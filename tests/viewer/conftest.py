@@ -1,28 +1,11 @@
-"""A real browser, for the pages that are served."""
+"""A tab of a real browser, for the pages that are served."""
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Iterator
 from typing import Any
 
 import pytest
-
-
-@pytest.fixture(scope="session")
-def browser() -> Iterator[Any]:
-    """Chromium, headless, drawing in software."""
-    playwright = pytest.importorskip(
-        "playwright.sync_api", reason="the pages are tried in a browser, driven by playwright: pip install playwright"
-    )
-    chromium = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
-    if chromium is None:
-        pytest.skip("the pages are tried in a browser: no chromium here (Debian: apt-get install chromium)")
-    flags = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
-    with playwright.sync_playwright() as started:
-        browser = started.chromium.launch(executable_path=chromium, args=flags)
-        yield browser
-        browser.close()
 
 
 @pytest.fixture
