@@ -8,18 +8,20 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
+from typing import Protocol
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from levade.engines.physics import Physics
 from levade.engines.start import Settled, Start, State
 from levade.errors import LevadeError
 from levade.robots import Robot
 from levade.scenes import Scene, compose
-from levade.trajectory import Array, JointReference, Trajectories
+from levade.trajectory import Array, JointLimits, JointReference, Trajectories
 
 _OVERLAP = 0.003
 """[m]: what may overlap before the start; contacts at rest sink in by less."""
@@ -142,10 +144,21 @@ class Engine(ABC):
         return data
 
 
+class Named(Protocol):
+    """What a `Layout` needs of a robot."""
+
+    @property
+    def joint_names(self) -> tuple[str, ...]: ...
+    @property
+    def trunk(self) -> str: ...
+    @property
+    def feet(self) -> tuple[str, ...]: ...
+
+
 class Layout:
     """Where the robot's quantities are in the vectors of the model."""
 
-    def __init__(self, robot: Robot, model: mujoco.MjModel) -> None:
+    def __init__(self, robot: Named, model: mujoco.MjModel) -> None:
         joints = [model.joint(name) for name in robot.joint_names]
         actuators = [model.actuator(name).id for name in robot.joint_names]
         root = model.joint(int(model.body(robot.trunk).jntadr[0]))
@@ -159,6 +172,37 @@ class Layout:
         self.ctrl_velocity = _compact([address + 1 for address in first])
         self._feet = [int(model.sensor(_foot_sensor(foot)).adr[0]) for foot in robot.feet]
         self._model = model
+
+    def trajectories(
+        self,
+        out: Mapping[str, Array],
+        reference: JointReference,
+        *,
+        limits: JointLimits,
+        trunk_com_offset: Array,
+        diverged: NDArray[np.bool_],
+        feet: bool = False,
+        bodies: Sequence[str] = (),
+    ) -> Trajectories:
+        """Of what MuJoCo recorded, (n, steps, ...): qpos, qvel, actuator_force, and sensordata for forces."""
+        root, velocity = self.root_qpos, self.root_qvel
+        return Trajectories(
+            joint_position=out["qpos"][..., self.joint_qpos],
+            joint_velocity=out["qvel"][..., self.joint_qvel],
+            joint_torque=out["actuator_force"][..., self.actuators],
+            trunk_position=out["qpos"][..., root : root + 3],
+            trunk_quaternion=out["qpos"][..., root + 3 : root + 7],
+            trunk_linear_velocity=out["qvel"][..., velocity : velocity + 3],
+            trunk_angular_velocity=out["qvel"][..., velocity + 3 : velocity + 6],
+            trunk_com_offset=trunk_com_offset,
+            reference=reference,
+            limits=limits,
+            timestep=reference.timestep,
+            horizon_steps=reference.horizon_steps,
+            diverged=diverged,
+            foot_contact_force=self.foot_forces(out["sensordata"]) if feet else None,
+            body_contact_force={body: self.force_on(body, out["sensordata"]) for body in bodies},
+        )
 
     def foot_forces(self, sensordata: Array) -> Array:
         """(n, steps, feet, 3) [N], on the feet."""

@@ -33,7 +33,7 @@ class MujocoEngine(Engine):
     def rollout(
         self, state: State, reference: JointReference, *, feet: bool = False, bodies: Sequence[str] = ()
     ) -> Trajectories:
-        model, layout = self.model, self.layout
+        model = self.model
         n, steps = reference.position.shape[:2]
         recorded = ["qpos", "qvel", "actuator_force"]
         if feet or bodies:
@@ -62,26 +62,14 @@ class MujocoEngine(Engine):
         diverged = (batch.warning[:n] != before).reshape(n, -1).any(axis=1)
         diverged[failed] = True
 
-        root = layout.root_qpos
-        sensordata = out.get("sensordata")
-        return Trajectories(
-            joint_position=out["qpos"][..., layout.joint_qpos],
-            joint_velocity=out["qvel"][..., layout.joint_qvel],
-            joint_torque=out["actuator_force"][..., layout.actuators],
-            trunk_position=out["qpos"][..., root : root + 3],
-            trunk_quaternion=out["qpos"][..., root + 3 : root + 7],
-            trunk_linear_velocity=out["qvel"][..., layout.root_qvel : layout.root_qvel + 3],
-            trunk_angular_velocity=out["qvel"][..., layout.root_qvel + 3 : layout.root_qvel + 6],
-            trunk_com_offset=self.robot.trunk_com_offset,
-            reference=reference,
+        return self.layout.trajectories(
+            out,
+            reference,
             limits=self.robot.limits,
-            timestep=self.physics.timestep,
-            horizon_steps=reference.horizon_steps,
+            trunk_com_offset=self.robot.trunk_com_offset,
             diverged=diverged,
-            foot_contact_force=None if sensordata is None or not feet else layout.foot_forces(sensordata),
-            body_contact_force={}
-            if sensordata is None
-            else {body: layout.force_on(body, sensordata) for body in bodies},
+            feet=feet,
+            bodies=bodies,
         )
 
     def _batch_for(self, n: int, *, sensors: bool) -> Batch:

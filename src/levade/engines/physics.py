@@ -45,9 +45,9 @@ class Physics:
     """Which engine simulates, and how time and contact are resolved.
 
     engine: "mujoco", or "ode", which needs a library: see docs/engines.md.
-    timestep: [s]. integrator, cone, impratio: as in MuJoCo's ``option``, of no effect in ODE. ode: see `Ode`. The elliptic cone with a friction constraint
-    that is stiffer than the normal one (impratio > 1) keeps feet from creeping: with MuJoCo's own defaults HyQ2Max,
-    standing still, sinks by 1 cm in 5 s as its feet slide apart.
+    timestep: [s]. integrator, cone, impratio: as in MuJoCo's ``option``, of no effect in ODE. The elliptic cone with a
+    friction constraint that is stiffer than the normal one (impratio > 1) keeps feet from creeping: with MuJoCo's own
+    defaults HyQ2Max, standing still, sinks by 1 cm in 5 s as its feet slide apart. ode: see `Ode`.
     """
 
     engine: Literal["mujoco", "ode"] = "mujoco"

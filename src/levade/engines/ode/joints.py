@@ -103,11 +103,12 @@ def link_motion(skeleton: Skeleton, qpos: Array, qvel: Array) -> tuple[Array, Ar
     mujoco.mj_fwdPosition(model, data)
     mujoco.mj_fwdVelocity(model, data)
     lever = np.einsum("lab,lb->la", data.xmat[skeleton.body].reshape(-1, 3, 3), com)
-    twist = np.zeros((len(com), 6))
+    twist: Array = np.zeros((len(com), 6))
     for row, body in zip(twist, skeleton.body, strict=True):
         mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_XBODY, body, row, 0)
     angular, linear = twist[:, :3], twist[:, 3:]
-    return data.xpos[skeleton.body] + lever, data.xquat[skeleton.body], linear + np.cross(angular, lever), angular
+    velocity = linear + np.asarray(np.cross(angular, lever), dtype=float)
+    return data.xpos[skeleton.body] + lever, data.xquat[skeleton.body], velocity, angular
 
 
 def _mobility(skeleton: Skeleton) -> Array:

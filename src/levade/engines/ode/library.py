@@ -106,16 +106,15 @@ class Library:
 
     def __init__(self, path: str) -> None:
         dll = ctypes.CDLL(path)
-        for name, (result, *arguments) in _SIGNATURES.items():
-            function = getattr(dll, name)
-            setattr(self, name, function)
-            function.restype = result
-        configuration = self.dGetConfiguration().decode()
-        double = "ODE_double_precision" in configuration
+        dll.dGetConfiguration.restype = ctypes.c_char_p
+        double = b"ODE_double_precision" in dll.dGetConfiguration()
         self.real: Any = ctypes.c_double if double else ctypes.c_float
         self.dtype = np.dtype(self.real)
-        for name, (_, *arguments) in _SIGNATURES.items():
-            getattr(self, name).argtypes = [self.real if kind is R else kind for kind in arguments]
+        for name, (result, *arguments) in _SIGNATURES.items():
+            function = getattr(dll, name)
+            function.restype = result
+            function.argtypes = [self.real if kind is R else kind for kind in arguments]
+            setattr(self, name, function)
         self.contact, self.mass, self.feedback = _structures(self.real)
         self.name = f"{_loaded_file(path)} {'double' if double else 'single'}"
         self._quiet = ctypes.CFUNCTYPE(None, c_int, ctypes.c_char_p, c_void_p)(lambda *_: None)
@@ -153,26 +152,26 @@ def _structures(real: Any) -> tuple[Any, Any, Any]:
     vector, matrix = real * 4, real * 12
 
     class Surface(ctypes.Structure):
-        _fields_ = [  # noqa: RUF012
+        _fields_ = [
             ("mode", c_int),
             *((name, real) for name in ("mu", "mu2", "rho", "rho2", "rhoN", "bounce", "bounce_vel", "soft_erp")),
             *((name, real) for name in ("soft_cfm", "motion1", "motion2", "motionN", "slip1", "slip2")),
         ]
 
     class Geom(ctypes.Structure):
-        _fields_ = [  # noqa: RUF012
+        _fields_ = [
             *(("pos", vector), ("normal", vector), ("depth", real)),
             *(("g1", P), ("g2", P), ("side1", c_int), ("side2", c_int)),
         ]
 
     class Contact(ctypes.Structure):
-        _fields_ = [("surface", Surface), ("geom", Geom), ("fdir1", vector)]  # noqa: RUF012
+        _fields_ = [("surface", Surface), ("geom", Geom), ("fdir1", vector)]
 
     class Mass(ctypes.Structure):
-        _fields_ = [("mass", real), ("c", vector), ("I", matrix)]  # noqa: RUF012
+        _fields_ = [("mass", real), ("c", vector), ("I", matrix)]
 
     class Feedback(ctypes.Structure):
-        _fields_ = [("f1", vector), ("t1", vector), ("f2", vector), ("t2", vector)]  # noqa: RUF012
+        _fields_ = [("f1", vector), ("t1", vector), ("f2", vector), ("t2", vector)]
 
     return Contact, Mass, Feedback
 

@@ -9,16 +9,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import NDArray
 
-from levade.engines.ode.skeleton import Skeleton
+from levade.engines.ode.skeleton import Index, Skeleton
 from levade.trajectory import Array
 
-_MARGIN = 1e-6
-"""[m], beyond what rounding may do."""
+_MARGIN = 0.04
+"""[m]: pairs this far apart are passed on as well, so that the answer holds until something has moved by half of it."""
 
 
 class Nearness:
-    """The test for one skeleton."""
+    """The test for one skeleton. It remembers its last answer: call it once a step, after `forget`."""
 
     def __init__(self, skeleton: Skeleton) -> None:
         shapes = skeleton.shapes
@@ -42,11 +43,30 @@ class Nearness:
         self._others = np.flatnonzero(~on_plane)
         self._first, self._second = first[self._others], second[self._others]
         self._near = (self._reach[self._first] + self._reach[self._second] + _MARGIN) ** 2
+        self._extent = np.zeros(len(skeleton.mass))  # of each link, from its centre of mass
+        np.maximum.at(self._extent, self._link[moving], (np.linalg.norm(self._centre, axis=1) + self._reach)[moving])
+        self._moved: Array | None = None
+        self._found: list[list[int]] = []
 
-    def __call__(self, state: Mapping[str, Array]) -> list[list[int]]:
-        """For each trial the pairs that may touch, in ascending order. state: as `levade.engines.ode.worlds.Worlds.read`
-        gives it.
+    def forget(self) -> None:
+        """Links are put somewhere else."""
+        self._moved = None
+
+    def __call__(self, state: Mapping[str, Array], timestep: float) -> list[list[int]]:
+        """For each trial the pairs that may touch, in ascending order.
+
+        state: as `levade.engines.ode.worlds.Worlds.read` gives it, one ``timestep`` [s] after that of the call before.
         """
+        if self._moved is not None:
+            speed = np.sqrt(np.sum(state["linear"] ** 2, axis=2))
+            speed += np.sqrt(np.sum(state["angular"] ** 2, axis=2)) * self._extent
+            self._moved += timestep * speed
+        if self._moved is None or not (self._moved < 0.49 * _MARGIN).all():
+            self._moved = np.zeros(state["linear"].shape[:2])
+            self._found = self._find(state)
+        return self._found
+
+    def _find(self, state: Mapping[str, Array]) -> list[list[int]]:
         position = state["position"]
         n, links = position.shape[:2]
         rotation = state["rotation"].reshape(n, links, 3, 3)
@@ -68,12 +88,9 @@ class Nearness:
                 keep = ~self._apart(rotation, between[trial, pair], trial, pair)
                 for t, p in zip(trial[keep].tolist(), self._others[pair[keep]].tolist(), strict=True):
                     found[t].append(p)
-                if self._planes:
-                    for pairs in found:
-                        pairs.sort()
-        return found
+        return [sorted(pairs) for pairs in found]
 
-    def _apart(self, rotation: Array, between: Array, trial: Array, pair: Array) -> Array:
+    def _apart(self, rotation: Array, between: Array, trial: Index, pair: Index) -> NDArray[np.bool_]:
         """(k,) whether a face of one of the two boxes separates them."""
         axes = []
         for shape in (self._first[pair], self._second[pair]):
@@ -86,8 +103,12 @@ class Nearness:
         rounded = (self._radius[one] + self._radius[other])[:, None] + _MARGIN
         gaps = (
             np.abs(np.einsum("kai,ki->ka", axes[0], between))
-            - self._core[one] - np.einsum("kab,kb->ka", cosine, self._core[other]) - rounded,
+            - self._core[one]
+            - np.einsum("kab,kb->ka", cosine, self._core[other])
+            - rounded,
             np.abs(np.einsum("kbi,ki->kb", axes[1], between))
-            - self._core[other] - np.einsum("kab,ka->kb", cosine, self._core[one]) - rounded,
+            - self._core[other]
+            - np.einsum("kab,ka->kb", cosine, self._core[one])
+            - rounded,
         )
         return (np.maximum(*gaps) > 0).any(axis=1)

@@ -15,8 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from levade.engines.ode.library import load
 from levade.engines.ode.joints import Angles, Torques, link_motion
+from levade.engines.ode.library import load
 from levade.engines.ode.nearness import Nearness
 from levade.engines.ode.skeleton import Skeleton
 from levade.engines.ode.worlds import CONTACTS, Worlds
@@ -64,6 +64,7 @@ class Simulation:
         self._torques = Torques(skeleton, timestep)
         self._worlds = Worlds(load(), skeleton, settings, timestep, self._torques.resisted)
         self._near = Nearness(skeleton)
+        self._timestep = timestep
         self._angles = Angles(skeleton)
 
     def run(
@@ -99,13 +100,21 @@ class Simulation:
         return qpos, qvel, act
 
     def _run(
-        self, qpos: Array, qvel: Array, act: Array, position: Array, velocity: Array, geoms: list[int], bodies: list[int]
+        self,
+        qpos: Array,
+        qvel: Array,
+        act: Array,
+        position: Array,
+        velocity: Array,
+        geoms: list[int],
+        bodies: list[int],
     ) -> Record:
         worlds, drives = self._worlds, self.skeleton.drives
         n, steps, joints = position.shape
         worlds.grow(n)
         links = link_motion(self.skeleton, qpos, qvel)
         worlds.place(range(n), *links)
+        self._near.forget()
         state = worlds.read(n)
         angle = np.repeat(qpos[None, self.skeleton.hinges.qpos], n, axis=0)
         angle, speed = self._angles(state, angle)
@@ -119,30 +128,34 @@ class Simulation:
         seeds = np.random.default_rng(_SEED).integers(2**32, size=steps).tolist()
         until = np.full(n, steps)  # the row from which on a trial has broken down
         running = list(range(n))
+        resisted = bool(self._torques.resisted.any())
         for k in range(steps):
             torque, pushed, resistance, target = self._torques(lag, angle, speed, position[:, k], velocity[:, k])
-            running = [i for i, sound in zip(running, _all(np.abs(pushed) < _TORQUE, running), strict=True) if sound]
-            pairs = self._near(state)
+            still = [i for i, sound in zip(running, _sound(pushed, _TORQUE, running), strict=True) if sound]
+            pairs = self._near(state, self._timestep)
             if touching is not None:
                 touching.clear()
                 worlds.make_room(CONTACTS * sum(map(len, pairs)))
             push = pushed.tolist()
-            if self._torques.resisted.any():
-                for i in running:
+            for i in still:
+                if resisted:
                     worlds.resist(i, target[i], resistance[i])
-            for i in running:
                 worlds.advance(i, push[i], pairs[i], seeds[k], touching)
             state = worlds.read(n)
-            sound = _all(np.abs(np.concatenate([state["linear"], state["angular"]], axis=2)) < _SPEED, running)
-            running = [i for i, fine in zip(running, sound, strict=True) if fine]
-            broken = np.setdiff1d(np.flatnonzero(until == steps), running)
-            if broken.size:
+            fast = np.maximum(np.abs(state["linear"]), np.abs(state["angular"]))
+            still = [i for i, sound in zip(still, _sound(fast, _SPEED, still), strict=True) if sound]
+            if len(still) < len(running):
+                broken = sorted(set(running) - set(still))
                 until[broken] = k
-                worlds.place(broken.tolist(), *links)
+                worlds.place(broken, *links)
+                self._near.forget()
                 state = worlds.read(n)
+            running = still
             angle, speed = self._angles(state, angle)
             angles[:, k], speeds[:, k], torques[:, k] = angle, speed, torque
-            trunk[:, k] = np.concatenate([state[name][:, 0] for name in ("quaternion", "position", "linear", "angular")], 1)
+            trunk[:, k] = np.concatenate(
+                [state[name][:, 0] for name in ("quaternion", "position", "linear", "angular")], 1
+            )
             if touching:
                 self._add_forces(k, touching, geoms, bodies, geom_force, body_force)
         out = Record(
@@ -183,9 +196,9 @@ class Simulation:
             np.add.at(body_force, (trial[of], k, column), force[of])
 
 
-def _all(flags: NDArray[np.bool_], trials: list[int]) -> list[bool]:
-    """Of the trials: whether all of a trial's flags are set."""
-    return flags.reshape(len(flags), -1).all(axis=1)[trials].tolist()
+def _sound(values: Array, limit: float, trials: list[int]) -> list[bool]:
+    """Of the trials: whether all values, (n, ...), are within the limit, and numbers."""
+    return np.all(np.abs(values).reshape(len(values), -1) < limit, axis=1)[trials].tolist()
 
 
 def _repeat(out: Record, trial: int, row: int, skeleton: Skeleton, qpos: Array, qvel: Array) -> None:

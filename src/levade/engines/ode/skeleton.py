@@ -188,7 +188,9 @@ def _hinges(model: mujoco.MjModel, data: mujoco.MjData, roots: list[int], link_o
     for root, joint in zip(roots[1:], joints, strict=True):
         link = link_of[int(model.body_parentid[root])]
         if link < 0:
-            raise LevadeError(f"joint {model.joint(joint).name}: hangs on the world; the engine ode wants it on the trunk")
+            raise LevadeError(
+                f"joint {model.joint(joint).name}: hangs on the world; the engine ode wants it on the trunk"
+            )
         rotation = data.xmat[root].reshape(3, 3)
         inverse, between = np.empty(4), np.empty(4)
         mujoco.mju_negQuat(inverse, data.xquat[roots[link]])

@@ -34,7 +34,9 @@ class Worlds:
     resisted: (J,) bool, hinges with a motor that resists their motion (`resist`).
     """
 
-    def __init__(self, ode: Library, skeleton: Skeleton, settings: Ode, timestep: float, resisted: Array) -> None:
+    def __init__(
+        self, ode: Library, skeleton: Skeleton, settings: Ode, timestep: float, resisted: NDArray[np.bool_]
+    ) -> None:
         self._ode, self._skeleton, self._settings, self._timestep = ode, skeleton, settings, timestep
         self._resisted = [int(j) for j in np.flatnonzero(resisted)]
         self._step = ode.dWorldQuickStep if settings.solver == "quick" else ode.dWorldStep
@@ -81,9 +83,7 @@ class Worlds:
         columns = [at[:, :, i, None] + (_ROTATION if i == 2 else np.arange(3 + (i == 1))) for i in range(len(getters))]
         self._where = np.concatenate(columns, axis=2)
 
-    def place(
-        self, which: Iterable[int], position: Array, quaternion: Array, linear: Array, angular: Array
-    ) -> None:
+    def place(self, which: Iterable[int], position: Array, quaternion: Array, linear: Array, angular: Array) -> None:
         """Put the links (L, ...) of some worlds there: centres of mass, frames, velocities, in world axes."""
         ode = self._ode
         turned = [ode.vector(*values) for values in quaternion]
@@ -113,7 +113,12 @@ class Worlds:
             set_param(motor, cfm, 1.0 / resistance[j])
 
     def advance(
-        self, world: int, torque: Sequence[float], pairs: Sequence[int], seed: int, touching: list[tuple[int, int]] | None
+        self,
+        world: int,
+        torque: Sequence[float],
+        pairs: Sequence[int],
+        seed: int,
+        touching: list[tuple[int, int]] | None,
     ) -> None:
         """One step of a world under torques on its hinges, with contacts of those of ``pairs`` that touch.
 
