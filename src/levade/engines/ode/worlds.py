@@ -40,6 +40,10 @@ class Worlds:
         self._ode, self._skeleton, self._settings, self._timestep = ode, skeleton, settings, timestep
         self._resisted = [int(j) for j in np.flatnonzero(resisted)]
         self._step = ode.dWorldQuickStep if settings.solver == "quick" else ode.dWorldStep
+        hinges = skeleton.hinges
+        limited = np.isfinite(hinges.lower) & np.isfinite(hinges.upper)
+        self._middle = hinges.zero.copy()
+        self._middle[limited] = (hinges.lower + hinges.upper)[limited] / 2
         self._keep: list[object] = []
         self._worlds: list[int] = []
         self._bodies: list[list[int]] = []
@@ -70,6 +74,7 @@ class Worlds:
         if len(self) >= n:
             return
         data = mujoco.MjData(self._skeleton.model)
+        data.qpos[self._skeleton.hinges.qpos] = self._middle
         mujoco.mj_kinematics(self._skeleton.model, data)
         while len(self) < n:
             self._add(data)
@@ -204,8 +209,8 @@ class Worlds:
         ode.dJointAttach(hinge, bodies[j + 1], bodies[hinges.parent[j]])
         ode.dJointSetHingeAnchor(hinge, *(data.xpos[root] + rotation @ hinges.anchor[j]))
         ode.dJointSetHingeAxis(hinge, *(rotation @ hinges.axis[j]))
-        # ODE knows angles within half a turn; a stop beyond is none
-        lower, upper = hinges.lower[j] - hinges.zero[j], hinges.upper[j] - hinges.zero[j]
+        # ODE knows angles within half a turn of where it was put together; a stop beyond is none
+        lower, upper = hinges.lower[j] - self._middle[j], hinges.upper[j] - self._middle[j]
         for stop, value in ((library.HI_STOP, upper), (library.LO_STOP, lower), (library.HI_STOP, upper)):
             if abs(value) < np.pi:
                 ode.dJointSetHingeParam(hinge, stop, value)
