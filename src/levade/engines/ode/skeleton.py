@@ -204,9 +204,9 @@ def _hinges(model: mujoco.MjModel, data: mujoco.MjData, roots: list[int], link_o
     return Hinges(
         names=tuple(model.joint(j).name for j in joints),
         parent=np.array(parent, dtype=np.intp),
-        axis=np.array(axis),
-        anchor=np.array(anchor),
-        rest=np.array(rest),
+        axis=np.array(axis).reshape(-1, 3),
+        anchor=np.array(anchor).reshape(-1, 3),
+        rest=np.array(rest).reshape(-1, 4),
         zero=zero.copy(),
         lower=np.where(limited, model.jnt_range[joints, 0], -np.inf),
         upper=np.where(limited, model.jnt_range[joints, 1], np.inf),

@@ -43,7 +43,7 @@ class Worlds:
         hinges = skeleton.hinges
         limited = np.isfinite(hinges.lower) & np.isfinite(hinges.upper)
         self._middle = hinges.zero.copy()
-        self._middle[limited] = (hinges.lower + hinges.upper)[limited] / 2
+        self._middle[limited] = (hinges.lower[limited] + hinges.upper[limited]) / 2
         self._keep: list[object] = []
         self._worlds: list[int] = []
         self._bodies: list[list[int]] = []
