@@ -88,7 +88,7 @@ def test_drives_deliver_what_mujoco_s_deliver(actuation: str) -> None:
 
 def test_a_step_in_flight_is_mujoco_s_explicit_step(robot: Robot, ode: Engine, standing: State) -> None:
     """From a random attitude and velocities: same accelerations as with MuJoCo's integrator Euler, to what QuickStep leaves
-    unsolved. (The default, implicitfast, takes the derivative of the drives' damping as if they had no lag.)
+    unsolved. (The default, implicitfast, damps the drives within the step.)
     """
     engine = make_engine(robot, Scene(), Physics(integrator="Euler"), threads=1)
     random = np.random.default_rng(1)
@@ -265,6 +265,28 @@ def test_simulations_that_break_down_are_marked_and_leave_the_others_alone(
         np.testing.assert_array_equal(value[1, 30:], np.broadcast_to(value[1, 29], value[1, 30:].shape))
     np.testing.assert_array_equal(good.rollout(state, reference).joint_position, expected.joint_position)
     assert capfd.readouterr() == ("", "")
+
+
+def test_a_run_that_was_interrupted_leaves_nothing_behind(
+    robot: Robot, standing: State, wave: Callable[..., JointReference]
+) -> None:
+    """In the middle of a step: torques put on, contacts made, nothing integrated."""
+    engine = make_engine(robot, Scene(), PHYSICS, threads=1)
+    worlds = engine._stage._crew.simulation._worlds  # type: ignore[attr-defined]
+    reference = wave(standing.joint_reference, n=2, steps=20)
+    expected, step, calls = engine.rollout(standing, reference), worlds._step, []
+
+    def interrupt(world: int, timestep: float) -> None:
+        calls.append(world)
+        if len(calls) == 24:
+            raise KeyboardInterrupt
+        step(world, timestep)
+
+    worlds._step = interrupt
+    with pytest.raises(KeyboardInterrupt):
+        engine.rollout(standing, reference)
+    worlds._step = step
+    np.testing.assert_array_equal(engine.rollout(standing, reference).joint_position, expected.joint_position)
 
 
 def test_settings_reach_the_solver(robot: Robot, ode: Engine, standing: State) -> None:

@@ -36,13 +36,13 @@ class Crew:
     def __init__(self, xml: str, assets: Mapping[str, bytes], physics: Physics, threads: int) -> None:
         self._model = (xml, dict(assets), physics)
         self.simulation = simulation(*self._model)
-        self._size = threads or len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+        self._size = threads or _cores()
         self._helpers: list[subprocess.Popen[bytes]] = []
 
     def run(self, start: tuple[Array, Array, Array], position: Array, velocity: Array, **forces: Any) -> Record:
         """`Simulation.run` of n trials; start: qpos, qvel, act."""
         n, steps = position.shape[:2]
-        size = min(self._size or 1, n) if n * steps >= _WORTH else 1
+        size = min(self._size, n) if n * steps >= _WORTH else 1
         shares = np.array_split(np.arange(n), size)
         while len(self._helpers) < size - 1:
             self._helpers.append(_hire(self._model))
@@ -66,6 +66,10 @@ def simulation(xml: str, assets: Mapping[str, bytes], physics: Physics) -> Simul
     """The simulation of a model. Raises LevadeError for what ODE cannot simulate."""
     model = mujoco.MjModel.from_xml_string(xml, dict(assets))
     return Simulation(skeleton(model), physics.ode, physics.timestep)
+
+
+def _cores() -> int:
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _hire(model: tuple[str, dict[str, bytes], Physics]) -> subprocess.Popen[bytes]:

@@ -50,6 +50,8 @@ _SIGNATURES: dict[str, tuple[Any, ...]] = {  # name -> result, arguments
     "dBodySetQuaternion": (None, P, P),
     "dBodySetLinearVel": (None, P, R, R, R),
     "dBodySetAngularVel": (None, P, R, R, R),
+    "dBodySetForce": (None, P, R, R, R),
+    "dBodySetTorque": (None, P, R, R, R),
     "dBodySetAutoDisableFlag": (None, P, I),
     "dBodyGetPosition": (P, P),
     "dBodyGetQuaternion": (P, P),

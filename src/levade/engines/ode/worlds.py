@@ -91,6 +91,7 @@ class Worlds:
     def place(self, which: Iterable[int], position: Array, quaternion: Array, linear: Array, angular: Array) -> None:
         """Put the links (L, ...) of some worlds there: centres of mass, frames, velocities, in world axes."""
         ode = self._ode
+        ode.dJointGroupEmpty(self._group)  # what a run that was interrupted in the middle of a step left behind
         turned = [ode.vector(*values) for values in quaternion]
         for world in which:
             for link, body in enumerate(self._bodies[world]):
@@ -98,6 +99,8 @@ class Worlds:
                 ode.dBodySetQuaternion(body, turned[link])
                 ode.dBodySetLinearVel(body, *linear[link])
                 ode.dBodySetAngularVel(body, *angular[link])
+                ode.dBodySetForce(body, 0.0, 0.0, 0.0)
+                ode.dBodySetTorque(body, 0.0, 0.0, 0.0)
 
     def read(self, n: int) -> dict[str, Array]:
         """Of the first n worlds' links, (n, L, ...): position of the centre of mass, quaternion, rotation (row by row),
@@ -265,10 +268,10 @@ class Worlds:
 
 
 def _free(ode: Library, worlds: list[int], geoms: list[int], group: int) -> None:
+    for geom in geoms:  # before their bodies, which they take leave of
+        ode.dGeomDestroy(geom)
     for world in worlds:
         ode.dWorldDestroy(world)
-    for geom in geoms:
-        ode.dGeomDestroy(geom)
     ode.dJointGroupDestroy(group)
 
 
