@@ -13,6 +13,7 @@ import subprocess
 import sys
 import weakref
 from collections.abc import Mapping
+from contextlib import suppress
 from typing import IO, Any
 
 import mujoco
@@ -38,6 +39,7 @@ class Crew:
         self.simulation = simulation(*self._model)
         self._size = threads or _cores()
         self._helpers: list[subprocess.Popen[bytes]] = []
+        weakref.finalize(self, _dismiss, self._helpers)
 
     def run(self, start: tuple[Array, Array, Array], position: Array, velocity: Array, **forces: Any) -> Record:
         """`Simulation.run` of n trials; start: qpos, qvel, act."""
@@ -53,9 +55,7 @@ class Crew:
             for helper, _ in zip(self._helpers, shares[1:], strict=False):
                 records.append(_receive(helper.stdout))
         except BaseException:  # an answer that nobody waits for would be taken for the next one
-            for helper in self._helpers:
-                _dismiss(helper)
-            self._helpers.clear()
+            _dismiss(self._helpers)
             raise
         if len(records) == 1:
             return records[0]
@@ -81,17 +81,19 @@ def _hire(model: tuple[str, dict[str, bytes], Physics]) -> subprocess.Popen[byte
         env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)},
         process_group=0,  # Ctrl-C is for this process, which knows what to do
     )
-    weakref.finalize(helper, _dismiss, helper)
     _send(helper.stdin, model)
     return helper
 
 
-def _dismiss(helper: subprocess.Popen[bytes]) -> None:
-    helper.kill()
-    for pipe in (helper.stdin, helper.stdout):
-        if pipe is not None:
-            pipe.close()
-    helper.wait()
+def _dismiss(helpers: list[subprocess.Popen[bytes]]) -> None:
+    while helpers:
+        helper = helpers.pop()
+        helper.kill()
+        for pipe in (helper.stdin, helper.stdout):
+            if pipe is not None:
+                with suppress(BrokenPipeError):  # of what was not yet sent
+                    pipe.close()
+        helper.wait()
 
 
 def _send(pipe: IO[bytes] | None, content: object) -> None:
