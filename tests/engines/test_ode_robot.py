@@ -14,7 +14,7 @@ import pytest
 
 import levade.robots
 from levade.engines import Engine, Fall, MujocoEngine, Ode, Physics, Settled, State, make_engine
-from levade.engines.ode import library
+from levade.engines.ode import crew, library
 from levade.engines.ode.joints import Torques, link_motion
 from levade.engines.ode.library import load
 from levade.engines.ode.nearness import Nearness
@@ -181,8 +181,13 @@ def test_motions_stay_together_for_a_tenth_of_a_second(
 
 
 def test_processes_order_and_company_do_not_matter(
-    robot: Robot, ode: Engine, standing: State, wave: Callable[..., JointReference]
+    robot: Robot,
+    ode: Engine,
+    standing: State,
+    wave: Callable[..., JointReference],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    monkeypatch.setattr(crew, "_HIRE", 0)
     reference = wave(standing.joint_reference, n=7, steps=220)
     expected = ode.rollout(standing, reference, feet=True, bodies=("trunk", "lf_lower"))
     three = make_engine(robot, Scene(), PHYSICS, threads=3)

@@ -25,7 +25,10 @@ from levade.engines.physics import Physics
 from levade.trajectory import Array
 
 _WORTH = 1500
-"""Steps, over all trials, from which on a roll-out is shared; starting a process costs as much."""
+"""Steps, over all trials, from which on a roll-out is shared."""
+
+_HIRE = 20_000
+"""Steps simulated before another process is started, which costs as much as thousands."""
 
 
 class Crew:
@@ -38,13 +41,15 @@ class Crew:
         self._model = (xml, dict(assets), physics)
         self.simulation = simulation(*self._model)
         self._size = threads or _cores()
+        self._done = 0
         self._helpers: list[subprocess.Popen[bytes]] = []
         weakref.finalize(self, _dismiss, self._helpers)
 
     def run(self, start: tuple[Array, Array, Array], position: Array, velocity: Array, **forces: Any) -> Record:
         """`Simulation.run` of n trials; start: qpos, qvel, act."""
         n, steps = position.shape[:2]
-        size = min(self._size, n) if n * steps >= _WORTH else 1
+        self._done += n * steps
+        size = min(self._size, n) if n * steps >= _WORTH and self._done >= _HIRE else 1
         shares = np.array_split(np.arange(n), size)
         while len(self._helpers) < size - 1:
             self._helpers.append(_hire(self._model))
