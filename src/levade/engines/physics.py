@@ -14,7 +14,8 @@ class Ode:
     """Settings of the engine ode; the defaults are Gazebo's.
 
     solver: "quick" is ``dWorldQuickStep``, ``iterations`` sweeps of successive over-relaxation by the factor
-    ``relaxation``; "exact" is ``dWorldStep``, which solves for all constraints at once.
+    ``relaxation``; "exact" is ``dWorldStep``, which solves for all constraints at once, but bounds friction by the
+    normal forces that there would be without it.
     erp: share of a constraint's error that is corrected in a step. cfm: its softness [1/(N s/m)].
     surface_layer: [m], depth up to which contacts may sink in. max_correcting_velocity: [m/s], of contacts.
     """
