@@ -213,8 +213,14 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
         "robot": objective.robot.name,
         "trunk": objective.robot.trunk,
         "legs": {
-            leg.name: {"joints": list(leg.joints), "foot": leg.foot, "side": leg.side, "end": leg.end}
-            for leg in objective.robot.legs
+            leg.name: {
+                **{"joints": list(leg.joints), "foot": leg.foot, "side": leg.side, "end": leg.end},
+                "geometry": {
+                    **{"anchors": shape.anchors.tolist(), "axes": shape.axes.tolist()},
+                    **{"foot": shape.foot.tolist(), "sole": shape.sole},
+                },
+            }
+            for leg, shape in zip(objective.robot.legs, objective.robot.leg_geometry, strict=True)
         },
         "limits": {
             "lower": _finite(limits.lower),
@@ -223,8 +229,8 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
             "torque": _finite(limits.torque),
         },
         "trunk_com_offset": objective.robot.trunk_com_offset.tolist(),
-        "engine": "mujoco",
-        "versions": versions(),
+        "engine": task.physics.engine,
+        "versions": versions(task.physics.engine),
         "seed": seed,
         "timestep": task.physics.timestep,
         "horizon": task.horizon_steps * task.physics.timestep,
@@ -248,18 +254,23 @@ def cost_weights(meta: Mapping[str, Any]) -> dict[str, float]:
     return meta.get("cost_weights") or {name: cost["weight"] for name, cost in meta["task"]["costs"].items()}
 
 
-def versions() -> dict[str, str]:
-    """The versions that decide a motion's bits."""
-    return dict(_versions())
+def versions(engine: str = "mujoco") -> dict[str, str]:
+    """The versions that decide a motion's bits; MuJoCo's too with another engine, which reads the model from it."""
+    return dict(_versions(engine))
 
 
 @cache
-def _versions() -> dict[str, str]:
+def _versions(engine: str) -> dict[str, str]:
     from importlib.metadata import version
 
     from levade import __version__
 
-    return {"levade": __version__, **{name: version(name) for name in ("mujoco", "numpy", "cma")}}
+    made = {"levade": __version__, **{name: version(name) for name in ("mujoco", "numpy", "cma")}}
+    if engine == "ode":
+        from levade.engines.ode.library import load
+
+        made["ode"] = load().name
+    return made
 
 
 def _finite(limit: Array) -> list[float | None]:

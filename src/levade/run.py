@@ -77,7 +77,8 @@ def run(
     """
     objective = task if isinstance(task, Objective) else Objective(task, threads=threads)
     task = objective.task
-    header = {"task": task.name, "seed": seed, "versions": versions(), "task_checksum": _checksum(task)}
+    made = versions(task.physics.engine)
+    header = {"task": task.name, "seed": seed, "versions": made, "task_checksum": _checksum(task)}
     new = not directory.exists()
     try:
         directory.mkdir(parents=True, exist_ok=True)
@@ -111,7 +112,7 @@ def resume(
     """
     task, header, records = read_run(directory)
     assert objective is None or objective.task == task
-    now = versions()
+    now = versions(task.physics.engine)
     for name, version in header["versions"].items():
         if now.get(name) != version:
             raise LevadeError(
