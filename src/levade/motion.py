@@ -214,10 +214,15 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
         "trunk": objective.robot.trunk,
         "legs": {
             leg.name: {
-                **{"joints": list(leg.joints), "foot": leg.foot, "side": leg.side, "end": leg.end},
+                "joints": list(leg.joints),
+                "foot": leg.foot,
+                "side": leg.side,
+                "end": leg.end,
                 "geometry": {
-                    **{"anchors": shape.anchors.tolist(), "axes": shape.axes.tolist()},
-                    **{"foot": shape.foot.tolist(), "sole": shape.sole},
+                    "anchors": shape.anchors.tolist(),
+                    "axes": shape.axes.tolist(),
+                    "foot": shape.foot.tolist(),
+                    "sole": shape.sole,
                 },
             }
             for leg, shape in zip(objective.robot.legs, objective.robot.leg_geometry, strict=True)
