@@ -188,9 +188,10 @@ def _call(command: list[str]) -> dict[str, Any]:
 
 
 def own() -> dict[str, str]:
-    """What surrounds a peer: one thread, and no modules but those of its environment."""
+    """What surrounds a peer: one thread, no modules but those of its environment, no word that matplotlib is missing."""
     names = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
-    return {name: value for name, value in os.environ.items() if name != "PYTHONPATH"} | dict.fromkeys(names, "1")
+    kept = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    return kept | dict.fromkeys(names, "1") | {"PYTHONWARNINGS": "ignore::UserWarning"}
 
 
 def _check_same(job: Job, command: list[str], case: Path) -> None:
