@@ -37,14 +37,20 @@ class Peer:
     settings: Mapping[str, Any] = field(default_factory=dict)
 
 
-KNOTS = {"num_nodes": 6, "num_rollouts": 16}
-PEERS = {
-    "plain": Peer("plain", "plain.py", {"step": 0.1}),
-    "judo-ps": Peer("judo", "propose_judo.py", {**KNOTS, "sigma": 0.1}),
-    "judo-mppi": Peer("judo", "propose_judo.py", {**KNOTS, "sigma": 0.1, "temperature": 0.05}),
-    "judo-cem": Peer("judo", "propose_judo.py", {**KNOTS, "sigma_min": 0.1, "sigma_max": 1.0, "num_elites": 2}),
-    "nevergrad": Peer("nevergrad", "propose_nevergrad.py", {"method": "NGOpt", "population": 16, "step": 0.1}),
-    "fcmaes": Peer("fcmaes", "propose_fcmaes.py", {"population": 17, "step": 0.1}),
+PEERS = {  # chosen on rearing: see SETTINGS.md
+    "plain": Peer("plain", "plain.py", {"step": 0.5}),
+    "judo-ps": Peer("judo", "propose_judo.py", {"num_nodes": 6, "num_rollouts": 32, "sigma": 0.3}),
+    "judo-mppi": Peer(
+        "judo", "propose_judo.py", {"num_nodes": 6, "num_rollouts": 16, "sigma": 0.3, "temperature": 0.001}
+    ),
+    "judo-cem": Peer(
+        "judo",
+        "propose_judo.py",
+        {"num_nodes": 6, "num_rollouts": 32, "num_elites": 4, "sigma_min": 0.1, "sigma_max": 1.0},
+    ),
+    "nevergrad": Peer("nevergrad", "propose_nevergrad.py", {"method": "NGOpt", "population": 16, "step": 0.3}),
+    "nevergrad-de": Peer("nevergrad", "propose_nevergrad.py", {"method": "TwoPointsDE", "population": 30, "step": 0.3}),
+    "fcmaes": Peer("fcmaes", "propose_fcmaes.py", {"population": 17, "step": 0.5}),
 }
 
 
@@ -182,9 +188,10 @@ def _call(command: list[str]) -> dict[str, Any]:
 
 
 def own() -> dict[str, str]:
-    """What surrounds a peer: one thread, and no modules but those of its environment."""
+    """What surrounds a peer: one thread, no modules but those of its environment, no word that matplotlib is missing."""
     names = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
-    return {name: value for name, value in os.environ.items() if name != "PYTHONPATH"} | dict.fromkeys(names, "1")
+    kept = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    return kept | dict.fromkeys(names, "1") | {"PYTHONWARNINGS": "ignore::UserWarning"}
 
 
 def _check_same(job: Job, command: list[str], case: Path) -> None:

@@ -48,7 +48,7 @@ def test_the_same_motion_gives_the_same_bytes(solved: tuple[Motion, Path], tmp_p
 
 def test_png_has_the_width_of_a_column_or_of_two_at_300_dpi(solved: tuple[Motion, Path], tmp_path: Path) -> None:
     (two,) = compare({"a": solved[0]}, tmp_path, format="png")  # without progress.csv there is no cost
-    (one,) = module._write({"foot-forces": lambda: module._foot_forces(solved[0])}, tmp_path, "png")
+    (one,) = module.write_figures({"foot-forces": lambda: module._foot_forces(solved[0])}, tmp_path, "png")
     for path, inches in ((one, COLUMN), (two, PAGE)):
         width, height = struct.unpack(">II", path.read_bytes()[16:24])
         assert width == round(inches * 300)

@@ -31,7 +31,11 @@ def rows(summaries: Sequence[Summary], *, short: bool = False) -> list[tuple[str
     """Cells under `HEADINGS`, or `SHORT_HEADINGS`, for summaries of one task and robot."""
     if short:
         return [
-            (*cells[:4], number(summary.ert["core_seconds"].value), number(summary.cost[1]))
+            (
+                *(cell.replace(" – ", "–") for cell in cells[:4]),
+                number(summary.ert["core_seconds"].value),
+                number(summary.cost[1]),
+            )
             for summary, cells in zip(summaries, rows(summaries), strict=True)
         ]
     return [

@@ -70,7 +70,7 @@ def bench_and_report(
         print(json.dumps(content, ensure_ascii=False))
     else:
         for part in tables(summaries):
-            console.print(part)
+            console.print(part, soft_wrap=isinstance(part, Table))  # the words below are broken at words
         console.print(f"Written: {escape(str(directory))}/{', '.join(path.name for path in written)}")
         for reason in missing:
             console.print(f"[yellow]Left out[/]: {escape(reason)}")
@@ -85,7 +85,7 @@ def tables(summaries: Sequence[Summary]) -> Iterator[Table | Text]:
     """A table for each task and robot, and what the columns mean."""
     for (task, robot), mine in by_case(summaries).items():
         table = Table(
-            title=Text(f"{task} on {robot}", style="bold"), title_justify="left", box=None, padding=(0, 2, 0, 0)
+            title=Text(f"{task} on {robot}", style="bold"), title_justify="left", box=None, padding=(0, 1, 0, 0)
         )
         for heading in SHORT_HEADINGS:
             table.add_column(Text(heading), justify="left" if heading == SHORT_HEADINGS[0] else "right", no_wrap=True)
