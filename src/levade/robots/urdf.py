@@ -106,6 +106,13 @@ def _tree(path: Path, links: dict[str, ET.Element], joints: dict[str, ET.Element
                         f"{path}: link {link} hangs on two joints, {parents[link]} and {name}; levade simulates trees only"
                     )
                 parents[link] = name
+    for start in links:
+        link, seen = start, {start}
+        while link in parents:
+            link = _link(joints[parents[link]], "parent")
+            if link in seen:
+                raise LevadeError(f"{path}: joint {parents[link]}: link {link} hangs on itself; levade simulates trees only")
+            seen.add(link)
     return parents
 
 
