@@ -13,7 +13,7 @@ import pytest
 
 from levade.errors import LevadeError
 from levade.robots import Robot, load_robot, mirror_signs
-from levade.robots.doctor import bare
+from levade.robots.doctor import Patient
 
 FRONT, HIND = (("lf", 1, 1), ("rf", 1, -1)), (("lh", -1, 1), ("rh", -1, -1))
 MIDDLE = (("lm", 0, 1), ("rm", 0, -1))
@@ -103,7 +103,7 @@ def test_legs_that_are_too_weak_stand_straighter(build) -> None:
     robot = build("urdf", ('effort="20.0"', 'effort="3.5"'))
     heights = [round(extension * 0.4 + 0.02, 6) for extension in (0.8, 0.85, 0.9)]
     assert round(robot.neutral_height, 6) in heights
-    needed = bare(robot).static_torque(dict(zip(robot.joint_names, robot.postures["neutral"], strict=True)))
+    needed = Patient(robot).bare.static_torque(dict(zip(robot.joint_names, robot.postures["neutral"], strict=True)))
     assert max(map(abs, needed.values())) <= 3.5
 
 
@@ -112,7 +112,7 @@ def test_static_torques_are_those_of_a_hand_computation(build, quadruped: type) 
     robot = build("urdf")
     q = quadruped()
     angles = dict(zip(robot.joint_names, robot.postures["neutral"], strict=True))
-    needed = bare(robot).static_torque(angles)
+    needed = Patient(robot).bare.static_torque(angles)
     g, (_, _, thigh, shank, foot) = 9.81, q.MASS
     knee = math.acos(2 * 0.75**2 - 1)
     force, x = q.mass * g / 4, q.LINK * math.sin(knee / 2)  # the knee is x behind hip and foot
@@ -142,7 +142,7 @@ def test_static_torques_hold_the_robot(build) -> None:
         body = int(robot.model.geom(foot).bodyid[0])
         data.xfrc_applied[body, 2] = bearing
         data.xfrc_applied[body, 3:] = np.cross(place - data.xipos[body], [0.0, 0.0, bearing])
-    for joint, torque in bare(robot).static_torque(neutral).items():
+    for joint, torque in Patient(robot).bare.static_torque(neutral).items():
         data.joint(joint).qfrc_applied[0] = torque
     mujoco.mj_forward(robot.model, data)
     np.testing.assert_allclose(data.qacc, 0.0, atol=1e-6)
@@ -190,7 +190,7 @@ def test_derived_gains_are_those_of_the_formula(build, quadruped: type) -> None:
     ]
     abduction = sum(part[0] for part in parts) + 3 * 0.002 + 1e-5
     flexion = sum(part[1] for part in parts) + 2 * 0.002 + 1e-5
-    inertia = bare(robot).joint_inertia(dict(zip(robot.joint_names, robot.postures["neutral"], strict=True)))
+    inertia = Patient(robot).bare.joint_inertia(dict(zip(robot.joint_names, robot.postures["neutral"], strict=True)))
     assert inertia["lf_haa"] == pytest.approx(abduction, rel=1e-5)
     assert inertia["lf_hfe"] == pytest.approx(flexion, rel=1e-5)
     np.testing.assert_allclose(robot.actuation.kd, 2 * 0.7 * math.sqrt(kp * max(abduction, flexion)), rtol=1e-5)

@@ -42,5 +42,5 @@ def some(names: Sequence[str], most: int = 4) -> str:
 
 def named(kind: str, names: Sequence[str]) -> str:
     """Where a finding is that several joints, links or bodies share, such as "joints a, b, c, d and 8 more"."""
-    plural = kind if len(names) == 1 else "bodies" if kind == "body" else f"{kind}s"
+    plural = kind if len(names) == 1 else {"body": "bodies", "foot": "feet"}.get(kind, f"{kind}s")
     return f"{plural} {some(names)}"

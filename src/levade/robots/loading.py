@@ -316,7 +316,7 @@ def _neutral(draft: Draft, bare: Bare, path: Path, torque: Array) -> dict[str, f
         angles = bare.posture(extension)
         if angles is None:
             continue
-        reachable = reachable or (angles, extension)
+        reachable = angles, extension  # at last the straightest, which is the easiest to hold
         needed = bare.static_torque(angles)
         if all(abs(needed[joint]) <= limit for joint, limit in zip(bare.joints, torque, strict=True)):
             break

@@ -10,11 +10,12 @@ import numpy as np
 
 from levade.errors import LevadeError, did_you_mean
 from levade.robots.actuation import Actuation
-from levade.robots.findings import named, note, some
+from levade.robots.findings import named, note, some, warning
 from levade.robots.reading import Draft
 from levade.robots.standing import Bare
+from levade.robots.understanding import moved_bodies
 
-_TIMESTEP = 0.002
+TIMESTEP = 0.002
 """[s], at which servos have to be stable: the default of `levade.engines.Physics`."""
 _OVERLAP = 1e-4
 """[m]"""
@@ -92,14 +93,22 @@ def exclude_overlaps(draft: Draft, bare: Bare, neutral: Mapping[str, float]) -> 
             pairs[one, other] = min(pairs.get((one, other), 0.0), float(contact.dist))
     if not pairs:
         return
-    couples = []
+    legs = {body: leg.name for leg in bare.legs for body in moved_bodies(bare.model, leg)}
+    within: list[tuple[int, int]] = []
+    across: list[tuple[int, int]] = []
     for one, other in pairs:
         names = [bare.model.body(body).name for body in (one, other)]
         draft.spec.add_exclude(name=f"{names[0]}-{names[1]}-at-rest", bodyname1=names[0], bodyname2=names[1])
-        couples.append(f"{names[0]} - {names[1]}")
-    depth = -min(pairs.values()) * 1000
-    what = f"overlap by up to {depth:.0f} mm in the neutral posture: contact between them is left out"
-    draft.findings.append(note(f"bodies {some(couples)}", what))
+        apart = one in legs and other in legs and legs[one] != legs[other]
+        (across if apart else within).append((one, other))
+    for couples, add in ((within, note), (across, warning)):
+        if not couples:
+            continue
+        names = [" - ".join(bare.model.body(body).name for body in couple) for couple in couples]
+        depth = -min(pairs[couple] for couple in couples) * 1000
+        what = f"overlap by up to {depth:.0f} mm in the neutral posture: contact between them is left out"
+        remedy = "legs should stand apart: mend the shapes, or robot.yaml, postures: {neutral: ...}"
+        draft.findings.append(add(f"bodies {some(names)}", what, remedy if couples is across else ""))
 
 
 def support_servos(draft: Draft, bare: Bare, neutral: Mapping[str, float], actuation: Actuation) -> None:
@@ -107,7 +116,7 @@ def support_servos(draft: Draft, bare: Bare, neutral: Mapping[str, float], actua
     inertia = bare.joint_inertia(neutral)
     raised = {}
     for joint, kd in zip(bare.joints, actuation.kd, strict=True):
-        least = float(kd) * _TIMESTEP
+        least = float(kd) * TIMESTEP
         if inertia[joint] < least:
             raised[joint] = least - inertia[joint]
             element = draft.spec.joint(joint)

@@ -230,6 +230,15 @@ def find_foot(model: mujoco.MjModel, joint: int, where: str) -> str:
     return model.geom(best).name
 
 
+def moved_bodies(model: mujoco.MjModel, leg: Leg) -> list[int]:
+    """Ids of the bodies that a leg moves, from the trunk outward."""
+    bodies = [int(model.jnt_bodyid[model.joint(leg.joints[0]).id])]
+    for body in range(bodies[0] + 1, model.nbody):
+        if int(model.body_parentid[body]) in bodies:
+            bodies.append(body)
+    return bodies
+
+
 def _level(model: mujoco.MjModel, data: mujoco.MjData, trunk: int) -> None:
     """Kinematics at zero angles, the trunk frame on the world frame."""
     data.qpos[:] = 0.0

@@ -111,7 +111,9 @@ def _tree(path: Path, links: dict[str, ET.Element], joints: dict[str, ET.Element
         while link in parents:
             link = _link(joints[parents[link]], "parent")
             if link in seen:
-                raise LevadeError(f"{path}: joint {parents[link]}: link {link} hangs on itself; levade simulates trees only")
+                raise LevadeError(
+                    f"{path}: joint {parents[link]}: link {link} hangs on itself; levade simulates trees only"
+                )
             seen.add(link)
     return parents
 
@@ -137,7 +139,6 @@ def _link(joint: ET.Element, end: str) -> str:
 
 
 def _check_joints(path: Path, joints: dict[str, ET.Element], source: UrdfSource) -> None:
-    endless = []
     for name, joint in joints.items():
         kind = joint.get("type", "")
         if kind not in _KNOWN_JOINTS:
@@ -169,11 +170,6 @@ def _check_joints(path: Path, joints: dict[str, ET.Element], source: UrdfSource)
                     f"{path}: joint {name}: limits leave it no room, both are {lower:g}; give a range, or make it fixed"
                 )
             joint.set("type", "continuous")
-            endless.append(name)
-    if endless:
-        source.findings.append(
-            warning(named("joint", endless), "no range: taken to turn without end", "give <limit lower= upper=>")
-        )
 
 
 def _mend_inertial(path: Path, name: str, link: ET.Element) -> tuple[str, float]:
