@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -51,3 +54,23 @@ def test_the_replay_of_the_documentation_gives_the_motion_in_the_file(
     data, state = scope["data"], scope["state"]
     np.testing.assert_array_equal(state.qpos[:3], data["trunk_position"][-1])
     np.testing.assert_array_equal(state.qvel[:3], data["trunk_linear_velocity"][-1])
+
+
+def test_your_task_step_by_step(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Files are written under the name in their first line, commands and Python run as they stand, all in one folder."""
+    monkeypatch.chdir(tmp_path)
+    text = (ROOT / "docs/your-task.md").read_text(encoding="utf-8")
+    environment = {**os.environ, "PYTHONPATH": str(ROOT / "src")}
+    prelude = f'set -e; levade() {{ "{sys.executable}" -m levade "$@"; }}\n'
+    scope: dict = {}
+    for language, code in re.findall(r"```(\w+)\n(.*?)```", text, re.DOTALL):
+        if language == "yaml":
+            (tmp_path / code.split()[1]).write_text(code)
+        elif language == "bash":
+            subprocess.run(["bash", "-c", prelude + code], env=environment, check=True, capture_output=True)
+        else:
+            exec(compile(code, "docs/your-task.md", "exec"), scope)
+    assert capsys.readouterr().out.startswith("True ")
+    assert {"mine.yaml", "task.schema.json", "bow", "bow-outdoors"} <= {path.name for path in tmp_path.iterdir()}

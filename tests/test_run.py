@@ -21,6 +21,7 @@ import pytest
 import levade.run as run_module
 from levade.errors import LevadeError
 from levade.motion import ARRAYS, Motion
+from levade.optimizers import OPTIMIZERS
 from levade.run import CHECKPOINT, MOTION, PROGRESS, TASK, Outcome, read_run, resume, run, unfinished
 from levade.solve import Generation, Objective
 from levade.tasks import load_task
@@ -93,6 +94,20 @@ def test_an_interrupted_run_goes_on_to_the_same_end(
     assert len(read_run(tmp_path)[2]) == generations
     resume(tmp_path, threads=2)
     assert_same_end(tmp_path, whole)
+
+
+@pytest.mark.parametrize("optimizer", [name for name in OPTIMIZERS if name != "cma"])
+def test_a_run_of_any_optimizer_goes_on_to_the_same_end(tmp_path: Path, optimizer: str) -> None:
+    """Through a stage that changes the step, with aimed candidates where the optimizer takes them."""
+    stages = "stages=[{name: first, trials: 24}, {name: second, step: 0.5}]"
+    changes = [*CHANGES, f"search.optimizer={optimizer}", "search.aim=true", stages]
+    objective = Objective(load_task("rearing", changes=changes), threads=1)
+    whole = run(objective, seed=3, directory=tmp_path / "whole")
+    run(objective, seed=3, directory=tmp_path / "part", observe=stop_after(5))
+    resume(tmp_path / "part", threads=2)
+    assert_same_end(tmp_path / "part", whole)
+    other = run(objective, seed=4, directory=tmp_path / "other")
+    assert not np.array_equal(other.motion["weights"], whole.motion["weights"])
 
 
 def test_it_may_be_interrupted_again_and_again(objective: Objective, whole: Outcome, tmp_path: Path) -> None:

@@ -302,6 +302,25 @@ def test_a_step_factor_multiplies_the_step_at_the_start_of_its_stage(monkeypatch
     assert scaled == [(generations[1].step, 0.25 * generations[1].step)]
 
 
+def test_without_success_a_search_starts_anew_from_its_first_stage(staged: Objective) -> None:
+    never = {"pitch": dataclasses.replace(staged.task.success["pitch"], tolerance=0.0)}
+    stages = tuple(dataclasses.replace(stage, promote={}) for stage in staged.task.stages)
+    search = dataclasses.replace(staged.task.search, restart=40, trials=96)
+    objective = changed(staged, success=never, stages=stages, search=search)
+    solution, generations = collect(objective)
+    assert solution.trials_to_success is None
+    assert [g.stage for g in generations] == [0, 0, 0, 1, 1, 0, 0, 0, 1, 1, 0, 0]
+    first = [generations[i] for i in (0, 5, 10)]
+    assert len({g.record.checksum for g in first}) == 3  # other candidates
+    assert all(g.step == pytest.approx(first[0].step, rel=0.5) for g in first)
+    costs = [g.best.cost for g in generations[:3]]
+    assert costs == sorted(costs, reverse=True)
+    records = [Record.from_json(json.loads(json.dumps(g.record.to_json()))) for g in generations[:7]]
+    assert_same(solve(objective, records=records), solution)
+    once = changed(objective, search=dataclasses.replace(search, restart=None))
+    assert [g.record.checksum for g in collect(once)[1]][:5] == [g.record.checksum for g in generations][:5]
+
+
 def test_only_a_whole_hold_counts_as_success(staged: Objective) -> None:
     """Trials that look good before the hold is simulated are simulated through it."""
     criteria = dict(staged.task.success)

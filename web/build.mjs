@@ -1,5 +1,6 @@
-// Bundles web/src/report.js into the package's report.js: `npm ci && npm run build`, in web/. Its first line says of which
-// sources it was made, which a test compares (tests/report/test_bundle.py), and its last ones are the licence of three.js.
+// Bundles web/src/report.js and live.js into the package's report.js and live.js: `npm ci && npm run build`, in web/. Their first
+// lines say of which sources they were made, which a test compares (tests/report/test_bundle.py), and their last ones are the
+// licence of three.js.
 
 import { createHash } from "node:crypto";
 import { readdirSync, readFileSync } from "node:fs";
@@ -26,17 +27,22 @@ function licence(name) {
 }
 
 const three = JSON.parse(readFileSync(join(here, "node_modules/three/package.json"), "utf8"));
-const [entry = "src/report.js", outfile = "../src/levade/report/web/report.js"] = process.argv.slice(2);
-await build({
-  absWorkingDir: here,
-  entryPoints: [entry],
-  outfile,
-  bundle: true,
-  minify: true,
-  format: "iife",
-  target: ["chrome109", "firefox115", "safari16"],
-  legalComments: "eof",
-  footer: { js: `/*! three.js ${three.version}:\n${licence("three")}\n*/` },
-  banner: { js: `/* levade report, made of web/ by its build.mjs; sources ${sourcesHash()} */` },
-  logLevel: "info",
-});
+const [entry, outfile] = process.argv.slice(2);
+const bundles = entry
+  ? [[entry, outfile]]
+  : ["report", "live"].map((name) => [`src/${name}.js`, `../src/levade/report/web/${name}.js`]);
+for (const [from, to] of bundles) {
+  await build({
+    absWorkingDir: here,
+    entryPoints: [from],
+    outfile: to,
+    bundle: true,
+    minify: true,
+    format: "iife",
+    target: ["chrome109", "firefox115", "safari16"],
+    legalComments: "eof",
+    footer: { js: `/*! three.js ${three.version}:\n${licence("three")}\n*/` },
+    banner: { js: `/* levade report, made of web/ by its build.mjs; sources ${sourcesHash()} */` },
+    logLevel: "info",
+  });
+}

@@ -27,15 +27,19 @@ def read_yaml(path: Path, *, like: str = "") -> dict[str, Any]:
 
     like: some of its keys, for the message.
     """
-    try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise LevadeError(f"{path}: cannot be read ({getattr(error, 'strerror', None) or 'not UTF-8 text'})") from None
-    content = parse_yaml(text, where=str(path))
+    content = parse_yaml(read_text(path), where=str(path))
     if not isinstance(content, dict):
         expected = f"keys like {like};" if like else "keys and values,"
         raise LevadeError(f"{path}: should be a table of {expected} is {kind_of(content)}")
     return content
+
+
+def read_text(path: Path) -> str:
+    """The text of a file. Raises LevadeError if it cannot be read."""
+    try:
+        return path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise LevadeError(f"{path}: cannot be read ({getattr(error, 'strerror', None) or 'not UTF-8 text'})") from None
 
 
 def parse_yaml(text: str, *, where: str) -> Any:

@@ -24,7 +24,8 @@ import os
 import zipfile
 import zlib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -94,7 +95,8 @@ _UNREADABLE = (
 class Motion:
     """A motion: what was sent to the actuators, what the robot then did, and the model that says so.
 
-    meta: schema, task (resolved), robot, engine and library versions, seed, success, errors, cost, trials, limits.
+    meta: schema, task (resolved), robot, engine and library versions, seed, success, errors, cost, trials, limits, and
+    cost_weights, those of the cost, which differ from the task's where they were changed on the way.
     arrays: see `ARRAYS`; rows as in `levade.trajectory`. assets: files that the model needs.
     """
 
@@ -172,7 +174,8 @@ class Motion:
 
 def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
     """Simulate the best trial of a solution once more, with everything recorded."""
-    task, engine = objective.task, objective.engine
+    engine = objective.engine
+    task = replace(objective.task, search=replace(objective.task.search, changes=solution.changes))
     weights = solution.best.weights
     trajectories = objective.rollout(weights[None], feet=True)
     reference = trajectories.reference
@@ -227,6 +230,7 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
         "diverged": bool(trajectories.diverged[0]),
         "errors": {name: float(error[0]) for name, error in off.items()},
         "cost": float(solution.best.cost),
+        "cost_weights": dict(solution.weights),
         "cost_terms": {name: float(value[0]) for name, value in values.items()},
         "trials": solution.trials,
         "trials_to_success": solution.trials_to_success,
@@ -236,8 +240,18 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
     return Motion(meta, engine.xml, arrays, dict(engine.assets))
 
 
+def cost_weights(meta: Mapping[str, Any]) -> dict[str, float]:
+    """Cost -> the weight that a motion's ``meta["cost"]`` has it with: the task's, unless changed on the way."""
+    return meta.get("cost_weights") or {name: cost["weight"] for name, cost in meta["task"]["costs"].items()}
+
+
 def versions() -> dict[str, str]:
     """The versions that decide a motion's bits."""
+    return dict(_versions())
+
+
+@cache
+def _versions() -> dict[str, str]:
     from importlib.metadata import version
 
     from levade import __version__

@@ -3,7 +3,8 @@
 outcome = run(load_task("rearing"), seed=0, directory=Path("rearing"))
 outcome = resume(Path("rearing"))
 
-DIR/task.yaml         the task with every default filled in; solving it again with the same seed gives the same motion
+DIR/task.yaml         the task with every default filled in, and what was changed on the way; solving it again with the
+                      same seed gives the same motion
 DIR/motion.npz        the best motion: written at the end, and on the way whenever there is a better one (at most every
                       few seconds)
 DIR/progress.csv      a line per generation
@@ -17,9 +18,9 @@ import csv
 import json
 import time
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import IO, Any
 
@@ -29,7 +30,7 @@ from levade.document import read_yaml
 from levade.errors import LevadeError
 from levade.motion import Motion, record, versions
 from levade.solve import Generation, Objective, Record, Solution, solve
-from levade.tasks import Task, task_from_dict, task_to_yaml
+from levade.tasks import Change, Task, task_from_dict, task_to_yaml
 
 TASK, MOTION, PROGRESS, CHECKPOINT = "task.yaml", "motion.npz", "progress.csv", "checkpoint.jsonl"
 
@@ -52,6 +53,10 @@ class Outcome:
     wall: float
 
 
+Steer = Callable[[int], Mapping[str, float] | None]
+"""See `levade.solve.solve`."""
+
+
 class StorageError(LevadeError):
     """The directory can no longer be written; what was there before still is."""
 
@@ -63,19 +68,20 @@ def run(
     threads: int = 0,
     directory: Path,
     observe: Callable[[Generation], object] | None = None,
+    steer: Steer | None = None,
 ) -> Outcome:
     """Solve a task and keep everything in a directory, which is made if need be; an earlier run in it is replaced.
 
-    observe: as in `levade.solve.solve`. Raises LevadeError before anything is written if the task does not fit together
-    or the directory cannot be written.
+    observe, steer: as in `levade.solve.solve`; task.yaml takes in what steer changes, before it is simulated.
+    Raises LevadeError before anything is written if the task does not fit together or the directory cannot be written.
     """
     objective = task if isinstance(task, Objective) else Objective(task, threads=threads)
-    text = task_to_yaml(objective.task)
-    header = {"task": objective.task.name, "seed": seed, "versions": versions(), "task_checksum": _checksum(text)}
+    task = objective.task
+    header = {"task": task.name, "seed": seed, "versions": versions(), "task_checksum": _checksum(task)}
     new = not directory.exists()
     try:
         directory.mkdir(parents=True, exist_ok=True)
-        _write(directory / TASK, text)
+        _write(directory / TASK, task_to_yaml(task))
         _write(directory / CHECKPOINT, json.dumps(header) + "\n")
         (directory / MOTION).unlink(missing_ok=True)
         checkpoint = (directory / CHECKPOINT).open("a", encoding="utf-8")
@@ -87,16 +93,24 @@ def run(
             f"{directory}: cannot be written ({error.strerror}); give a directory that can: --out DIR"
         ) from None
     with _closing(checkpoint):
-        return _run(objective, seed, directory, checkpoint, [], observe)
+        return _run(objective, seed, directory, checkpoint, [], observe, steer)
 
 
-def resume(directory: Path, *, threads: int = 0, observe: Callable[[Generation], object] | None = None) -> Outcome:
+def resume(
+    directory: Path,
+    *,
+    objective: Objective | None = None,
+    threads: int = 0,
+    observe: Callable[[Generation], object] | None = None,
+    steer: Steer | None = None,
+) -> Outcome:
     """Go on with a run that was interrupted, to exactly the motion that it would have come to.
 
-    Raises LevadeError if there is no run in the directory, its task has been changed since, or other versions of the
-    libraries made it.
+    objective: of the run's task, if there is one already. Raises LevadeError if there is no run in the directory, its
+    task has been changed since, or other versions of the libraries made it.
     """
     task, header, records = read_run(directory)
+    assert objective is None or objective.task == task
     now = versions()
     for name, version in header["versions"].items():
         if now.get(name) != version:
@@ -104,13 +118,12 @@ def resume(directory: Path, *, threads: int = 0, observe: Callable[[Generation],
                 f"{directory}: was started with {name} {version}, this is {now.get(name)}: going on would give another"
                 f" motion; install {name}=={version}, or start anew"
             )
-    text = (directory / TASK).read_text(encoding="utf-8")
-    if header.get("task_checksum") != _checksum(text):
+    if header.get("task_checksum") != _checksum(task):
         raise LevadeError(
             f"{directory / TASK}: has changed since the run began, so that it cannot go on; put it back, or start anew:"
             f" levade solve {directory / TASK} --force"
         )
-    objective = Objective(task, threads=threads)
+    objective = objective or Objective(task, threads=threads)
     try:
         # a line that was cut off in the middle is written anew
         kept = [json.dumps(header), *(json.dumps(record.to_json()) for record in records)]
@@ -119,7 +132,7 @@ def resume(directory: Path, *, threads: int = 0, observe: Callable[[Generation],
     except OSError as error:
         raise LevadeError(f"{directory}: cannot be written ({error.strerror})") from None
     with _closing(checkpoint):
-        return _run(objective, header["seed"], directory, checkpoint, records, observe)
+        return _run(objective, header["seed"], directory, checkpoint, records, observe, steer)
 
 
 def unfinished(directory: Path) -> None:
@@ -179,6 +192,7 @@ def _run(
     checkpoint: IO[str],
     records: list[Record],
     observe: Callable[[Generation], object] | None,
+    steer: Steer | None,
 ) -> Outcome:
     began = time.perf_counter()
     try:
@@ -197,7 +211,7 @@ def _run(
             progress.write(generation)
             if generation.best is not best and not generation.replayed and time.perf_counter() - saved > _SAVE_EVERY:
                 best = generation.best
-                record(objective, _so_far(generation), seed=seed).save(directory / MOTION)
+                record(objective, so_far(generation), seed=seed).save(directory / MOTION)
                 saved = time.perf_counter()
         except OSError as error:
             raise StorageError(
@@ -208,7 +222,8 @@ def _run(
             observe(generation)
 
     with progress:
-        solution = solve(objective, seed=seed, observe=watch, records=records)
+        recorded = None if steer is None else _recorded(steer, objective.task, directory)
+        solution = solve(objective, seed=seed, observe=watch, steer=recorded, records=records)
     wall = time.perf_counter() - began
     motion = record(objective, solution, seed=seed)
     try:
@@ -224,7 +239,27 @@ def _run(
     return Outcome(objective, solution, motion, directory, seed, wall)
 
 
-def _so_far(generation: Generation) -> Solution:
+def _recorded(steer: Steer, task: Task, directory: Path) -> Steer:
+    """The same, with every change written to the task before it takes effect."""
+
+    def recorded(generation: int) -> Mapping[str, float] | None:
+        nonlocal task
+        factors = steer(generation)
+        if factors:
+            task = task.changed(Change(generation, dict(factors)))
+            try:
+                _write(directory / TASK, task_to_yaml(task))
+            except OSError as error:
+                raise StorageError(
+                    f"{directory / TASK}: cannot be written any more ({error.strerror}); make room, then:"
+                    f" levade solve --resume {directory}"
+                ) from None
+        return factors
+
+    return recorded
+
+
+def so_far(generation: Generation) -> Solution:
     return Solution(
         best=generation.best,
         trials=generation.trials,
@@ -232,11 +267,14 @@ def _so_far(generation: Generation) -> Solution:
         trials_to_success=generation.trials_to_success,
         diverged=generation.diverged,
         stopped="running",
+        weights=generation.weights,
+        changes=generation.changes,
     )
 
 
-def _checksum(text: str) -> int:
-    return zlib.crc32(text.encode())
+def _checksum(task: Task) -> int:
+    """Of the task without the changes that a run makes in it on the way."""
+    return zlib.crc32(task_to_yaml(replace(task, search=replace(task.search, changes=()))).encode())
 
 
 def _write(path: Path, text: str) -> None:

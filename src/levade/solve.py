@@ -4,16 +4,19 @@
     solution.success, solution.trials_to_success, solution.errors
 
 Everything is deterministic: the same task, seed and versions give the same solution to the bit, for any number of threads.
-A `Record` of each generation holds what its simulations said; given the records of an interrupted solve, the loop runs
-through them again without simulating (the optimizer asks for the same candidates) and goes on to the same end.
+Weights that a caller changes on the way (``steer``) are part of the solution, as `levade.tasks.Change`: a task with these
+changes gives it again. A `Record` of each generation holds what its simulations said; given the records of an interrupted
+solve, the loop runs through them again without simulating (the optimizer asks for the same candidates) and goes on to the
+same end.
 """
 
 from __future__ import annotations
 
 import zlib
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -23,10 +26,10 @@ from numpy.typing import NDArray
 from levade.costs import DIVERGED, errors, evaluate, total
 from levade.engines import MujocoEngine
 from levade.errors import LevadeError, did_you_mean
-from levade.optimizers import OPTIMIZERS, Aim, Optimizer
-from levade.policies import Follower, GaussianKernels, Group, Policy, smoothness_factor
+from levade.optimizers import OPTIMIZERS, Aim, Injectable, Optimizer, settings
+from levade.policies import Ends, Follower, GaussianKernels, Group, Policy, smoothness_factor
 from levade.robots import Leg, Robot, load_robot, mirror_signs
-from levade.tasks import PolicyChoice, Stage, Task, looks_at_hold
+from levade.tasks import Change, PolicyChoice, Stage, Task, looks_at_hold
 from levade.trajectory import Array, Trajectories
 
 
@@ -55,7 +58,6 @@ class Objective:
         choice = asdict(task.robot)
         self.robot = load_robot(choice.pop("name"), **choice)
         self.engine = MujocoEngine(self.robot, task.scene, task.physics, threads=threads)
-        self.policy = make_policy(task, self.robot)
         self.terms = {name: cost.term for name, cost in task.costs.items()}
         bodies = {name: getattr(term, "bodies", ()) for name, term in self.terms.items()}
         for name, body in ((term, body) for term in bodies for body in bodies[term]):
@@ -64,7 +66,9 @@ class Objective:
                 raise LevadeError(f"costs.{name}.bodies: no body {body!r} in {self.robot.name}; {hint}")
         self._bodies = tuple(sorted({body for named in bodies.values() for body in named}))
         self.state = self.engine.start(task.start.choice)
+        self.policy = make_policy(task, self.robot, start=self.state.joint_reference)
         self.evaluate(self.initial_weights[None])  # terms that cannot be evaluated say so now
+        make_optimizer(self, seed=0)  # and so do settings of its own that an optimizer does not take
 
     @cached_property
     def initial_weights(self) -> Array:
@@ -72,9 +76,7 @@ class Objective:
         choice = self.task.policy
         if choice.initial == "hold":
             return self.policy.hold(self.state.joint_reference)
-        with _at("policy.goal: "):
-            goal = self.robot.posture(choice.goal)
-        return self.policy.interpolate(self.state.joint_position, goal)
+        return self.policy.interpolate(self.state.joint_position, _goal(choice, self.robot))
 
     def rollout(self, weights: Array, *, hold_steps: int | None = None, feet: bool = False) -> Trajectories:
         """Simulate trials (n, d), through ``hold_steps`` of the hold; through all of it if None."""
@@ -119,12 +121,25 @@ class Objective:
         )
 
 
-def make_policy(task: Task, robot: Robot) -> Policy:
-    """The task's policy on the robot's joints; LevadeError where its groups do not fit the robot's legs."""
+def make_policy(task: Task, robot: Robot, *, start: Array | None = None) -> Policy:
+    """The task's policy on the robot's joints; LevadeError where its groups do not fit the robot's legs.
+
+    start: (joints,) [rad], what the joints were told last; the policy's goal if None.
+    """
     choice = task.policy
+    ends = None
     with _at("policy."):
         kernels = GaussianKernels(choice.kernels, choice.variance, choice.time)
-    return Policy(kernels, leg_groups(choice, robot), task.horizon, task.physics.timestep, task.hold_steps)
+    if choice.depart or choice.settle:
+        goal = _goal(choice, robot)
+        with _at("policy."):
+            ends = Ends(goal if start is None else start, goal, choice.depart, choice.settle)
+    return Policy(kernels, leg_groups(choice, robot), task.horizon, task.physics.timestep, task.hold_steps, ends)
+
+
+def _goal(choice: PolicyChoice, robot: Robot) -> Array:
+    with _at("policy.goal: "):
+        return robot.posture(choice.goal)
 
 
 def leg_groups(choice: PolicyChoice, robot: Robot) -> tuple[Group, ...]:
@@ -206,7 +221,7 @@ class Record:
 
 @dataclass(frozen=True)
 class Trial:
-    """One trial and what it achieved: cost, by the task's own weights; terms, unweighted; errors, SI."""
+    """One trial and what it achieved: cost, by the task's own weights, as changed so far; terms, unweighted; errors, SI."""
 
     weights: Array
     cost: float
@@ -221,6 +236,7 @@ class Generation:
 
     cost: (population,) as told to the optimizer. best: over all generations and stages. trials: spent so far.
     trials_to_success: trials spent when one first met every criterion. replayed: whether it came from a record.
+    weights: of the best trial's cost. changes: of the weights, that hold or are still to come.
     """
 
     generation: int
@@ -234,13 +250,15 @@ class Generation:
     trials_to_success: int | None
     record: Record
     replayed: bool
+    weights: Mapping[str, float]
+    changes: tuple[Change, ...]
 
 
 @dataclass(frozen=True)
 class Solution:
     """The outcome: the best trial, and what it took.
 
-    stopped: "success" (and polished), "budget" or "interrupted".
+    stopped: "success" (and polished), "budget" or "interrupted". weights, changes: as in `Generation`.
     """
 
     best: Trial
@@ -249,6 +267,8 @@ class Solution:
     trials_to_success: int | None
     diverged: int
     stopped: str
+    weights: Mapping[str, float]
+    changes: tuple[Change, ...]
 
     @property
     def success(self) -> bool:
@@ -262,6 +282,8 @@ class _Search:
     best: Trial | None = None
     stage: int = 0
     stage_trials: int = 0
+    attempt: int = 0
+    attempt_trials: int = 0
     trials: int = 0
     generations: int = 0
     diverged: int = 0
@@ -275,40 +297,55 @@ def solve(
     seed: int = 0,
     threads: int = 0,
     observe: Callable[[Generation], object] | None = None,
+    steer: Callable[[int], Mapping[str, float] | None] | None = None,
     records: Iterable[Record] = (),
 ) -> Solution:
     """Search for a motion that does the task.
 
     task: or an `Objective` that was made of one. seed: of the optimizer.
     observe: called after each generation. KeyboardInterrupt, from it or from the keyboard, ends the search with the best
-    trial so far. records: of an earlier solve of the same task and seed; the search goes on after them.
-    Raises LevadeError if the records are not of this search.
+    trial so far.
+    steer: called before each generation that is simulated, with its number; what it returns, cost -> factor on its
+    weight, holds from this generation on, as a `levade.tasks.Change` in the task would. It may take its time, and raise
+    KeyboardInterrupt.
+    records: of an earlier solve of the same task and seed; the search goes on after them.
+    Raises LevadeError if the records are not of this search, or steer names a cost that the task has not.
     """
     objective = task if isinstance(task, Objective) else Objective(task, threads=threads)
     task = objective.task
     stages, search = task.stages, _Search()
-    aim = Aim() if task.search.aim and task.success else None
     optimizer = make_optimizer(objective, seed)
-    earlier = iter(records)
-    weights = {name: cost.weight for name, cost in task.costs.items()}
+    injectable = optimizer if isinstance(optimizer, Injectable) else None
+    aim = Aim() if task.search.aim and task.success and injectable is not None else None
+    earlier = deque(records)
+    weights = _weights(task, 0)
     stopped = "budget"
     _enter(search, objective, stages[0], optimizer)
     try:
         while search.trials + optimizer.population <= max(task.search.trials, optimizer.population):
-            stage = stages[search.stage]
+            stage, number = stages[search.stage], search.generations + 1
+            if steer is not None and not earlier:
+                factors = steer(number)
+                if factors:
+                    task = task.changed(Change(number, dict(factors)))
+            if weights != (weights := _weights(task, number)):
+                _weigh_anew(search, objective, weights)
+                if aim is not None:
+                    aim.forget()
             candidates = optimizer.ask()
-            record, replayed = _evaluate(objective, candidates, search, stage, earlier)
-            cost = objective.cost(record.evaluation, {**weights, **stage.weights})
+            record, replayed = _evaluate(objective, candidates, search, earlier)
+            cost = objective.cost(record.evaluation, {**weights, **_stage_weights(task, stage, number)})
             optimizer.tell(cost)
             if aim is not None:
                 aim.tell(candidates, _missed(task, record.evaluation), cost)
                 proposal = aim.propose()
-                if proposal is not None:
-                    optimizer.inject(proposal)
+                if proposal is not None and injectable is not None:
+                    injectable.inject(proposal)
 
             search.generations += 1
             search.trials += len(candidates)
             search.stage_trials += len(candidates)
+            search.attempt_trials += len(candidates)
             search.diverged += int(record.evaluation.diverged.sum())
             if search.trials_to_success is None and record.evaluation.success.any():
                 search.trials_to_success = search.trials
@@ -328,6 +365,8 @@ def solve(
                         trials_to_success=search.trials_to_success,
                         record=record,
                         replayed=replayed,
+                        weights=weights,
+                        changes=task.search.changes,
                     )
                 )
             polish = task.search.polish
@@ -335,14 +374,21 @@ def solve(
             if since is not None and polish is not None and since >= polish:
                 stopped = "success"
                 break
-            if search.stage + 1 < len(stages) and _ends(stage, search, record.evaluation):
-                search.stage += 1
-                before = search.hold_steps
-                if aim is not None:
-                    aim.forget()
-                _enter(search, objective, stages[search.stage], optimizer)
-                if search.hold_steps != before:
-                    _reconsider(search, objective, weights, search.hold_steps)
+            if _hopeless(task, search):
+                search.attempt, search.attempt_trials = search.attempt + 1, 0
+                optimizer = make_optimizer(objective, seed, attempt=search.attempt)
+                injectable = optimizer if isinstance(optimizer, Injectable) else None
+                following = 0
+            elif search.stage + 1 < len(stages) and _ends(stage, search, record.evaluation):
+                following = search.stage + 1
+            else:
+                continue
+            search.stage, before = following, search.hold_steps
+            if aim is not None:
+                aim.forget()
+            _enter(search, objective, stages[search.stage], optimizer)
+            if search.hold_steps != before:
+                _reconsider(search, objective, weights, search.hold_steps)
     except KeyboardInterrupt:
         stopped = "interrupted"
     if search.best is None:
@@ -357,24 +403,42 @@ def solve(
         trials_to_success=search.trials_to_success,
         diverged=search.diverged,
         stopped=stopped,
+        weights=weights,
+        changes=task.search.changes,
     )
 
 
-def make_optimizer(objective: Objective, seed: int) -> Optimizer:
-    """The task's optimizer, at the objective's initial weights."""
+def make_optimizer(objective: Objective, seed: int, *, attempt: int = 0) -> Optimizer:
+    """The task's optimizer, at the objective's initial weights; each attempt draws other random numbers."""
     search = objective.task.search
     policy = objective.policy
     factor = None
     if search.smoothness > 0 or search.modes is not None:
         factor = smoothness_factor(policy.kernels, search.smoothness, policy.independent_joints, modes=search.modes)
-    return OPTIMIZERS[search.optimizer](
-        objective.initial_weights,
-        factor=factor,
-        step=search.step,
-        seed=seed,
-        population=search.population,
-        step_adaptation=search.step_adaptation,
-    )
+    own: dict[str, Any] = dict(search.settings)
+    if "step_adaptation" in settings(search.optimizer):
+        own = {"step_adaptation": search.step_adaptation, **own}
+    with _at("search.settings."):
+        return OPTIMIZERS[search.optimizer](
+            objective.initial_weights,
+            factor=factor,
+            step=search.step,
+            seed=(seed, attempt) if attempt else seed,
+            population=search.population,
+            **own,
+        )
+
+
+def _weights(task: Task, generation: int) -> dict[str, float]:
+    """Cost -> weight in a generation, by the task's own weights."""
+    factors = task.search.factors(generation)
+    return {name: cost.weight * factors.get(name, 1.0) for name, cost in task.costs.items()}
+
+
+def _stage_weights(task: Task, stage: Stage, generation: int) -> dict[str, float]:
+    """Cost -> weight in a generation, of those costs that the stage weighs by itself."""
+    factors = task.search.factors(generation)
+    return {name: weight * factors.get(name, 1.0) for name, weight in stage.weights.items()}
 
 
 def _missed(task: Task, evaluation: Evaluation) -> Array:
@@ -394,6 +458,12 @@ def _enter(search: _Search, objective: Objective, stage: Stage, optimizer: Optim
         optimizer.scale_step(stage.step)
 
 
+def _hopeless(task: Task, search: _Search) -> bool:
+    """Whether the search has gone on for so long without a success that it had better start anew."""
+    restart = task.search.restart
+    return restart is not None and search.trials_to_success is None and search.attempt_trials >= restart
+
+
 def _ends(stage: Stage, search: _Search, evaluation: Evaluation) -> bool:
     if stage.trials is not None and search.stage_trials >= stage.trials:
         return True
@@ -405,15 +475,13 @@ def _ends(stage: Stage, search: _Search, evaluation: Evaluation) -> bool:
     return bool(within.any())
 
 
-def _evaluate(
-    objective: Objective, candidates: Array, search: _Search, stage: Stage, earlier: Iterable[Record]
-) -> tuple[Record, bool]:
+def _evaluate(objective: Objective, candidates: Array, search: _Search, earlier: deque[Record]) -> tuple[Record, bool]:
     """The record of a generation: an earlier one while there are any, else from simulation."""
     checksum = zlib.crc32(np.ascontiguousarray(candidates).tobytes())
     number = search.generations + 1
-    record = next(iter(earlier), None)
-    if record is None:
+    if not earlier:
         return Record(number, checksum, objective.evaluate(candidates, hold_steps=search.hold_steps)), False
+    record = earlier.popleft()
     if (record.generation, record.checksum) != (number, checksum):
         raise LevadeError(
             f"generation {number} of the records is of another search: the task, the seed or a library has changed since;"
@@ -443,6 +511,17 @@ def _keep_best(
             errors={name: float(values[first]) for name, values in evaluation.errors.items()},
             success=bool(evaluation.success[first]),
         )
+
+
+def _weigh_anew(search: _Search, objective: Objective, weights: Mapping[str, float]) -> None:
+    """What the best trial costs by other weights: those that it will be compared with are weighed by them, too."""
+    best = search.best
+    if best is None:
+        return
+    one = {name: np.array([value]) for name, value in best.terms.items()}
+    diverged = np.array([any(value >= DIVERGED for value in best.terms.values())])
+    cost = objective.cost(Evaluation(one, {}, np.array([best.success]), diverged), weights)
+    search.best = replace(best, cost=float(cost[0]))
 
 
 def _reconsider(search: _Search, objective: Objective, weights: Mapping[str, float], hold_steps: int) -> None:

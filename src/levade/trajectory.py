@@ -82,6 +82,34 @@ class JointLimits:
         return limit
 
 
+@dataclass(frozen=True, eq=False)
+class LegGeometry:
+    """Where a leg's joints and foot are in the trunk frame with every joint at zero.
+
+    side: "left" or "right". end: "front" or "hind". joints: indices in the robot's joint order, from the trunk outward.
+    anchors: (k, 3) [m], a point on each joint's axis. axes: (k, 3), unit. foot: (3,) [m], centre of the foot.
+    sole: [m], how far the foot reaches below its centre, standing in the neutral posture.
+    """
+
+    name: str
+    side: str
+    end: str
+    joints: tuple[int, ...]
+    anchors: Array
+    axes: Array
+    foot: Array
+    sole: float
+
+    def foot_position(self, joint_position: Array) -> Array:
+        """(..., joints) [rad], all of the robot's, to (..., 3) [m]: the foot's centre in the trunk frame."""
+        place = np.broadcast_to(self.foot, (*joint_position.shape[:-1], 3))
+        for joint, anchor, axis in zip(self.joints[::-1], self.anchors[::-1], self.axes[::-1], strict=True):
+            half = 0.5 * joint_position[..., joint, None]
+            turn = np.concatenate([np.cos(half), np.sin(half) * axis], axis=-1)
+            place = anchor + rotate(turn, place - anchor)
+        return place
+
+
 @dataclass(frozen=True)
 class Trajectories:
     """What n trials did, and everything a cost may look at.
@@ -95,7 +123,7 @@ class Trajectories:
     trunk_angular_velocity: (n, steps, 3) [rad/s], in trunk axes: what a gyroscope on the trunk reads.
     trunk_com_offset: (3,) [m], centre of mass of the trunk in the trunk frame.
     reference: what was asked of the joints, same n and steps.
-    limits: the robot's joint limits.
+    limits: the robot's joint limits. legs: its legs.
     timestep: [s]. horizon_steps: rows up to the horizon T.
     diverged: (n,) bool, trials whose simulation broke down; their later rows repeat the last sound one.
     foot_contact_force: (n, steps, feet, 3) [N], net contact force on each foot in world axes, in the robot's leg order;
@@ -119,6 +147,7 @@ class Trajectories:
     diverged: NDArray[np.bool_]
     foot_contact_force: Array | None = None
     body_contact_force: Mapping[str, Array] = field(default_factory=dict)
+    legs: tuple[LegGeometry, ...] = ()
 
     @property
     def n(self) -> int:
@@ -141,6 +170,11 @@ class Trajectories:
         """(n, rows, 3) [m/s], velocity of the trunk's centre of mass in world axes, for the given rows only."""
         lever = np.cross(self.trunk_angular_velocity[:, rows], self.trunk_com_offset)
         return self.trunk_linear_velocity[:, rows] + rotate(self.trunk_quaternion[:, rows], lever)
+
+    def sole_height(self, leg: LegGeometry, rows: slice | int = slice(None)) -> Array:
+        """(n, rows) [m], the lowest point of a leg's foot over z = 0, for the given rows only."""
+        foot = rotate(self.trunk_quaternion[:, rows], leg.foot_position(self.joint_position[:, rows]))
+        return self.trunk_position[:, rows][..., 2] + foot[..., 2] - leg.sole
 
 
 def rotate(quaternion: Array, vector: Array) -> Array:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import pty
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -14,6 +15,7 @@ import pytest
 from levade import __version__
 from levade.cli import main
 from levade.motion import Motion
+from levade.optimizers import OPTIMIZERS
 
 QUICK = ["--set", "search.population=8", "--trials", "16", "--set", "horizon=0.06"]
 LOOSE = ["--set", "success.pitch.tolerance=9", "--set", "success.height.tolerance=9"]
@@ -52,6 +54,9 @@ def test_help_and_version(run) -> None:
     assert (status, err) == (0, "")
     for option in ("--robot", "--seed", "--trials", "--optimizer", "--set", "--out", "--json", "--resume"):
         assert option in out
+    listed = re.search(r"--optimizer \S+ (.*?), instead of", " ".join(out.split()))
+    assert listed is not None
+    assert re.split(", | or ", listed[1]) == list(OPTIMIZERS)
 
 
 @pytest.mark.parametrize(
@@ -72,6 +77,10 @@ def test_help_and_version(run) -> None:
         ("solve rearing --robot hyq2", "no robot 'hyq2'; did you mean hyq2max?"),
         ("solve rearing --robot my/robot.yaml", "my/robot.yaml: no such file"),
         ("solve rearing --optimizer cmaes", "--set search.optimizer: no optimizer 'cmaes'; did you mean cma?"),
+        ("solve rearing --optimizer pi", "no optimizer 'pi'; did you mean pi2?"),
+        ("tasks show rearin", "no task 'rearin'; did you mean rearing?"),
+        ("tasks show rearing --robot hyq2max", "tasks show: --robot goes with --full, which gives numbers for a robot"),
+        ("tasks shw", "No such command 'shw'."),
         ("solve rearing --trials 0", "--set search.trials: 0 should be at least 1; the paper has about 3000"),
         ("solve rearing --set horizn=1", "--set horizn: no 'horizn' in the task; did you mean horizon?"),
         ("solve rearing --set horizon=0", "--set horizon: 0.0 s should be at least one time step (0.002 s)"),
@@ -126,7 +135,8 @@ def test_a_task_file_with_a_mistake(run, tmp_path: Path) -> None:
     status, out, err = run("solve", "mine.yaml")
     assert (status, out) == (2, "")
     assert err == (
-        "levade: mine.yaml.costs.position.z: '90 deg' is an angle, but this is a length; units here: m, cm, mm\n"
+        "levade: mine.yaml.costs.position.z: '90 deg' is an angle, but this is a length;"
+        " units here: m, cm, mm, height, leg, trunk\n"
     )
     (tmp_path / "mine.yaml").write_bytes(b"\x00\xff")
     assert run("solve", "mine.yaml")[0] == 2
@@ -234,6 +244,20 @@ def test_listings(run) -> None:
     status, out, _ = run("robots", "--json")
     assert (status, out.count("\n")) == (0, 1)
     assert [(r["name"], r["description"]) for r in json.loads(out)["robots"]] == builtin_robots()
+
+
+def test_a_task_to_start_from(run, tmp_path: Path) -> None:
+    from levade.tasks import builtin_tasks, load_task
+
+    status, out, err = run("tasks", "show", "rearing")
+    assert (status, err) == (0, "")
+    assert out == builtin_tasks()["rearing"].read_text(encoding="utf-8")
+    status, out, err = run("tasks", "show", "rearing", "--full", "--robot", "hyq2max")
+    assert (status, err) == (0, "")
+    (tmp_path / "full.yaml").write_text(out)
+    assert load_task(tmp_path / "full.yaml") == load_task("rearing")
+    status, out, err = run("tasks", "schema")
+    assert (status, err, json.loads(out)["title"]) == (0, "", "levade task")
 
 
 def test_as_a_process_in_a_pipe(tmp_path: Path) -> None:

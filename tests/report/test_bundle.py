@@ -13,9 +13,9 @@ import pytest
 WEB = Path(__file__).parents[2] / "web"
 
 
-@pytest.fixture(scope="module")
-def bundle() -> str:
-    return (files("levade.report") / "web" / "report.js").read_text(encoding="utf-8")
+@pytest.fixture(scope="module", params=["report.js", "live.js"])
+def bundle(request: pytest.FixtureRequest) -> str:
+    return (files("levade.report") / "web" / request.param).read_text(encoding="utf-8")
 
 
 def test_it_was_made_from_the_sources_that_are_here(bundle: str) -> None:
@@ -28,7 +28,7 @@ def test_it_was_made_from_the_sources_that_are_here(bundle: str) -> None:
         digest.update(f"{name}\n{len(text)}\n".encode() + text)
     (said,) = re.findall(r"sources ([0-9a-f]{64})", bundle.splitlines()[0])
     assert said == digest.hexdigest(), (
-        "the bundle is out of date: cd web && npm ci && npm run build, and commit report.js"
+        "the bundle is out of date: cd web && npm ci && npm run build, and commit what it writes"
     )
 
 

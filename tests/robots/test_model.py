@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from levade.robots import Robot, load_robot
+from levade.robots import Robot, dimensions, load_robot
 
 # The public description (H2M): dimensions [m], masses [kg], and below the leg tensors about the centre of mass in link
 # axes, of which x points along the hanging leg, while y and z depend on leg and link.
@@ -257,3 +257,21 @@ def test_raw_inertia_variant_has_the_tensors_as_published() -> None:
     np.testing.assert_allclose(actual, expected, atol=5e-7)
     heavier = np.array(raw.model.body("rf_upper").inertia) / load_robot("hyq2max").model.body("rf_upper").inertia
     assert heavier.max() == pytest.approx(2.0, abs=0.1)
+
+
+def test_its_own_units_follow_from_its_dimensions(robot: Robot) -> None:
+    size = dimensions(robot)
+    neutral = dict(zip(robot.joint_names, robot.postures["neutral"], strict=True))
+    foot = foot_by_hand("lf", neutral["lf_haa"], neutral["lf_hfe"], neutral["lf_kfe"])
+    assert size.height == pytest.approx(FOOT_RADIUS - foot[2] + TRUNK_COM[2], abs=1e-5)
+    assert size.leg == pytest.approx(UPPER + LOWER)
+    assert size.trunk == pytest.approx(2 * HAA_X)
+    assert 0.5 * 9.81 * size.fall**2 == pytest.approx(size.height)
+
+
+def test_some_legs_take_a_posture_and_some_joints_an_angle(robot: Robot) -> None:
+    neutral, low = robot.posture("neutral"), robot.posture("crouched")
+    np.testing.assert_array_equal(robot.posture({"hind": "crouched"}), [*neutral[:6], *low[6:]])
+    np.testing.assert_array_equal(robot.posture({"left": "crouched"})[[0, 1, 2, 6, 7, 8]], low[[0, 1, 2, 6, 7, 8]])
+    both = robot.posture({"hind": "crouched", "front": "h2m", "lh_haa": 0.2})
+    np.testing.assert_array_equal(both, [*robot.posture("h2m")[:6], 0.2, *low[7:]])

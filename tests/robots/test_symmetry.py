@@ -64,3 +64,12 @@ def test_legs_that_are_not_mirror_images_are_refused(robot: Robot) -> None:
     shorter = replace(robot.leg("rf"), joints=("rf_haa", "rf_hfe"))
     with pytest.raises(LevadeError, match="3 and 2 joints"):
         mirror_signs(robot, robot.leg("lf"), shorter)
+
+
+def test_hind_legs_that_repeat_the_front_ones_copy_them(robot: Robot) -> None:
+    """Knees ">>": the neutral posture decides between a reflection and a shift, as both take straight legs to each other."""
+    neutral = robot.postures["neutral"].copy()
+    neutral[6:] = neutral[:6]
+    other = replace(robot, postures={"neutral": neutral})
+    np.testing.assert_array_equal(mirror_signs(other, other.leg("lf"), other.leg("lh")), [1, 1, 1])
+    np.testing.assert_array_equal(mirror_signs(other, other.leg("rh"), other.leg("lf")), [1, 1, 1])

@@ -14,6 +14,7 @@ import yaml
 from levade.costs import Effort, JointLimitExcess, Orientation, Position
 from levade.engines import Fall, Settled
 from levade.errors import LevadeError
+from levade.robots import dimensions, load_robot
 from levade.solve import Objective, make_optimizer
 from levade.tasks import Cost, Search, Task, builtin_tasks, load_task, task_from_dict, task_to_dict, task_to_yaml
 from levade.tasks.units import UNITS, to_si
@@ -143,7 +144,7 @@ def test_units_become_si() -> None:
                 "slope": "5 deg",
                 "boxes": [{"position": ["10 cm", 0, "50mm"], "size": [1, 1, "10 cm"], "yaw": "90deg"}],
             },
-            start={"fall": {"height": "65 cm", "roll": "-30 deg", "time": "1e3 ms"}},
+            start={"fall": {"height": "65 cm", "roll": "-30 deg", "time": "1e3 ms", "posture": {"lf_haa": "9 deg"}}},
             costs={
                 "orientation": {"weight": 1, "pitch": "-60 deg"},
                 "linear_velocity": {"weight": 1, "z": "1 m/s"},
@@ -162,6 +163,7 @@ def test_units_become_si() -> None:
     assert task.scene.boxes[0].yaw == pytest.approx(math.pi / 2)
     assert dataclasses.asdict(task.start.choice)["roll"] == pytest.approx(math.radians(-30))
     assert dataclasses.asdict(task.start.choice)["time"] == 1.0
+    assert dataclasses.asdict(task.start.choice)["posture"] == {"lf_haa": pytest.approx(math.pi / 20)}
     targets = {name: dataclasses.asdict(cost.term) for name, cost in task.costs.items()}
     assert targets["orientation"]["pitch"] == task.success["pitch"].target == pytest.approx(-math.pi / 3)
     assert targets["angular_velocity"]["z"] == pytest.approx(math.pi / 2)
@@ -226,8 +228,8 @@ def test_every_unit_has_its_size(unit: str) -> None:
         ({"start": {"settled": {}, "fall": {"height": 1}}}, "start: give one of settled and fall"),
         ({"start": {"fall": {}}}, "start.fall.height: missing"),
         (
-            {"start": {"settled": {"posture": {"*_haa": "low"}}}},
-            "start.settled.posture.*_haa: should be a valid number",
+            {"start": {"settled": {"posture": {"*_haa": "3 cm"}}}},
+            "start.settled.posture.*_haa: '3 cm' is a length, but this is an angle; units here: rad, deg",
         ),
         ({"start": {"settled": {"posture": 3}}}, "start.settled.posture: should be a valid string, is 3"),
         ({"horizon": 0}, "horizon: 0.0 s should be at least one time step (0.002 s); 0.3 to 3 s is usual"),
@@ -257,11 +259,17 @@ def test_every_unit_has_its_size(unit: str) -> None:
             "stages.0.hold: False, but every cost of the task looks at the hold; say hold: true",
         ),
         ({"search": {"optimizer": "cmaes"}}, "search.optimizer: no optimizer 'cmaes'; did you mean cma?"),
+        ({"search": {"settings": {"elite": 0.2}}}, "search.settings: no 'elite' for cma; it takes none"),
+        (
+            {"search": {"optimizer": "cem", "settings": {"elit": 0.2}}},
+            "search.settings: no 'elit' for cem; did you mean elite?",
+        ),
         ({"search": {"trials": 0}}, "search.trials: 0 should be at least 1; the paper has about 3000"),
         ({"search": {"trials": "many"}}, "search.trials: should be a valid integer"),
         ({"search": {"population": 3}}, "search.population: 3 should be 4 or more; leave it out for the usual one"),
         ({"search": {"step": -0.1}}, "search.step: -0.1 should be a positive number of rad"),
         ({"search": {"smoothness": -0.1}}, "search.smoothness: -0.1 should be 0 or more"),
+        ({"search": {"restart": 0}}, "search.restart: 0 should be at least 1; leave it out to go on"),
         ({"search": {"polish": -1}}, "search.polish: -1 should be 0 or more trials"),
         ({"robot": "hyq2max"}, "robot: should be a table of keys and values, is 'hyq2max'"),
         (
@@ -328,10 +336,15 @@ def test_tasks_that_are_not_there(name: str, message: str) -> None:
         (["robot.actuation=hydralic"], r"actuation: no actuation 'hydralic'; did you mean hydraulic\?"),
         (["robot.kp=-1"], r"kp should be a number that is not negative"),
         (["start.settled.posture={lf_ha: 0.1}"], r"^start.settled.posture: .*no joint 'lf_ha'; did you mean lf_haa\?"),
+        (
+            ["start.settled.posture={hnd: crouched}"],
+            r"^start.settled.posture: .*no leg 'hnd' to take the posture 'crou",
+        ),
+        (["start.settled.posture={hind: low}"], r"^start.settled.posture: .*no posture 'low'; valid names: crouched"),
         (["start.settled.posture=netral"], r"^start.settled.posture: .*no posture 'netral'; did you mean neutral\?"),
         (
             ["policy.initial=interpolate", "policy.goal=stand"],
-            r"^policy.goal: .*no posture 'stand'; valid names: h2m, neu",
+            r"^policy.goal: .*no posture 'stand'; valid names: crouched, h2m, neutral, stretched",
         ),
         (["policy.variance=-1"], r"^policy.variance: -1.0 is out of range"),
         (["policy.groups=[[lf, rf], [lh, xx]]"], r"^policy.groups: .*no leg 'xx'; valid names: lf, lh, rf, rh"),
@@ -344,6 +357,10 @@ def test_tasks_that_are_not_there(name: str, message: str) -> None:
         ),
         (["costs.effort={term: posture, position: [1], weight: 1}"], r"1 angles for a robot of 12 joints"),
         (["scene.boxes=[{position: [0, 0, 0.4], size: [1, 1, 0.8]}]"], r"^start: .*box0.* overlap by 0.\d+ m"),
+        (
+            ["search.optimizer=cem", "search.settings={elite: 2}"],
+            r"^search.settings.elite: 2.0 should be a share, more than 0 and at most 1",
+        ),
     ],
 )
 def test_what_does_not_fit_the_robot(changes: list[str], message: str) -> None:
@@ -359,3 +376,93 @@ def test_a_python_function_is_a_cost_that_no_file_holds() -> None:
     assert objective.evaluate(objective.initial_weights[None]).terms["mine"][0] > 10
     with pytest.raises(LevadeError, match=r"costs.mine: a Python function cannot be written to a task file"):
         task_to_yaml(mine)
+
+
+def test_units_of_the_robot_are_its_own_size() -> None:
+    """HyQ2Max: links of 0.36 and 0.38 m, hips 0.4435 m before and behind (data sheet); the rest by definition."""
+    size = dimensions(load_robot("hyq2max"))
+    assert (size.leg, size.trunk) == pytest.approx((0.74, 0.887))
+    assert size.fall == pytest.approx(math.sqrt(2 * size.height / 9.81))
+    task = task_from_dict(
+        minimal(
+            horizon="6 falls",
+            scene={"boxes": [{"position": ["1 trunk", 0, "0.25 heights"], "size": [1, 2, "0.5 heights"]}]},
+            start={"settled": {"x": "-0.5 legs"}},
+            success={
+                "apex": {"quantity": "height", "minimum": "1.5 heights", "at": "max"},
+                "still": {"quantity": "speed", "maximum": "0.1 heights/fall"},
+                "calm": {"quantity": "angular_speed", "maximum": "1 rad/fall"},
+            },
+            stages=[{"promote": {"apex": "0.1 heights"}}, {}],
+        ),
+        where="mine.yaml",
+    )
+    assert task.horizon == pytest.approx(6 * size.fall)
+    assert task.scene.boxes[0].position == pytest.approx((0.887, 0, 0.25 * size.height))
+    assert task.scene.boxes[0].size == pytest.approx((1, 2, 0.5 * size.height))
+    assert dataclasses.asdict(task.start.choice)["x"] == pytest.approx(-0.37)
+    assert task.success["apex"].minimum == pytest.approx(1.5 * size.height)
+    assert task.success["still"].maximum == pytest.approx(0.1 * size.height / size.fall)
+    assert task.success["calm"].maximum == pytest.approx(1 / size.fall)
+    assert task.stages[0].promote["apex"] == pytest.approx(0.1 * size.height)
+    assert task_from_dict(task_to_dict(task), where="x") == task
+
+
+def test_the_robot_is_changed_before_its_units_are_read(tmp_path: Path) -> None:
+    content = minimal(horizon="2 falls", robot={"name": "hyq2max", "kp": 500.0})
+    (tmp_path / "mine.yaml").write_text(yaml.safe_dump(content))
+    folder = Path(str(load_robot("hyq2max").source)).parent
+    (tmp_path / "long").mkdir()
+    (tmp_path / "long" / "hyq2max.xml").write_text((folder / "hyq2max.xml").read_text())
+    crouched = (
+        (folder / "robot.yaml").read_text().replace('"?f_hfe": 0.63, "?f_kfe": -1.32', '"?f_hfe": 1.0, "?f_kfe": -2')
+    )
+    crouched = crouched.replace('"?h_hfe": -0.63, "?h_kfe": 1.32', '"?h_hfe": -1.0, "?h_kfe": 2')
+    (tmp_path / "long" / "robot.yaml").write_text(crouched)
+    other = str(tmp_path / "long" / "robot.yaml")
+    fall, low = (dimensions(load_robot(name)).fall for name in ("hyq2max", other))
+    assert low < 0.95 * fall
+    assert load_task(tmp_path / "mine.yaml").horizon == pytest.approx(2 * fall)
+    assert load_task(tmp_path / "mine.yaml", robot=other).horizon == pytest.approx(2 * low)
+    by_path = load_task(tmp_path / "mine.yaml", changes=[f"robot.name={other}", "hold=1 falls", "robot.kp=400"])
+    assert (by_path.horizon, by_path.hold) == pytest.approx((2 * low, low))
+    assert by_path.robot.kp == 400.0
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"horizon": "5 heights"}, "horizon: '5 heights' is a length, but this is a duration; units here: s, ms, fall"),
+        ({"horizon": "5 hights"}, "horizon: unknown unit 'hights' in '5 hights'; units here: s, ms, fall"),
+        ({"robot": {"name": "hyq"}, "horizon": "5 falls"}, "no robot 'hyq'; did you mean hyq2max?"),
+        ({"robot": {"nam": "hyq"}, "horizon": "5 falls"}, "mine.yaml.robot: unknown key 'nam'; did you mean name?"),
+    ],
+)
+def test_units_of_the_robot_that_do_not_fit(changes: dict[str, object], message: str) -> None:
+    with pytest.raises(LevadeError) as caught:
+        task_from_dict(minimal(**changes), where="mine.yaml")
+    assert message in str(caught.value)
+
+
+def test_a_terrain_from_a_file_is_part_of_the_task(tmp_path: Path) -> None:
+    np.save(tmp_path / "hills.npy", np.linspace(0, 0.1, 12).reshape(3, 4))
+    content = minimal(scene={"terrain": {"file": "hills.npy", "size": ["2 trunks", 1]}})
+    (tmp_path / "mine.yaml").write_text(yaml.safe_dump(content))
+    task = load_task(tmp_path / "mine.yaml")
+    assert task.scene.terrain is not None
+    np.testing.assert_allclose(task.scene.terrain.heights, np.linspace(0, 0.1, 12).reshape(3, 4), rtol=1e-5)
+    (tmp_path / "hills.npy").unlink()
+    (tmp_path / "again.yaml").write_text(task_to_yaml(task))
+    assert load_task(tmp_path / "again.yaml") == task
+    with pytest.raises(LevadeError, match=r"scene.terrain.file: .*hills.npy: no such file"):
+        load_task(tmp_path / "mine.yaml")
+    for terrain, message in (
+        (
+            {"file": "hills.npy", "heights": [[0, 1], [1, 0]], "size": [1, 1]},
+            "give heights or a file of them, not both",
+        ),
+        ({"file": 3, "size": [1, 1]}, "terrain.file: should be the path of a file, is 3"),
+        ({"file": "a.png", "height": "low", "size": [1, 1]}, "terrain.height: should be a positive height"),
+    ):
+        with pytest.raises(LevadeError, match=message):
+            task_from_dict(minimal(scene={"terrain": terrain}), where="mine.yaml")

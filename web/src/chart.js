@@ -4,7 +4,7 @@
 //   const c = createChart(host, {height: 180, x: timeScale(series), lines: [{x, y, colour, dash}], onSeek: (x) => ...})
 //   c.setCursor(0.12); c.update({lines: [...]})
 
-import { svg } from "./dom.js";
+import { significant, svg } from "./dom.js";
 
 const MARGIN = { left: 40, right: 10, top: 8, bottom: 20 };
 
@@ -53,7 +53,7 @@ function niceTicks(min, max, parts) {
 }
 
 function label(value, ticks, log) {
-  if (log) return value >= 1e-3 && value < 1e4 ? String(Number(value.toPrecision(2))) : value.toExponential(0).replace("e", "\u00d710^").replace("+", "");
+  if (log) return value >= 1e-3 && value < 1e4 ? String(Number(value.toPrecision(2))) : significant(value, 1);
   const step = ticks.length > 1 ? Math.min(...ticks.slice(1).map((t, i) => t - ticks[i]).filter((d) => d > 0)) : 1;
   const digits = Math.min(6, Math.max(0, Math.ceil(-Math.log10(step) - 1e-9)));
   const precise = Math.abs(value * 10 ** digits - Math.round(value * 10 ** digits)) > 1e-6 ? digits + 1 : digits;
@@ -250,11 +250,11 @@ function shade(group, { from, to }, px, py, clip) {
   group.append(svg("line", { class: "limit", x1: clip.x, x2: clip.x + clip.width, y1: edge, y2: edge }));
 }
 
-function vertical(group, { x, text }, px, clip) {
+function vertical(group, { x, text, above }, px, clip) {
   const at = px(x);
   if (x > 0) group.append(svg("line", { class: "horizon", x1: at, x2: at, y1: clip.y, y2: clip.y + clip.height }));
   const edge = at > clip.x + clip.width - 60;
-  if (text) group.append(svg("text", { class: "tick stage", x: edge ? at - 4 : at + 4, y: clip.y + 10, "text-anchor": edge ? "end" : "start" }, text));
+  if (text) group.append(svg("text", { class: "tick stage", x: edge ? at - 4 : at + 4, y: above ? clip.y - 5 : clip.y + 10, "text-anchor": edge ? "end" : "start" }, text));
 }
 
 function whisker(x, a, b) {

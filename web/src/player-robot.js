@@ -41,6 +41,16 @@ export class Robot {
     this.reference.bodies.forEach((body, i) => (body.visible = this.legs.includes(i)));
   }
 
+  // one pose, whatever the time
+  hold(position, quaternion) {
+    this.poses = {
+      apply: (where, place, object) => {
+        object.position.fromArray(position, 3 * place);
+        object.quaternion.fromArray(quaternion, 4 * place);
+      },
+    };
+  }
+
   setShown(shown) {
     this.robot.visible = Boolean(shown.robot);
     this.reference.group.visible = Boolean(shown.reference);

@@ -44,7 +44,7 @@ function shape(geom, meshes) {
   const round = corners(a);
   if (geom.type === "sphere") return new THREE.SphereGeometry(a, round, round / 2);
   if (geom.type === "ellipsoid") return new THREE.SphereGeometry(1, FINEST, FINEST / 2).scale(a, b, c);
-  if (geom.type === "capsule") return new THREE.CapsuleGeometry(a, 2 * b, round / 4, round).rotateX(Math.PI / 2);
+  if (geom.type === "capsule") return new THREE.CapsuleGeometry(a, 2 * b, Math.round(round / 5), round).rotateX(Math.PI / 2);
   if (geom.type === "cylinder") return cylinder(a, b);
   if (geom.type === "box") return box(a, b, c);
   if (geom.type === "plane") return new THREE.PlaneGeometry(2 * (a || LARGE), 2 * (b || LARGE));
@@ -53,7 +53,7 @@ function shape(geom, meshes) {
 
 // Of a circle of some radius [m]: fewer where nobody could tell.
 function corners(radius) {
-  return radius > 0.05 ? FINEST : radius > 0.016 ? 20 : 12;
+  return radius > 0.05 ? FINEST : radius > 0.03 ? 20 : radius > 0.012 ? 16 : 12;
 }
 
 // With a slight bevel: edges that catch the light look solid.
@@ -87,7 +87,7 @@ function cylinder(radius, half) {
 
 function box(a, b, c) {
   const bevel = Math.min(0.3 * Math.min(a, b, c), 0.008);
-  return new RoundedBoxGeometry(2 * a, 2 * b, 2 * c, 2, bevel);
+  return new RoundedBoxGeometry(2 * a, 2 * b, 2 * c, 1, bevel);
 }
 
 function mesh(packed) {

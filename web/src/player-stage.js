@@ -10,13 +10,12 @@ export class Stage {
   constructor() {
     this.scene = new THREE.Scene();
     this.scene.background = new THREE.Color();
-    this.sun = new THREE.DirectionalLight(0xffffff, 2);
+    this.sun = new THREE.DirectionalLight(0xffffff, 2.2);
     this.sun.castShadow = true;
     const { shadow } = this.sun;
     shadow.mapSize.set(SHADOW, SHADOW);
     Object.assign(shadow, { radius: 2, bias: -0.0006, normalBias: 0.01 });
-    this.rim = new THREE.DirectionalLight(0xffffff, 0.6);
-    this.scene.add(this.sun, this.sun.target, this.rim, this.rim.target);
+    this.scene.add(this.sun, this.sun.target);
 
     this.ground = new THREE.Group();
     this.scene.add(this.ground);
@@ -75,8 +74,6 @@ export class Stage {
   follow(place) {
     this.sun.target.position.copy(place);
     this.sun.position.copy(place).addScaledVector(SUN, 4 * this.size);
-    this.rim.target.position.copy(place);
-    this.rim.position.set(place.x - 2 * this.size, place.y + 2.2 * this.size, place.z + 1.2 * this.size);
   }
 
   setTheme(palette, dark) {
@@ -84,17 +81,14 @@ export class Stage {
     this.look.uniforms.ground.value.set(palette.ground);
     this.look.uniforms.line.value.set(palette.ground_line);
     this.look.uniforms.shade.value = dark ? 0.62 : 0.34;
-    this.sun.intensity = 2.2;
-    this.rim.intensity = dark ? 1.6 : 0.6;
     studio.value = dark ? 0.8 : 0.7;
-    outline.value = dark ? 0.24 : 0.02;
+    outline.value = dark ? 0.32 : 0.05;
   }
 
   dispose() {
     this.clearGround();
     this.look.dispose();
     this.sun.dispose();
-    this.rim.dispose();
   }
 }
 

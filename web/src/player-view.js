@@ -4,6 +4,9 @@ import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
 const MARGIN = 1.08;
+const NEARER = 0.75; // of the distance: the camera comes nearer only for so much
+
+const seen = new THREE.Vector3();
 
 export class CameraView {
   constructor(canvas, onChange) {
@@ -30,12 +33,32 @@ export class CameraView {
     this.points = [];
   }
 
-  // points: what should be seen, THREE.Vector3; look: {azimuth, elevation, fov} in degrees, as levade's Camera has them
+  // points: what should be seen, THREE.Vector3; look: {azimuth, elevation, fov} in degrees, as levade's Camera has
+  // them, and margin, room around the subject, as a factor
   setSubject(points, look) {
     this.points = points;
     this.look = look;
     this.camera.fov = look.fov;
     this.reset();
+  }
+
+  // another subject in the same place: the camera moves only if it has to, and never against the reader
+  keepInSight(points) {
+    this.points = points;
+    if (this.touched) return;
+    this.camera.updateMatrixWorld();
+    const out = points.some((point) => {
+      const { x, y } = seen.copy(point).project(this.camera);
+      return Math.abs(x) > 1 || Math.abs(y) > 1;
+    });
+    const { position } = this.camera;
+    const before = { place: position.clone(), distance: position.distanceTo(this.controls.target) };
+    const target = this.controls.target.clone();
+    this.reset();
+    if (out || position.distanceTo(this.controls.target) < NEARER * before.distance) return;
+    position.copy(before.place);
+    this.controls.target.copy(target);
+    this.controls.update();
   }
 
   resize(aspect) {
@@ -47,6 +70,9 @@ export class CameraView {
   reset() {
     this.touched = false;
     const { camera, controls } = this;
+    controls.enableDamping = false; // what is left of an earlier turn is spent here
+    controls.update();
+    controls.enableDamping = true;
     const azimuth = THREE.MathUtils.degToRad(this.look.azimuth);
     const elevation = THREE.MathUtils.degToRad(this.look.elevation);
     const forward = new THREE.Vector3(
@@ -56,7 +82,7 @@ export class CameraView {
     );
     const right = new THREE.Vector3(Math.sin(azimuth), -Math.cos(azimuth), 0);
     const up = new THREE.Vector3().crossVectors(right, forward);
-    const tangent = Math.tan(THREE.MathUtils.degToRad(camera.fov / 2)) / MARGIN;
+    const tangent = Math.tan(THREE.MathUtils.degToRad(camera.fov / 2)) / (this.look.margin ?? MARGIN);
     // the frustum's planes touch the points: see Camera.frame in levade.report.rendering
     const place = [];
     let depth = Infinity;

@@ -14,22 +14,25 @@ import { locate, unpack } from "./player-data.js";
 import { Forces, Goal, goalCorners, Path } from "./player-overlays.js";
 import { cornersOf, Robot } from "./player-robot.js";
 import { Stage } from "./player-stage.js";
-import { Pace } from "./player-pace.js";
+import { isSoftware, Pace } from "./player-pace.js";
 import { CameraView } from "./player-view.js";
 
 const LAYERS = ["robot", "reference", "path", "forces", "goal", "collision"];
 const STILL = 24; // poses of the motion that the camera makes room for
+const SLIDING = 200; // ms
 const LARGE = 1.5; // m: obstacles with a longer half edge need not be seen whole
 
 export function createPlayer(element, scene, options = {}) {
   const clock = new Clock(0);
   const listeners = new Set();
   const shown = {};
-  let times = new Float32Array([0]);
+  let times = new Float64Array(1);
   let picture = null;
   let theme = options.theme ?? "light";
   let frame = 0;
-  let before = 0;
+  let before = 0; // when the last picture was, while things move
+  let drawn = -Infinity;
+  let later = 0;
 
   const tell = () => listeners.forEach((listener) => listener(clock.time, clock.playing));
 
@@ -39,12 +42,17 @@ export function createPlayer(element, scene, options = {}) {
 
   function step(now) {
     frame = 0;
-    const passed = before ? Math.min((now - before) / 1000, 0.5) : 0;
+    const passed = before ? Math.min(Math.max(now - before, 0) / 1000, 0.5) : 0;
     const moved = clock.advance(passed);
     if (moved) tell();
-    const gliding = picture?.draw(clock.time, clock.playing, passed) ?? false;
+    // soon after another picture somebody is moving the slider: coarse now, fine when that is over
+    const sliding = now - drawn < SLIDING && !clock.playing;
+    drawn = now;
+    const gliding = picture?.draw(clock.time, clock.playing || sliding, passed) ?? false;
     before = clock.playing || gliding ? now : 0;
     if (before) wake();
+    clearTimeout(later);
+    if (!before && picture?.coarse) later = setTimeout(wake, SLIDING + 20);
   }
 
   try {
@@ -53,13 +61,14 @@ export function createPlayer(element, scene, options = {}) {
     const note = document.createElement("p");
     note.textContent = "No 3D picture: this browser has no WebGL, or it is turned off.";
     note.className = "player-note";
+    note.style.padding = "2em";
     element.append(note);
     console.warn(`player: ${error.message}`);
   }
 
   function update(next) {
     scene = { ...scene, ...next };
-    times = unpack(scene.motion.time);
+    times = Float64Array.from(unpack(scene.motion.time), (time) => Math.round(time * 1e6) / 1e6); // 0.3, not 0.30000001
     clock.duration = times[times.length - 1];
     clock.time = Math.min(clock.time, clock.duration);
     for (const { name, shown: visible } of scene.layers) shown[name] ??= visible;
@@ -143,8 +152,24 @@ export function createPlayer(element, scene, options = {}) {
       player.seek(times[Math.min(Math.max(from + frames, 0), times.length - 1)]);
     },
     update,
+    // Poses the bodies as the motion does not have them, until the next update: (bodies, 3) and (bodies, 4) x-y-z-w, flat.
+    pose(position, quaternion) {
+      picture?.setPose(position, quaternion);
+      wake();
+    },
+    // Puts an object on a body, or at -1 into the world, for as long as the shapes stay; returns what draws it anew.
+    attach(body, object) {
+      (body < 0 ? picture?.stage.scene : picture?.robot.bodies[body])?.add(object);
+      const changed = () => {
+        picture?.redraw();
+        wake();
+      };
+      changed();
+      return changed;
+    },
     dispose() {
       cancelAnimationFrame(frame);
+      clearTimeout(later);
       document.removeEventListener("keydown", onKey);
       listeners.clear();
       picture?.dispose();
@@ -201,7 +226,7 @@ class Picture {
     });
     this.observer.observe(element);
     this.overlays = [];
-    this.pace = new Pace();
+    this.pace = new Pace(isSoftware(renderer.getContext()));
     this.follow = false;
     this.trunk = new THREE.Vector3();
     this.resize();
@@ -234,9 +259,18 @@ class Picture {
       const planes = scene.model.geoms.filter((geom) => geom.layer === "ground");
       stage.setGround(planes, size, reach, middle);
       this.view.setSubject(points, scene.camera);
-    }
+    } else this.view.keepInSight(points);
     this.setTheme(scene.palette[theme], theme === "dark");
     this.setShown(shown);
+  }
+
+  setPose(position, quaternion) {
+    this.robot.hold(position, quaternion);
+    this.time = null;
+  }
+
+  redraw() {
+    this.time = null;
   }
 
   // Points that should be seen: the robot on its way, what it may touch, where it should get.
@@ -277,6 +311,10 @@ class Picture {
     this.renderer.setPixelRatio(this.pace.ratio);
     this.renderer.setSize(width, height, false);
     this.view.resize(width / height);
+  }
+
+  get coarse() {
+    return this.renderer.getPixelRatio() < this.pace.finest;
   }
 
   // Draws the motion at a time; true while the view is still gliding. passed: since the picture before [s], or 0.

@@ -23,12 +23,16 @@ app = typer.Typer(
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object, and nothing else, on standard output.")]
 
 
+_SEVERAL = ("--tasks", "--robots", "--optimizers", "--add")
+"""Options of ``bench`` that take all words up to the next option."""
+
+
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line; whatever is wrong with the input is one line on standard error and exit status 2."""
     # typer names these by its own copy of click since 0.26, by click itself before
     _, usage_error, click_exception, *_ = typer.BadParameter.__mro__
     try:
-        status = app(args=arguments, standalone_mode=False)
+        status = app(args=_spread(sys.argv[1:] if arguments is None else arguments), standalone_mode=False)
     except LevadeError as error:
         _fail(str(error))
     except usage_error as error:  # type: ignore[misc]
@@ -45,6 +49,21 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except (KeyboardInterrupt, typer.Abort):
         sys.exit(130)
     sys.exit(status if isinstance(status, int) else 0)
+
+
+def _spread(arguments: Sequence[str]) -> list[str]:
+    """``bench --tasks A B`` as ``bench --tasks A --tasks B``, which is how several values can be told to typer."""
+    if not arguments or arguments[0] != "bench":
+        return list(arguments)
+    taken: list[str] = []
+    option: str | None = None
+    for word in arguments:
+        if word.startswith("-"):
+            option = word if word in _SEVERAL else None
+        elif option is not None and taken[-1] != option:
+            taken.append(option)
+        taken.append(word)
+    return taken
 
 
 def _fail(message: str) -> NoReturn:
@@ -72,7 +91,9 @@ def solve(
     robot: Annotated[str | None, typer.Option(help="Another robot: a name, or its robot.yaml.")] = None,
     seed: Annotated[int, typer.Option(min=0, help="Of the search; the same seed gives the same motion.")] = 0,
     trials: Annotated[int | None, typer.Option(help="Budget, instead of the task's.")] = None,
-    optimizer: Annotated[str | None, typer.Option(help="Instead of the task's.")] = None,
+    optimizer: Annotated[
+        str | None, typer.Option(help="cma, pi2, pi2-cma, mppi, cem or random, instead of the task's.")
+    ] = None,
     change: Annotated[
         list[str] | None, typer.Option("--set", metavar="PATH=VALUE", help="Change a value of the task. Repeatable.")
     ] = None,
@@ -80,6 +101,15 @@ def solve(
     resume: Annotated[Path | None, typer.Option(metavar="DIR", help="Go on with the interrupted run in DIR.")] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace an interrupted run in the directory.")] = False,
     threads: Annotated[int, typer.Option(min=0, help="0 for one per core; no effect on the result.")] = 0,
+    watch: Annotated[
+        bool, typer.Option("--watch", help="Show it on a page in the browser, with pause, stop and weights to move.")
+    ] = False,
+    watch_host: Annotated[
+        str | None, typer.Option(metavar="ADDRESS", help="Of the page; by default only this machine can reach it.")
+    ] = None,
+    watch_port: Annotated[int | None, typer.Option(min=0, max=65535, help="Of the page; 0 for a free one.")] = None,
+    open_page: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
+    keep_open: Annotated[bool, typer.Option("--keep-open", help="Serve the page on at the end, until Ctrl-C.")] = False,
     as_json: Json = False,
 ) -> int:
     """Search for a motion that does TASK, and write it to a directory.
@@ -87,7 +117,9 @@ def solve(
     Exit status: 0 the success criteria hold, 1 they do not (everything is still written), 2 the input is wrong.
     """
     from levade.cli.solving import solve_and_report
+    from levade.cli.watching import options
 
+    watching = options(watch, watch_host, watch_port, open_page, keep_open)
     changes = list(change or [])
     if trials is not None:
         changes.append(f"search.trials={trials}")
@@ -111,6 +143,7 @@ def solve(
         resume_from=resume,
         force=force,
         threads=threads,
+        watching=watching,
         as_json=as_json,
     )
 
@@ -142,16 +175,141 @@ def show(
 
 
 @app.command()
-def tasks(as_json: Json = False) -> None:
-    """List the built-in tasks."""
+def bench(
+    plan: Annotated[Path | None, typer.Argument(metavar="FILE", help="A plan: see docs/bench.md.")] = None,
+    tasks: Annotated[list[str] | None, typer.Option(metavar="NAME ...", help="Names or files.")] = None,
+    robots: Annotated[
+        list[str] | None, typer.Option(metavar="NAME ...", help="Names or files, instead of each task's own.")
+    ] = None,
+    optimizers: Annotated[
+        list[str] | None, typer.Option(metavar="NAME ...", help="Instead of each task's own; see solve --optimizer.")
+    ] = None,
+    seeds: Annotated[int | None, typer.Option(help="How many, from 0; by default 5.")] = None,
+    trials: Annotated[int | None, typer.Option(help="Budget of a run, instead of the task's.")] = None,
+    steps: Annotated[float | None, typer.Option(help="Budget of a run in physics steps, too.")] = None,
+    until: Annotated[
+        str | None, typer.Option(help="When a run ends: success (and polished; the default) or budget.")
+    ] = None,
+    change: Annotated[
+        list[str] | None, typer.Option("--set", metavar="PATH=VALUE", help="Change a value of every task. Repeatable.")
+    ] = None,
+    out: Annotated[Path, typer.Option(help="Directory to write, or to go on in.")] = Path("bench"),
+    processes: Annotated[int, typer.Option(min=0, help="Runs at a time; 0 for one per core. No effect on them.")] = 0,
+    force: Annotated[bool, typer.Option("--force", help="Begin anew; the directory's results are lost.")] = False,
+    add: Annotated[list[Path] | None, typer.Option(metavar="FILE ...", help="Report these results.csv, too.")] = None,
+    format: Annotated[str, typer.Option(help="Of the figures: pdf, svg or png.")] = "pdf",
+    as_json: Json = False,
+) -> int:
+    """Compare optimizers: tasks x robots x optimizers x seeds, in parallel. Called again, goes on where it stopped.
+
+    Exit status: 0 every run is done, 1 it was interrupted, 2 the input is wrong.
+    """
+    from levade.cli.benching import bench_and_report
+
+    options = {
+        "tasks": tuple(tasks) if tasks else None,
+        "robots": tuple(robots) if robots else None,
+        "optimizers": tuple(optimizers) if optimizers else None,
+        "seeds": seeds,
+        "trials": trials,
+        "steps": steps,
+        "until": until,
+    }
+    return bench_and_report(
+        file=plan,
+        options=options,
+        changes=change or [],
+        add=add or [],
+        directory=out,
+        processes=processes,
+        force=force,
+        format=format,
+        as_json=as_json,
+    )
+
+
+@app.command()
+def view(
+    what: Annotated[
+        str,
+        typer.Argument(metavar="MOTION|ROBOT|TASK", help="A built-in name, or a file: motion.npz, robot.yaml, task."),
+    ],
+    out: Annotated[Path | None, typer.Option(metavar="FILE", help="Write the page, as .html, and serve none.")] = None,
+    host: Annotated[
+        str | None, typer.Option(metavar="ADDRESS", help="To serve at; by default only this machine can reach it.")
+    ] = None,
+    port: Annotated[int | None, typer.Option(min=0, max=65535, help="To serve at; 0 for a free one.")] = None,
+    open_page: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
+) -> None:
+    """Look at a motion, a robot (its joints to move) or a task (start, scene, goal) in the browser."""
+    from levade.cli.viewing import view as show_page
+
+    show_page(what, out=out, host=host, port=port, browse=open_page)
+
+
+@app.command()
+def export(
+    motion: Annotated[Path, typer.Argument(metavar="MOTION", help="A motion.npz.")],
+    to: Annotated[
+        str | None, typer.Option(metavar="FORMAT", help="csv, json, ros2, mjlab or unitree; see docs/export.md.")
+    ] = None,
+    out: Annotated[Path | None, typer.Option(metavar="DIR", help="To write; by default MOTION-FORMAT.")] = None,
+    rate: Annotated[float | None, typer.Option(metavar="HZ", help="Rows a second; by default the format's.")] = None,
+    reference: Annotated[
+        str, typer.Option(help="What to send: measured (with feed-forward torque) or commanded (as simulated).")
+    ] = "measured",
+    hold: Annotated[bool, typer.Option("--hold/--no-hold", help="Go on after the horizon, or stop there.")] = True,
+    kp: Annotated[float | None, typer.Option(help="Of all joints [Nm/rad]; by default the simulation's.")] = None,
+    kd: Annotated[float | None, typer.Option(help="Of all joints [Nm s/rad]; by default the simulation's.")] = None,
+    as_json: Json = False,
+) -> int:
+    """Write a motion for a robot or another tool, with a player.py that plays it.
+
+    Exit status: 0 it is written, 2 the input is wrong.
+    """
+    from levade.cli.exporting import export_motion
+
+    return export_motion(motion, to, out, rate=rate, reference=reference, hold=hold, kp=kp, kd=kd, as_json=as_json)
+
+
+_tasks = typer.Typer(help="List the built-in tasks; print one, or the form of them all.", rich_markup_mode=None)
+app.add_typer(_tasks, name="tasks")
+
+
+@_tasks.callback(invoke_without_command=True)
+def _list_tasks(context: typer.Context, as_json: Json = False) -> None:
     from levade.tasks import builtin_tasks, load_task
 
+    if context.invoked_subcommand is not None:
+        return
     loaded = [load_task(name) for name in builtin_tasks()]
     if as_json:
         rows = [{"name": task.name, "description": task.description, "robot": task.robot.name} for task in loaded]
         _print_json({"tasks": rows})
     else:
         _print_rows([(task.name, task.description) for task in loaded])
+
+
+@_tasks.command("show")
+def _show_task(
+    task: Annotated[str, typer.Argument(help="Name of a built-in task, or a YAML file.")],
+    robot: Annotated[str | None, typer.Option(help="Another robot, for --full.")] = None,
+    full: Annotated[bool, typer.Option("--full", help="With every default filled in, in SI, for its robot.")] = False,
+) -> None:
+    """Print TASK as it was written, to start your own from."""
+    from levade.tasks import load_task, task_text, task_to_yaml
+
+    if robot is not None and not full:
+        raise LevadeError("tasks show: --robot goes with --full, which gives numbers for a robot; add it")
+    print(task_to_yaml(load_task(task, robot=robot)) if full else task_text(task), end="")
+
+
+@_tasks.command("schema")
+def _schema() -> None:
+    """Print the JSON schema of task files, for editors."""
+    from levade.tasks.schema import task_schema
+
+    print(json.dumps(task_schema(), indent=2, ensure_ascii=False))
 
 
 @app.command()

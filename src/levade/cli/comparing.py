@@ -10,7 +10,7 @@ from rich.table import Table
 from rich.text import Text
 
 from levade.cli.tables import quantity_unit, signed
-from levade.motion import Motion
+from levade.motion import Motion, cost_weights
 
 
 def comparison_table(motions: Mapping[str, Motion]) -> Table:
@@ -57,7 +57,7 @@ def _error(meta: Mapping[str, Any], name: str) -> Text | str:
 def _weighted(meta: Mapping[str, Any], name: str) -> str:
     if name not in meta["cost_terms"]:
         return ""
-    return f"{meta['task']['costs'][name]['weight'] * meta['cost_terms'][name]:.4g}"
+    return f"{cost_weights(meta)[name] * meta['cost_terms'][name]:.4g}"
 
 
 def _count(trials: int | None) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import deque
+from collections.abc import Callable
 
 import numpy as np
 from rich.console import Console, Group, RenderableType
@@ -22,10 +23,10 @@ _PLAIN_EVERY = 10.0
 
 
 class Display:
-    """Shows generations as they come; a context manager."""
+    """Shows generations as they come; a context manager. note: what else there is to say, asked for each time."""
 
-    def __init__(self, console: Console, task: Task, *, quiet: bool) -> None:
-        self._console, self._task, self._quiet = console, task, quiet
+    def __init__(self, console: Console, task: Task, *, quiet: bool, note: Callable[[], str] = lambda: "") -> None:
+        self._console, self._task, self._quiet, self._note = console, task, quiet, note
         self._live: Live | None = None
         self._latest: Generation | None = None
         self._recent: deque[tuple[float, int]] = deque(maxlen=50)
@@ -76,6 +77,7 @@ class Display:
         bar.add_row(
             ProgressBar(total=budget, completed=g.trials, width=24),
             f"trial {g.trials} of {budget}   {rate:.0f} trials/s{left}",
+            Text(self._note(), style="yellow"),
         )
         found = Text("success", style="green") if g.best.success else Text("not yet", style="dim")
         head = Table.grid(padding=(0, 3))
@@ -116,7 +118,7 @@ def _terms(task: Task, g: Generation) -> Table:
     table = Table(box=None, padding=(0, 2), header_style="dim")
     for heading, justify in (("cost", "left"), ("weighted", "right"), ("share", "right")):
         table.add_column(heading, justify=justify)  # type: ignore[arg-type]
-    weighted = {name: cost.weight * g.best.terms[name] for name, cost in task.costs.items()}
+    weighted = {name: g.weights[name] * g.best.terms[name] for name in task.costs}
     whole = sum(value for value in weighted.values() if value == value) or 1.0
     for name, value in weighted.items():
         table.add_row(name, "" if value != value else f"{value:.4g}", "" if value != value else f"{value / whole:.0%}")

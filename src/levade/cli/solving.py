@@ -7,7 +7,7 @@ import json
 import signal
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from types import FrameType
 
@@ -16,6 +16,7 @@ from rich.markup import escape
 
 from levade.cli.display import Display
 from levade.cli.tables import make_console, motion_summary
+from levade.cli.watching import Watching, watched
 from levade.run import Outcome, read_run, resume, run, unfinished
 from levade.solve import Generation, Objective
 from levade.tasks import load_task
@@ -31,6 +32,7 @@ def solve_and_report(
     resume_from: Path | None,
     force: bool,
     threads: int,
+    watching: Watching | None,
     as_json: bool,
 ) -> int:
     """Exit status 0 if the success criteria hold, else 1."""
@@ -38,38 +40,43 @@ def solve_and_report(
     console = make_console(stderr=as_json)
     quiet = as_json and not console.is_terminal
     # whatever is wrong with the input is said before the display opens
-    go: Callable[[Callable[[Generation], object]], Outcome]
     if resume_from is not None:
-        chosen = read_run(resume_from)[0]
-        go = functools.partial(_resume, resume_from, threads)
+        chosen, header, _ = read_run(resume_from)
+        seed, out = int(header["seed"]), resume_from
+        objective = Objective(chosen, threads=threads)
+        go = functools.partial(resume, out, objective=objective)
     else:
         assert task is not None
         chosen = load_task(task, robot=robot, changes=changes)
         out = directory or Path(chosen.name)
         if not force:
             unfinished(out)
-        go = functools.partial(_run, Objective(chosen, threads=threads), seed, out)
-    with _stop_between_generations() as stopping, Display(console, chosen, quiet=quiet) as display:
+        objective = Objective(chosen, threads=threads)
+        go = functools.partial(run, objective, seed=seed, directory=out)
+    with ExitStack() as stack:
+        stopping = stack.enter_context(_stop_between_generations())
+        watch = None
+        if watching is not None:
+            page = watched(watching, console, objective, seed=seed, directory=out, interrupted=stopping)
+            watch = stack.enter_context(page)
+        note = (lambda: "") if watch is None else (lambda: watch.note)
+        with Display(console, chosen, quiet=quiet, note=note) as display:
 
-        def watch(generation: Generation) -> None:
-            display.update(generation)
-            if stopping():
-                raise KeyboardInterrupt
+            def observe(generation: Generation) -> None:
+                display.update(generation)
+                if watch is not None:
+                    watch.observe(generation)
+                if stopping():
+                    raise KeyboardInterrupt
 
-        outcome = go(watch)
-    if as_json:
-        print(json.dumps(summary(outcome), ensure_ascii=False))
-    else:
-        _tell(console, outcome)
+            outcome = go(observe=observe, steer=None if watch is None else watch.steer)
+        if watch is not None:
+            watch.finish(outcome)
+        if as_json:
+            print(json.dumps(summary(outcome), ensure_ascii=False), flush=True)
+        else:
+            _tell(console, outcome)
     return 0 if outcome.motion.meta["success"] else 1
-
-
-def _resume(directory: Path, threads: int, watch: Callable[[Generation], object]) -> Outcome:
-    return resume(directory, threads=threads, observe=watch)
-
-
-def _run(objective: Objective, seed: int, directory: Path, watch: Callable[[Generation], object]) -> Outcome:
-    return run(objective, seed=seed, directory=directory, observe=watch)
 
 
 def summary(outcome: Outcome) -> dict[str, object]:

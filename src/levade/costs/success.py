@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -14,10 +15,11 @@ from levade.costs.evaluate import DIVERGED
 from levade.costs.orientation import angle_between, pitch_past_vertical, world_up, wrap
 from levade.costs.rows import rows_at
 from levade.errors import LevadeError, did_you_mean
-from levade.trajectory import Array, Trajectories, roll_pitch_yaw
+from levade.trajectory import Array, LegGeometry, Trajectories, roll_pitch_yaw
 
 Quantity = Literal[
-    "roll", "pitch", "yaw", "tilt", "x", "y", "height", "speed", "vertical_speed", "angular_speed"
+    "roll", "pitch", "yaw", "tilt", "x", "y", "height", "speed", "vertical_speed", "angular_speed", "lowest_foot",
+    "highest_foot",
 ]  # fmt: skip
 
 QUANTITIES: dict[str, str] = {
@@ -31,10 +33,16 @@ QUANTITIES: dict[str, str] = {
     "speed": "m/s",
     "vertical_speed": "m/s",
     "angular_speed": "rad/s",
+    "lowest_foot": "m",
+    "highest_foot": "m",
 }
 """Quantity -> unit."""
 
 CIRCULAR = ("roll", "pitch", "yaw")
+OF_FEET = ("lowest_foot", "highest_foot")
+
+Legs = str | tuple[str, ...]
+"""Some of the legs: "all", "front", "hind", "left", "right", a leg's name, or several of these."""
 
 
 @dataclass(frozen=True)
@@ -49,10 +57,12 @@ class Criterion:
         x, y, height [m]: of its centre of mass, world axes.
         speed, vertical_speed [m/s]: of its centre of mass: norm, and upward component, of the velocity.
         angular_speed [rad/s]: norm of the angular velocity.
+        lowest_foot, highest_foot [m]: height over z = 0 of the sole that is lowest, or highest, among the ``legs``.
     target, tolerance: required value, and the distance from it that still counts. Angles wrap.
     minimum, maximum: required bounds, instead of a target.
     at: at the horizon T; at the end; the largest ("max") or smallest ("min") value of the whole trial, hold included;
         or at every row of the hold ("hold": the error is that of the worst row).
+    legs: of the feet: see `Legs`.
     """
 
     quantity: Quantity
@@ -61,6 +71,7 @@ class Criterion:
     minimum: float | None = None
     maximum: float | None = None
     at: Literal["horizon", "end", "max", "min", "hold"] = "horizon"
+    legs: Legs = "all"
 
     def __post_init__(self) -> None:
         if self.quantity not in QUANTITIES:
@@ -72,6 +83,8 @@ class Criterion:
             value = getattr(self, name)
             if value is not None and not math.isfinite(value):
                 raise LevadeError(f"{where}.{name}: {value} is not finite; leave it out where there is none")
+        if self.legs != "all" and self.quantity not in OF_FEET:
+            raise LevadeError(f"{where}.legs: {self.quantity} is no quantity of the legs; {' and '.join(OF_FEET)} are")
         bounded = self.minimum is not None or self.maximum is not None
         if bounded == (self.target is not None):
             raise LevadeError(f"{where}: give either a target and a tolerance, or a minimum and/or a maximum")
@@ -102,13 +115,19 @@ class Criterion:
         return np.abs(error) <= (self.tolerance or 0.0)
 
     def _error(self, trajectories: Trajectories) -> Array:
-        if self.at in ("max", "min"):
-            value = quantity_values(self.quantity, trajectories, slice(None))
-            value = value.max(axis=1) if self.at == "max" else value.min(axis=1)
-            return self._deviation(value)
-        error = self._deviation(quantity_values(self.quantity, trajectories, rows_at(trajectories, self.at)))
+        error = self.deviations(trajectories)
         worst = np.argmax(np.abs(error), axis=1)[:, None]
         return np.take_along_axis(error, worst, axis=1)[:, 0]
+
+    def deviations(self, trajectories: Trajectories, rows: slice | None = None) -> Array:
+        """(n, rows) signed errors: those at the criterion's instants, or at given rows instead."""
+        extreme = rows is None and self.at in ("max", "min")
+        if rows is None:
+            rows = slice(None) if self.at == "max" or self.at == "min" else rows_at(trajectories, self.at)
+        value = quantity_values(self.quantity, trajectories, rows, self.legs)
+        if extreme:
+            value = (value.max if self.at == "max" else value.min)(axis=1, keepdims=True)
+        return self._deviation(value)
 
     def _deviation(self, value: Array) -> Array:
         if self.target is not None:
@@ -118,8 +137,11 @@ class Criterion:
         return value - np.clip(value, low, high)
 
 
-def quantity_values(quantity: Quantity, trajectories: Trajectories, rows: slice) -> Array:
+def quantity_values(quantity: Quantity, trajectories: Trajectories, rows: slice, legs: Legs = "all") -> Array:
     """(n, rows) of a quantity, in its SI unit, as `Criterion` says."""
+    if quantity in OF_FEET:
+        soles = [trajectories.sole_height(leg, rows) for leg in chosen_legs(trajectories, legs)]
+        return functools.reduce(np.minimum if quantity == "lowest_foot" else np.maximum, soles)
     if quantity in ("x", "y", "height"):
         return trajectories.trunk_com_position(rows)[..., ("x", "y", "height").index(quantity)]
     if quantity == "vertical_speed":
@@ -134,6 +156,19 @@ def quantity_values(quantity: Quantity, trajectories: Trajectories, rows: slice)
     if quantity == "tilt":
         return angle_between(world_up(quaternion), np.array([0.0, 0.0, 1.0]))
     return roll_pitch_yaw(quaternion)[..., 0 if quantity == "roll" else 2]
+
+
+def chosen_legs(trajectories: Trajectories, legs: Legs) -> list[LegGeometry]:
+    """The legs that a criterion or a term names. LevadeError for a name that is none."""
+    names = (legs,) if isinstance(legs, str) else legs
+    valid = {name for leg in trajectories.legs for name in ("all", leg.end, leg.side, leg.name)}
+    for name in names:
+        if name not in valid:
+            raise LevadeError(f"legs: no {name!r}; {did_you_mean(name, valid) if valid else 'the robot has no legs'}")
+    chosen = [leg for leg in trajectories.legs if not {"all", leg.end, leg.side, leg.name}.isdisjoint(names)]
+    if not chosen:
+        raise LevadeError("legs: an empty list; name some, or leave the key out for all")
+    return chosen
 
 
 def errors(criteria: Mapping[str, Criterion], trajectories: Trajectories) -> dict[str, Array]:

@@ -7,7 +7,6 @@ replays a motion from its file simulates the same model to the last bit.
 from __future__ import annotations
 
 import copy
-import math
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import cached_property
@@ -34,6 +33,7 @@ class MujocoEngine:
     """Rolls out joint references of one robot in one scene.
 
     threads: of the batch; 0 for one per core. Results do not depend on it.
+    steps: physics steps of all roll-outs so far; a trial that breaks down counts in full.
     Not to be used from several Python threads at once.
     """
 
@@ -41,6 +41,7 @@ class MujocoEngine:
         self.robot = robot
         self.scene = scene
         self.physics = physics
+        self.steps = 0
         self._threads = threads
         self.xml = self._compose(gain_scale=1.0)
         self.assets = dict(robot.assets)
@@ -61,8 +62,9 @@ class MujocoEngine:
         """
         if isinstance(start, Settled):
             posture = self._posture("start.settled.posture", start)
-            height = self.robot.standing_height(start.posture)
-            height += start.x * math.tan(self.scene.slope) + abs(math.tan(self.scene.slope)) * self._reach(posture)
+            feet = self.robot.foot_positions(posture)
+            ground = self.scene.ground_height(start.x + feet[:, 0], start.y + feet[:, 1])
+            height = self.robot.standing_height(start.posture) + float(ground.max())
             data = self._release((start.x, start.y, height), (0.0, 0.0, 0.0), posture, self.model)
             return self._let_go(self.model, data, posture, start.time)
         generator = np.random.default_rng(start.seed)
@@ -85,6 +87,7 @@ class MujocoEngine:
         """
         model, layout = self.model, self._layout
         n, steps = reference.position.shape[:2]
+        self.steps += n * steps
         recorded = ["qpos", "qvel", "actuator_force"]
         if feet or bodies:
             recorded.append("sensordata")
@@ -125,6 +128,7 @@ class MujocoEngine:
             trunk_com_offset=self.robot.trunk_com_offset,
             reference=reference,
             limits=self.robot.limits,
+            legs=self.robot.leg_geometry,
             timestep=self.physics.timestep,
             horizon_steps=reference.horizon_steps,
             diverged=diverged,
@@ -182,10 +186,6 @@ class MujocoEngine:
             return self.robot.posture(start.posture)
         except LevadeError as error:
             raise LevadeError(f"{where}: {error}") from None
-
-    def _reach(self, posture: Array) -> float:
-        """[m], how far the feet are from the trunk's origin along x."""
-        return float(np.abs(self.robot.foot_positions(posture)[:, 0]).max())
 
     def _release(
         self,

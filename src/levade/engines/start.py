@@ -14,12 +14,14 @@ from levade.trajectory import Array
 class Settled:
     """Standing on the ground in a posture, at rest.
 
-    posture: name of a posture of the robot, or joint -> angle [rad] on top of the neutral one. The robot is put down
-    level, with its lowest foot touching, above the point x, y, and holds the posture with its own gains for ``time``
-    [s]; it sags a little, as its joints give way to gravity.
+    posture: name of a posture of the robot; or, on top of the neutral one, joint -> angle [rad], and leg, "front",
+        "hind", "left" or "right" -> name of the posture that these legs take.
+
+    The robot is put down level, with its lowest foot touching, above the point x, y, and holds the posture with its own
+    gains for ``time`` [s]; it sags a little, as its joints give way to gravity.
     """
 
-    posture: str | Mapping[str, float] = "neutral"
+    posture: str | Mapping[str, float | str] = "neutral"
     x: float = 0.0
     y: float = 0.0
     time: float = 2.0
@@ -46,7 +48,7 @@ class Fall:
     roll: float = 0.0
     pitch: float = 0.0
     yaw: float = 0.0
-    posture: str | Mapping[str, float] = "neutral"
+    posture: str | Mapping[str, float | str] = "neutral"
     gain: float = 0.1
     time: float = 1.5
     spread: float = 0.0

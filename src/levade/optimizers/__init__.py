@@ -6,11 +6,39 @@ while ...:
     optimizer.tell(cost(weights))          # (n,)
 """
 
-from levade.optimizers.aim import Aim
-from levade.optimizers.cmaes import CMAES
-from levade.optimizers.protocol import Optimizer
+from __future__ import annotations
 
-OPTIMIZERS = {"cma": CMAES}
+import inspect
+
+from levade.optimizers.aim import Aim
+from levade.optimizers.cem import CEM
+from levade.optimizers.cmaes import CMAES
+from levade.optimizers.mppi import MPPI
+from levade.optimizers.pi2 import PI2, PI2CMA
+from levade.optimizers.protocol import Injectable, Optimizer
+from levade.optimizers.random_search import RandomSearch
+
+OPTIMIZERS = {"cma": CMAES, "pi2": PI2, "pi2-cma": PI2CMA, "mppi": MPPI, "cem": CEM, "random": RandomSearch}
 """Name on the command line and in task files -> class."""
 
-__all__ = ["CMAES", "OPTIMIZERS", "Aim", "Optimizer"]
+_COMMON = ("mean", "factor", "step", "seed", "population")
+
+
+def settings(optimizer: str) -> tuple[str, ...]:
+    """Names of what one optimizer takes beside what all take."""
+    return tuple(name for name in inspect.signature(OPTIMIZERS[optimizer]).parameters if name not in _COMMON)
+
+
+__all__ = [
+    "CEM",
+    "CMAES",
+    "MPPI",
+    "OPTIMIZERS",
+    "PI2",
+    "PI2CMA",
+    "Aim",
+    "Injectable",
+    "Optimizer",
+    "RandomSearch",
+    "settings",
+]

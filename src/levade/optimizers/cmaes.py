@@ -50,7 +50,7 @@ class CMAES:
         *,
         factor: Array | None = None,
         step: float,
-        seed: int,
+        seed: int | tuple[int, ...],
         population: int | None = None,
         step_adaptation: Literal["csa", "tpa"] = "csa",
     ) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from levade.trajectory import Array
 
@@ -28,10 +28,15 @@ class Optimizer(Protocol):
         """Costs (population,) of the candidates just asked for; all finite, lower is better."""
         ...
 
-    def inject(self, candidate: Array) -> None:
-        """Make a candidate (d,) part of the next generation, in place of one of its own."""
-        ...
-
     def scale_step(self, factor: float) -> None:
         """Multiply the step size, as at the start of a stage."""
+        ...
+
+
+@runtime_checkable
+class Injectable(Optimizer, Protocol):
+    """An optimizer that can also try candidates of others, as `levade.optimizers.Aim` makes them."""
+
+    def inject(self, candidate: Array) -> None:
+        """Make a candidate (d,) part of the next generation, in place of one of its own."""
         ...

@@ -7,12 +7,14 @@ policy = Policy(kernels, (front, hind), horizon=0.3, timestep=0.002)      # 2 x 
 reference = policy.reference(policy.hold(posture)[None])
 """
 
+from levade.policies.ends import Ends
 from levade.policies.groups import Follower, Group, independent_joints
 from levade.policies.kernels import GaussianKernels
 from levade.policies.policy import Policy, refine
 from levade.policies.smoothness import smoothness, smoothness_factor
 
 __all__ = [
+    "Ends",
     "Follower",
     "GaussianKernels",
     "Group",

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from levade.errors import LevadeError
+from levade.policies.ends import Ends
 from levade.policies.groups import Group, expansion
 from levade.policies.kernels import GaussianKernels
 from levade.trajectory import Array, JointReference
@@ -34,6 +35,7 @@ class Policy:
     angle of the leader's joint [rad], the paper's w_i.
 
     horizon: T [s], rounded to a whole number of steps (at least one). timestep: [s]. hold_steps: rows after T.
+    ends: where every reference comes from and goes to; None leaves that to the weights.
     Raises LevadeError if the groups do not cover every joint once, or a duration is not positive.
     """
 
@@ -42,6 +44,7 @@ class Policy:
     horizon: float
     timestep: float
     hold_steps: int = 0
+    ends: Ends | None = None
 
     def __post_init__(self) -> None:
         for name, value in (("horizon", self.horizon), ("timestep", self.timestep)):
@@ -75,6 +78,16 @@ class Policy:
         """Phi (horizon_steps, kernels) [-] and its time derivative [1/s], at the end of each step up to the horizon."""
         steps = self.horizon_steps
         return self.kernels.basis(np.arange(1, steps + 1, dtype=np.float64) * self.timestep, steps * self.timestep)
+
+    @cached_property
+    def _blend(self) -> tuple[Array, Array, Array, Array] | None:
+        """What `Ends.blend` says at the end of each step up to the horizon, its rates by time [1/s] and [rad/s]."""
+        if self.ends is None:
+            return None
+        steps = self.horizon_steps
+        factor, added, factor_rate, added_rate = self.ends.blend(np.arange(1, steps + 1) / steps)
+        horizon = steps * self.timestep
+        return factor, added, factor_rate / horizon, added_rate / horizon
 
     @cached_property
     def _expansion(self) -> tuple[NDArray[np.intp], Array]:
@@ -114,6 +127,13 @@ class Policy:
             if joint != leader:
                 np.multiply(position[:, :rows, leader], sign[joint], out=position[:, :rows, joint])
                 np.multiply(velocity[:, :rows, leader], sign[joint], out=velocity[:, :rows, joint])
+        if self._blend is not None:
+            factor, added, factor_rate, added_rate = self._blend
+            velocity[:, :rows] *= factor
+            velocity[:, :rows] += factor_rate * position[:, :rows]
+            velocity[:, :rows] += added_rate
+            position[:, :rows] *= factor
+            position[:, :rows] += added
         position[:, rows:] = position[:, rows - 1 : rows]
         velocity[:, rows:] = 0.0
         return JointReference(position, velocity, self.timestep, rows)

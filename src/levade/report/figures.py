@@ -101,7 +101,7 @@ def figures(
         progress = read_progress(progress_csv)
         first = motion.meta["trials_to_success"]
         drawings["cost"] = lambda: _cost(progress, first)
-    return _write(drawings, Path(directory), format)
+    return write_figures(drawings, Path(directory), format)
 
 
 def compare(
@@ -119,10 +119,11 @@ def compare(
     if progress_csv:
         progress = {name: read_progress(path) for name, path in progress_csv.items()}
         drawings["cost"] = lambda: _costs(progress)
-    return _write(drawings, Path(directory), format)
+    return write_figures(drawings, Path(directory), format)
 
 
-def _write(drawings: Mapping[str, Callable[[], Any]], directory: Path, format: str) -> list[Path]:
+def write_figures(drawings: Mapping[str, Callable[[], Any]], directory: Path, format: str) -> list[Path]:
+    """Draw figures by name, in the look of all of them, into files in a directory; see `figures`."""
     if format not in FORMATS:
         raise LevadeError(f"format {format}: unknown; {did_you_mean(format, FORMATS)}")
     try:

@@ -54,13 +54,19 @@ def write_page(
     progress_csv: of the motion's search; without it there is no plot of the cost. source: the motion's file, as the
     page should call it. Raises LevadeError if the file cannot be written, or is there and is no page of levade.
     """
+    instead = "write none: --no-report"
+    _check_replaceable(Path(path), instead)
+    return save_page(page(motion, progress_csv=progress_csv, source=source), path, instead=instead)
+
+
+def save_page(text: str, path: str | Path, *, instead: str) -> Path:
+    """Write a page, or leave the file that is there. Returns its path.
+
+    instead: what else could be done, for the message. Raises LevadeError as `write_page` does.
+    """
     path = Path(path)
-    if not _replaceable(path):
-        raise LevadeError(
-            f"{path}: is no report of levade's and would be replaced; move it away, or write none: --no-report"
-        )
-    with writing(path, instead="write none: --no-report") as partial:
-        text = page(motion, progress_csv=progress_csv, source=source)
+    _check_replaceable(path, instead)
+    with writing(path, instead=instead) as partial:
         partial.write_text(text, encoding="utf-8", newline="\n")
     return path
 
@@ -75,14 +81,18 @@ def page(motion: Motion, *, progress_csv: str | Path | None = None, source: str 
         "scene": scene_data(motion),
         "provenance": provenance,
     }
-    title = f"{provenance['task']} on {provenance['robot']}, seed {provenance['seed']}"
+    return assembled(f"{provenance['task']} on {provenance['robot']}, seed {provenance['seed']}", data, "report")
+
+
+def assembled(title: str, data: Any, bundle: str) -> str:
+    """A page that needs nothing else: look and script of a bundle of web/, and the data that the script reads."""
     return _PAGE.format(
         mark=_MARK,
         version=__version__,
         title=html.escape(title),
-        style=stylesheet() + _bundled("report.css").replace("</style", "<\\/style"),
+        style=stylesheet() + _bundled(f"{bundle}.css").replace("</style", "<\\/style"),
         data=_json(data),
-        script=_bundled("report.js").replace("</script", "<\\/script").replace("<!--", "<\\!--"),
+        script=_bundled(f"{bundle}.js").replace("</script", "<\\/script").replace("<!--", "<\\!--"),
     )
 
 
@@ -104,10 +114,12 @@ def _bundled(name: str) -> str:
     return (files("levade.report") / "web" / name).read_text(encoding="utf-8")
 
 
-def _replaceable(path: Path) -> bool:
-    """Whether nothing is there, or a page of levade's; what cannot be read is left to the writing to complain of."""
+def _check_replaceable(path: Path, instead: str) -> None:
+    """Nothing may be there but a page of levade's; what cannot be read is left to the writing to complain of."""
     try:
         with path.open("rb") as file:
-            return _MARK.encode() in file.read(2000)
+            ours = _MARK.encode() in file.read(2000)
     except OSError:
-        return True
+        return
+    if not ours:
+        raise LevadeError(f"{path}: is no report of levade's and would be replaced; move it away, or {instead}")

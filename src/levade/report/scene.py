@@ -41,13 +41,19 @@ _LONGEST = 0.8
 """Where arrows end, by that reach: impacts of a step or two are larger, and get a second tip instead."""
 
 
-def scene_data(motion: Motion) -> dict[str, Any]:
-    """The page's scene of a motion. Raises LevadeError if the motion's model is damaged."""
-    model = load_model(motion)
-    rows = frame_rows(len(motion["time"]), motion.horizon_steps, float(motion.meta["timestep"]))
+def scene_data(
+    motion: Motion, *, like: Mapping[str, Any] | None = None, model: Any = None, rate: float = RATE
+) -> dict[str, Any]:
+    """The page's scene of a motion. Raises LevadeError if the motion's model is damaged.
+
+    like: a scene of another motion of the same model; shapes and colours are taken from it. model: the motion's, if it
+    is compiled already. rate: [Hz], at most so many poses a second.
+    """
+    model = load_model(motion) if model is None else model
+    rows = frame_rows(len(motion["time"]), motion.horizon_steps, float(motion.meta["timestep"]), rate)
     qpos = configurations(motion, model)[rows]
     position, quaternion = body_poses(model, qpos)
-    shapes = shapes_of(model)
+    shapes = shapes_of(model) if like is None else like["model"]
     moving: dict[str, Any] = {
         "time": pack(np.concatenate([[0.0], motion["time"]])[rows]),
         "horizon": float(motion.meta["horizon"]),
@@ -58,21 +64,35 @@ def scene_data(motion: Motion) -> dict[str, Any]:
         "forces": _forces(motion, model, rows),
         "goal": _goal(motion, model),
     }
+    layers = _layers(shapes, moving)
+    if like is not None:
+        return {**like, "motion": moving, "layers": layers}
+    return put_together(motion.meta["robot"], motion.meta["legs"], shapes, moving, layers)
+
+
+def put_together(
+    robot: str,
+    legs: Mapping[str, Mapping[str, Any]],
+    shapes: Mapping[str, Any],
+    moving: Mapping[str, Any],
+    layers: list[dict[str, Any]],
+) -> dict[str, Any]:
+    """A scene of its parts. legs: as in a motion's meta."""
     camera = Camera()
     return {
         "version": 1,
-        "robot": motion.meta["robot"],
+        "robot": robot,
         "model": shapes,
         "motion": moving,
-        "layers": _layers(shapes, moving),
+        "layers": layers,
         "camera": {"azimuth": camera.azimuth, "elevation": camera.elevation, "fov": FIELD_OF_VIEW},
-        "palette": {"light": _palette(motion, LIGHT), "dark": _palette(motion, DARK)},
+        "palette": {"light": _palette(legs, LIGHT), "dark": _palette(legs, DARK)},
     }
 
 
-def frame_rows(steps: int, horizon_steps: int, timestep: float) -> Rows:
+def frame_rows(steps: int, horizon_steps: int, timestep: float, rate: float = RATE) -> Rows:
     """(frames,) rows that are kept of steps + 1, of which row 0 is the start: evenly spaced, horizon and end added."""
-    stride = max(1, math.ceil(1.0 / (RATE * timestep) - 1e-9), math.ceil(steps / FRAMES))
+    stride = max(1, math.ceil(1.0 / (rate * timestep) - 1e-9), math.ceil(steps / FRAMES))
     return np.unique(np.concatenate([np.arange(0, steps + 1, stride), [min(horizon_steps, steps), steps]]))
 
 
@@ -169,32 +189,45 @@ def _reach(model: Any, motion: Motion) -> float:
 
 
 def _goal(motion: Motion, model: Any) -> dict[str, Any] | None:
-    """What is required of the trunk at the horizon: a box around the trunk where it should be, or None.
+    """What is required of the trunk at the horizon."""
+    row = min(motion.horizon_steps, len(motion["time"])) - 1
+    return goal_box(
+        model,
+        motion.meta["trunk"],
+        np.asarray(motion.meta["trunk_com_offset"]),
+        motion.meta["task"].get("success") or {},
+        motion["trunk_com_position"][row],
+        motion["trunk_quaternion"][row],
+    )
 
-    Angles and coordinates that nothing is required of are those that were reached.
+
+def goal_box(
+    model: Any, trunk: str, com_offset: Array, criteria: Mapping[str, Any], centre: Array, attitude: Array
+) -> dict[str, Any] | None:
+    """A box around the trunk where criteria, tables of a task, want it at the horizon; None if they do not say.
+
+    centre (3,) [m], of mass, and attitude (4,) w-x-y-z of the trunk: for angles and coordinates that nothing is required of.
     """
     wanted = {}
-    for name, criterion in (motion.meta["task"].get("success") or {}).items():
+    for name, criterion in criteria.items():
         quantity, at = criterion.get("quantity") or name, criterion.get("at") or "horizon"
         if at == "horizon" and isinstance(criterion.get("target"), int | float):
             wanted[quantity] = float(criterion["target"])
     if not wanted.keys() & {"roll", "pitch", "yaw", "x", "y", "height"}:
         return None
-    row = min(motion.horizon_steps, len(motion["time"])) - 1
-    centre, attitude = motion["trunk_com_position"][row], motion["trunk_quaternion"][row]
     if not (np.isfinite(centre).all() and np.isfinite(attitude).all()):
         return None
     reached = roll_pitch_yaw(attitude)
     angles = [wanted.get(name, float(reached[axis])) for axis, name in enumerate(("roll", "pitch", "yaw"))]
-    centre = [wanted.get(name, float(centre[axis])) for axis, name in enumerate(("x", "y", "height"))]
+    place = [wanted.get(name, float(centre[axis])) for axis, name in enumerate(("x", "y", "height"))]
     quaternion, frame = np.empty(4), np.empty(9)
     mujoco.mju_euler2Quat(quaternion, np.array(angles[::-1]), "zyx")
     mujoco.mju_quat2Mat(frame, quaternion)
-    low, high = _trunk_box(model, motion.meta["trunk"])
-    offset = (low + high) / 2 - np.asarray(motion.meta["trunk_com_offset"])
+    low, high = _trunk_box(model, trunk)
+    offset = (low + high) / 2 - com_offset
     return {
-        "centre": np.round(centre, 6).tolist(),  # of mass
-        "box": np.round(np.asarray(centre) + frame.reshape(3, 3) @ offset, 6).tolist(),
+        "centre": np.round(place, 6).tolist(),  # of mass
+        "box": np.round(np.asarray(place) + frame.reshape(3, 3) @ offset, 6).tolist(),
         "half": np.round((high - low) / 2, 6).tolist(),
         "quaternion": np.round(np.roll(quaternion, -1), 7).tolist(),
         "quantities": wanted,
@@ -224,7 +257,7 @@ def _layers(shapes: Mapping[str, Any], moving: Mapping[str, Any]) -> list[dict[s
         ("forces", _forces_text(moving["forces"]), True),
     ]
     if moving["goal"]:
-        layers.append(("goal", f"goal ({_goal_text(moving['goal']['quantities'])})", True))
+        layers.append(("goal", f"goal ({goal_text(moving['goal']['quantities'])})", True))
     if any(geom["layer"] == "collision" for geom in shapes["geoms"]):
         layers.append(("collision", "collision shapes", False))
     return [{"name": name, "label": label, "shown": shown} for name, label, shown in layers]
@@ -235,7 +268,7 @@ def _forces_text(forces: Mapping[str, Any]) -> str:
     return f"contact forces (1 m = {forces['scale']:g} N{double})"
 
 
-def _goal_text(wanted: Mapping[str, float]) -> str:
+def goal_text(wanted: Mapping[str, float]) -> str:
     """Such as "pitch -60°, height 0.9 m"."""
     texts = []
     for name, value in wanted.items():
@@ -246,7 +279,7 @@ def _goal_text(wanted: Mapping[str, float]) -> str:
     return ", ".join(texts)
 
 
-def _palette(motion: Motion, theme: Theme) -> dict[str, Any]:
+def _palette(legs: Mapping[str, Mapping[str, Any]], theme: Theme) -> dict[str, Any]:
     names = ("sky", "ground", "ground_line", "ghost", "goal", "limit", "accent", "muted")
     colours: dict[str, Any] = {name: getattr(theme, name) for name in names}
-    return colours | {"legs": list(leg_colours(motion.meta["legs"], theme).values())}
+    return colours | {"legs": list(leg_colours(legs, theme).values())}

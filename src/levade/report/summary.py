@@ -15,7 +15,7 @@ import numpy as np
 
 from levade.costs.success import CIRCULAR, QUANTITIES
 from levade.errors import LevadeError
-from levade.motion import Motion
+from levade.motion import Motion, cost_weights
 from levade.tasks import builtin_tasks, load_task, task_from_dict, task_to_dict, task_to_yaml
 
 WHEN = {
@@ -34,8 +34,7 @@ def summary_data(motion: Motion) -> dict[str, Any]:
         _criterion(name, criterion, meta["errors"][name]) for name, criterion in meta["task"]["success"].items()
     ]
     terms = [
-        {"name": name, "value": value, "weight": meta["task"]["costs"][name]["weight"]}
-        for name, value in meta["cost_terms"].items()
+        {"name": name, "value": value, "weight": cost_weights(meta)[name]} for name, value in meta["cost_terms"].items()
     ]
     return {
         "success": bool(meta["success"]),

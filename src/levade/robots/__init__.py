@@ -8,9 +8,24 @@ A robot is one YAML file beside its model. ``data/hyq2max/robot.yaml`` is the ex
 """
 
 from levade.robots.actuation import PID, Actuation, DCMotor
+from levade.robots.dimensions import Dimensions, dimensions
 from levade.robots.loading import builtin_robots, load_robot
+from levade.robots.packages import find_package_robot, package_robots
 from levade.robots.robot import Robot
 from levade.robots.symmetry import mirror_signs
 from levade.robots.understanding import Leg
 
-__all__ = ["PID", "Actuation", "DCMotor", "Leg", "Robot", "builtin_robots", "load_robot", "mirror_signs"]
+__all__ = [
+    "PID",
+    "Actuation",
+    "DCMotor",
+    "Dimensions",
+    "Leg",
+    "Robot",
+    "builtin_robots",
+    "dimensions",
+    "find_package_robot",
+    "load_robot",
+    "mirror_signs",
+    "package_robots",
+]

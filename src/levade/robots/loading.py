@@ -197,7 +197,10 @@ def _understand(draft: Draft, path: Path, form: RobotForm) -> Bare:
     for joint in (joint for leg in legs for joint in leg.joints):
         handle = model.joint(joint)
         limited = bool(handle.limited[0])
-        ranges[joint] = (float(handle.range[0]), float(handle.range[1])) if limited else (-np.inf, np.inf)
+        # the digits of the XML text, which is what is simulated
+        ranges[joint] = (
+            (float(f"{handle.range[0]:.6g}"), float(f"{handle.range[1]:.6g}")) if limited else (-np.inf, np.inf)
+        )
     return Bare(model, trunk, legs, ranges)
 
 

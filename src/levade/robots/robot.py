@@ -24,7 +24,7 @@ from levade.robots.actuation import Actuation
 from levade.robots.findings import Finding
 from levade.robots.shapes import support
 from levade.robots.understanding import Leg
-from levade.trajectory import Array, JointLimits
+from levade.trajectory import Array, JointLimits, LegGeometry
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,11 +72,12 @@ class Robot:
                 return leg
         raise LevadeError(f"robot {self.name}: no leg {name!r}; {did_you_mean(name, [leg.name for leg in self.legs])}")
 
-    def posture(self, posture: str | Mapping[str, float]) -> Array:
-        """(joints,) [rad]: the posture of that name, or the neutral one with some joints changed.
+    def posture(self, posture: str | Mapping[str, float | str]) -> Array:
+        """(joints,) [rad]: the posture of that name, or the neutral one with some legs or joints changed.
 
-        posture: name, or joint (or pattern, such as "*_kfe") -> angle [rad]. Raises `LevadeError` for unknown names and
-        angles out of range.
+        posture: name; or joint (or pattern, such as "*_kfe") -> angle [rad]; or leg, "front", "hind", "left" or "right"
+        -> name of the posture that these legs take, which joints named besides may still change.
+        Raises `LevadeError` for unknown names and angles out of range.
         """
         if isinstance(posture, str):
             if posture not in self.postures:
@@ -86,7 +87,19 @@ class Robot:
 
         angles = self.postures["neutral"].copy()
         where = f"robot {self.name}: posture"
-        for joint, angle in per_joint(posture, self.joint_names, where, all_joints=False).items():
+        joints: dict[str, float] = {}
+        for key, value in posture.items():
+            if not isinstance(value, str):
+                joints[key] = value
+                continue
+            legs = [leg for leg in self.legs if key in (leg.name, leg.end, leg.side)]
+            if not legs:
+                valid = {name for leg in self.legs for name in (leg.name, leg.end, leg.side)}
+                raise LevadeError(f"{where}: no leg {key!r} to take the posture {value!r}; {did_you_mean(key, valid)}")
+            other = self.posture(value)
+            for leg in legs:
+                angles[self.joint_indices(leg)] = other[self.joint_indices(leg)]
+        for joint, angle in per_joint(joints, self.joint_names, where, all_joints=False).items():
             i = self.joint_names.index(joint)
             if not self.limits.lower[i] <= angle <= self.limits.upper[i]:
                 raise LevadeError(
@@ -136,15 +149,40 @@ class Robot:
         data = self.data_at(joint_position)
         return np.array([data.geom(foot).xpos for foot in self.feet])
 
-    def standing_height(self, posture: str | Mapping[str, float] = "neutral") -> float:
+    def foot_depths(self, joint_position: Array) -> Array:
+        """(feet,) [m], how far the lowest point of each foot is below the trunk's origin at (joints,) [rad]."""
+        data = self.data_at(joint_position)
+        return np.array([_depth(self.model, data, foot) for foot in self.feet])
+
+    def standing_height(self, posture: str | Mapping[str, float | str] = "neutral") -> float:
         """[m], the trunk's origin above the lowest point of the feet, the trunk level."""
-        data = self.data_at(self.posture(posture))
-        return max(_depth(self.model, data, foot) for foot in self.feet)
+        return float(self.foot_depths(self.posture(posture)).max())
 
     @cached_property
     def neutral_height(self) -> float:
         """[m], `standing_height` of the neutral posture."""
         return self.standing_height("neutral")
+
+    @cached_property
+    def leg_geometry(self) -> tuple[LegGeometry, ...]:
+        """The legs as costs and criteria see them, in leg order."""
+        stood, data = self.data_at(self.postures["neutral"]), self.data_at(np.zeros(len(self.joint_names)))
+        geometry = []
+        for leg in self.legs:
+            joints, indices = [data.joint(name) for name in leg.joints], self.joint_indices(leg)
+            geometry.append(
+                LegGeometry(
+                    name=leg.name,
+                    side=leg.side,
+                    end=leg.end,
+                    joints=tuple(range(indices.start, indices.stop)),
+                    anchors=np.array([joint.xanchor for joint in joints]),
+                    axes=np.array([joint.xaxis for joint in joints]),
+                    foot=data.geom(leg.foot).xpos.copy(),
+                    sole=_depth(self.model, stood, leg.foot) + float(stood.geom(leg.foot).xpos[2]),
+                )
+            )
+        return tuple(geometry)
 
     @cached_property
     def mass(self) -> float:

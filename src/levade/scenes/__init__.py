@@ -5,5 +5,6 @@ spec = compose(load_robot("hyq2max"), scene)
 """
 
 from levade.scenes.scene import GROUND, Box, Scene, compose
+from levade.scenes.terrain import Gap, Terrain, read_heights
 
-__all__ = ["GROUND", "Box", "Scene", "compose"]
+__all__ = ["GROUND", "Box", "Gap", "Scene", "Terrain", "compose", "read_heights"]

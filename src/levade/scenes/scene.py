@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass
 
@@ -10,9 +11,13 @@ import numpy as np
 
 from levade.errors import LevadeError
 from levade.robots import Robot
+from levade.scenes.terrain import Gap, Terrain
+from levade.trajectory import Array
 
 GROUND = "ground"
-"""Name of the ground's geom; obstacles are named ``box0``, ``box1``, ..."""
+"""Name of the ground's geom; obstacles are named ``box0``, ``box1``, ..., ``terrain``, ground between gaps ``platform0``."""
+_FAR = 50.0
+"""[m]: how far ground with gaps in it reaches, instead of to infinity."""
 
 
 @dataclass(frozen=True)
@@ -40,20 +45,31 @@ class Scene:
     """What the robot stands on and may touch.
 
     friction: Coulomb friction coefficient of every contact with the ground and the obstacles; where left out, the
-    robot's
-        own parts decide (feet and shell may differ), or 1 if they are below and do not take priority.
-    slope: [rad], of the ground along x, uphill positive. boxes: obstacles.
+        robot's own parts decide (feet and shell may differ), or 1 if they are below and do not take priority.
+    slope: [rad], of the ground along x, uphill positive. boxes: obstacles. gaps: ditches across the ground, which slopes
+        with them; they may not overlap. terrain: a height field on the ground.
     """
 
     friction: float | None = None
     slope: float = 0.0
     boxes: tuple[Box, ...] = ()
+    gaps: tuple[Gap, ...] = ()
+    terrain: Terrain | None = None
 
     def __post_init__(self) -> None:
         if self.friction is not None and not (math.isfinite(self.friction) and self.friction > 0):
             raise LevadeError(f"scene.friction: {self.friction} should be a positive coefficient; 0.6 to 1 is usual")
         if not abs(self.slope) < math.pi / 2:
             raise LevadeError(f"scene.slope: {self.slope} rad is no slope to stand on; between -pi/2 and pi/2")
+        ordered = sorted(self.gaps, key=lambda gap: gap.x)
+        for one, other in itertools.pairwise(ordered):
+            if one.x + one.width >= other.x:
+                raise LevadeError(f"scene.gaps: the ones at x = {one.x} and {other.x} m overlap; make them one")
+
+    def ground_height(self, x: Array, y: Array) -> Array:
+        """[m], the height of slope and terrain over z = 0 at each x, y; boxes and gaps are left aside."""
+        height = x * math.tan(self.slope)
+        return height if self.terrain is None else np.maximum(height, self.terrain.height(x, y))
 
 
 def compose(robot: Robot, scene: Scene, *, gain_scale: float = 1.0, damping_scale: float = 1.0) -> mujoco.MjSpec:
@@ -69,9 +85,11 @@ def compose(robot: Robot, scene: Scene, *, gain_scale: float = 1.0, damping_scal
         name=GROUND,
         type=mujoco.mjtGeom.mjGEOM_PLANE,
         size=[0.0, 0.0, 0.05],
-        quat=[math.cos(scene.slope / 2), 0.0, -math.sin(scene.slope / 2), 0.0],
+        quat=_quaternion(0.0, -scene.slope, 0.0),
         material=GROUND,
     )
+    if scene.gaps:
+        ground.pos = _down_the_slope(scene, 0.0, max(gap.depth for gap in scene.gaps))
     obstacles = [
         world.add_geom(
             name=f"box{i}",
@@ -83,7 +101,9 @@ def compose(robot: Robot, scene: Scene, *, gain_scale: float = 1.0, damping_scal
         )
         for i, box in enumerate(scene.boxes)
     ]
-    for geom in (ground, *obstacles):
+    if scene.terrain is not None:
+        obstacles.append(scene.terrain.add_to(spec, "terrain", GROUND))
+    for geom in (ground, *_platforms(spec, scene), *obstacles):
         # everything of the robot that collides at all meets the scene; the scene never meets itself (all static)
         geom.contype = geom.conaffinity = 0x7FFFFFFF
         if scene.friction is not None:
@@ -94,6 +114,34 @@ def compose(robot: Robot, scene: Scene, *, gain_scale: float = 1.0, damping_scal
             foot = robot.model.geom(robot.feet[0])
             geom.condim, geom.solref, geom.solimp = 3, foot.solref.copy(), foot.solimp.copy()
     return spec
+
+
+def _platforms(spec: mujoco.MjSpec, scene: Scene) -> list[mujoco.MjsGeom]:
+    """Ground with gaps in it: boxes with their tops where the ground would be; the bottoms of gaps less deep, too."""
+    if not scene.gaps:
+        return []
+    gaps = sorted(scene.gaps, key=lambda gap: gap.x)
+    deepest = max(gap.depth for gap in gaps)
+    edges = [-_FAR, *(edge for gap in gaps for edge in (gap.x, gap.x + gap.width)), _FAR]
+    tops = [(edges[i], edges[i + 1], 0.0) for i in range(0, len(edges), 2)]
+    tops += [(gap.x, gap.x + gap.width, gap.depth) for gap in gaps if gap.depth < deepest]
+    return [
+        spec.worldbody.add_geom(
+            name=f"platform{i}",
+            type=mujoco.mjtGeom.mjGEOM_BOX,
+            size=[(end - begin) / 2, _FAR, (deepest - below) / 2],
+            pos=_down_the_slope(scene, (begin + end) / 2, (deepest + below) / 2),
+            quat=_quaternion(0.0, -scene.slope, 0.0),
+            material=GROUND,
+        )
+        for i, (begin, end, below) in enumerate(tops)
+    ]
+
+
+def _down_the_slope(scene: Scene, along: float, below: float) -> list[float]:
+    """The point so far along the ground and so far below its surface."""
+    sine, cosine = math.sin(scene.slope), math.cos(scene.slope)
+    return [along * cosine + below * sine, 0.0, along * sine - below * cosine]
 
 
 def _furnish(spec: mujoco.MjSpec) -> None:

@@ -4,8 +4,9 @@ task = load_task("rearing", changes=["horizon=0.4"])
 task = load_task("my-task.yaml", robot="my/robot.yaml")
 """
 
-from levade.tasks.document import TERMS, builtin_tasks, load_task, task_from_dict, task_to_dict, task_to_yaml
+from levade.tasks.document import TERMS, builtin_tasks, load_task, task_from_dict, task_text, task_to_dict, task_to_yaml
 from levade.tasks.task import (
+    Change,
     Cost,
     PolicyChoice,
     RobotChoice,
@@ -18,6 +19,7 @@ from levade.tasks.task import (
 
 __all__ = [
     "TERMS",
+    "Change",
     "Cost",
     "PolicyChoice",
     "RobotChoice",
@@ -29,6 +31,7 @@ __all__ = [
     "load_task",
     "looks_at_hold",
     "task_from_dict",
+    "task_text",
     "task_to_dict",
     "task_to_yaml",
 ]

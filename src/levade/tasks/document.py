@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+import functools
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +16,7 @@ from levade.costs import (
     JointLimitExcess,
     JointVelocity,
     LinearVelocity,
+    Miss,
     Orientation,
     Position,
     Posture,
@@ -22,14 +25,17 @@ from levade.costs import (
     TorqueLimitExcess,
 )
 from levade.costs.success import QUANTITIES
-from levade.document import build, kind_of, parse_yaml, read_yaml
+from levade.document import build, kind_of, parse_yaml, read_text, read_yaml
 from levade.errors import LevadeError, did_you_mean
-from levade.tasks.task import Cost, Task
-from levade.tasks.units import to_si
+from levade.robots import Dimensions, dimensions, load_robot
+from levade.scenes import read_heights
+from levade.tasks.task import Cost, RobotChoice, Task
+from levade.tasks.units import measure_of, to_si
 
 TERMS = {
     "orientation": Orientation,
     "position": Position,
+    "miss": Miss,
     "linear_velocity": LinearVelocity,
     "angular_velocity": AngularVelocity,
     "joint_velocity": JointVelocity,
@@ -47,12 +53,18 @@ _ORDER = (
     *("name", "description", "robot", "scene", "physics", "start", "horizon", "hold"),
     *("policy", "costs", "stages", "success", "search"),
 )
+_SEQUENCE = "tag:yaml.org,2002:seq"
 _BUILT_IN = Path(__file__).parent / "data"
 
 
 def builtin_tasks() -> dict[str, Path]:
     """Name -> file of every built-in task, by name."""
     return {path.stem: path for path in sorted(_BUILT_IN.glob("*.yaml"), key=lambda path: path.stem)}
+
+
+def task_text(name_or_path: str | Path) -> str:
+    """A task file as it was written, comments and all."""
+    return read_text(_find(str(name_or_path)))
 
 
 def load_task(name_or_path: str | Path, *, robot: str | None = None, changes: Sequence[str] = ()) -> Task:
@@ -62,24 +74,52 @@ def load_task(name_or_path: str | Path, *, robot: str | None = None, changes: Se
     "costs.effort.weight=0.5"; the path has to exist in the task with all its defaults. Raises LevadeError.
     """
     path = _find(str(name_or_path))
-    task = task_from_dict(read_yaml(path), where=str(path))
-    if robot is not None:
-        task = dataclasses.replace(
-            task, robot=dataclasses.replace(task.robot, name=robot, actuation=None, variant=None)
-        )
-    if changes:
+    content = read_yaml(path)
+    _with_folder(content, path.parent)
+    with_robot = [change for change in changes if change.partition("=")[0].startswith("robot.")]
+    if robot is not None or with_robot:  # first, as numbers in units of the robot are those of this one
+        content["robot"] = _other_robot(content.get("robot"), robot, with_robot, where=str(path))
+    task = task_from_dict(content, where=str(path))
+    rest = [change for change in changes if change not in with_robot]
+    if rest:
         content = task_to_dict(task)
-        for change in changes:
+        for change in rest:
             _apply(content, change)
-        try:
-            task = task_from_dict(content, where="--set")
-        except LevadeError as error:
-            raise LevadeError(f"--set {str(error).removeprefix('--set').lstrip('.: ')}") from None
+        task = _changed(content)
     return task
 
 
+def _other_robot(content: Any, name: str | None, changes: Sequence[str], *, where: str) -> dict[str, Any]:
+    """The table of the robot, with another one's name in it and the changes made."""
+    choice = build(RobotChoice, content or {}, where=f"{where}.robot")
+    if name is not None:
+        choice = dataclasses.replace(choice, name=name, actuation=None, variant=None)
+    table: dict[str, Any] = {"robot": dataclasses.asdict(choice)}
+    for change in changes:
+        _apply(table, change)
+    with _set():
+        return dataclasses.asdict(build(RobotChoice, table["robot"], where="--set.robot"))
+
+
+def _changed(content: Mapping[str, Any]) -> Task:
+    with _set():
+        return task_from_dict(content, where="--set")
+
+
+@contextmanager
+def _set() -> Iterator[None]:
+    """Errors about values that ``--set`` gave."""
+    try:
+        yield
+    except LevadeError as error:
+        raise LevadeError(f"--set {str(error).removeprefix('--set').lstrip('.: ')}") from None
+
+
 def task_from_dict(content: Mapping[str, Any], *, where: str) -> Task:
-    """A task from the tables of its YAML file; LevadeErrors start with ``where``."""
+    """A task from the tables of its YAML file; LevadeErrors start with ``where``.
+
+    The robot is loaded if a number is in units of it, such as ``1.5 heights``.
+    """
     content = dict(content)
     success = content.get("success")
     if isinstance(success, Mapping):  # a criterion's name is its quantity unless it says otherwise
@@ -98,12 +138,68 @@ def task_from_dict(content: Mapping[str, Any], *, where: str) -> Task:
         content["costs"] = {
             name: {"term": name, **value} if isinstance(value, Mapping) else value for name, value in costs.items()
         }
-    content = dict(to_si(content, where=where))
+
+    @functools.cache
+    def robot() -> Dimensions:
+        choice = build(RobotChoice, content.get("robot", {}), where=f"{where}.robot")
+        return dimensions(load_robot(choice.name, variant=choice.variant))
+
+    if isinstance(content.get("stages"), list):
+        content["stages"] = [
+            _tolerances(stage, content["success"], f"{where}.stages.{i}", robot)
+            if isinstance(stage, Mapping) and isinstance(content.get("success"), Mapping)
+            else stage
+            for i, stage in enumerate(content["stages"])
+        ]
+    content = dict(to_si(content, where=where, robot=robot))
+    content["scene"] = _with_heights(content.get("scene", {}), f"{where}.scene.terrain")
     if isinstance(costs, Mapping):
         content["costs"] = {
             name: _cost(str(name), value, where=f"{where}.costs.{name}") for name, value in content["costs"].items()
         }
     return build(Task, content, where=where)
+
+
+def _with_folder(content: dict[str, Any], folder: Path) -> None:
+    """The path of a terrain's file, as its task file gives it, from here."""
+    scene = content.get("scene")
+    if not isinstance(scene, Mapping):
+        return
+    terrain = scene.get("terrain")
+    if isinstance(terrain, Mapping) and isinstance(terrain.get("file"), str):
+        content["scene"] = {**scene, "terrain": {**terrain, "file": str(folder / terrain["file"])}}
+
+
+def _with_heights(scene: Any, where: str) -> Any:
+    """The scene with its terrain's heights instead of the file that they are in: a task is complete without it."""
+    terrain = scene.get("terrain") if isinstance(scene, Mapping) else None
+    if not isinstance(terrain, Mapping) or "file" not in terrain:
+        return scene
+    terrain = dict(terrain)
+    file, height = terrain.pop("file"), terrain.pop("height", None)
+    if "heights" in terrain:
+        raise LevadeError(f"{where}: give heights or a file of them, not both")
+    if not isinstance(file, str):
+        raise LevadeError(f"{where}.file: should be the path of a file, is {kind_of(file)}")
+    if height is not None and (isinstance(height, bool) or not isinstance(height, (int, float)) or not height > 0):
+        raise LevadeError(f"{where}.height: should be a positive height, that of white, is {kind_of(height)}")
+    try:
+        return {**scene, "terrain": {**terrain, "heights": read_heights(Path(file), height)}}
+    except LevadeError as error:
+        raise LevadeError(f"{where}.file: {error}") from None
+
+
+def _tolerances(
+    stage: Mapping[str, Any], success: Mapping[str, Any], where: str, robot: Callable[[], Dimensions]
+) -> dict[str, Any]:
+    """A stage whose tolerances for promotion, each in the unit of its criterion, are SI."""
+    if not isinstance(stage.get("promote"), Mapping):
+        return dict(stage)
+    promote = {
+        name: to_si(value, where=f"{where}.promote.{name}", measures=measure_of(success.get(name)), robot=robot)
+        for name, value in stage["promote"].items()
+    }
+    return {**stage, "promote": promote}
 
 
 def task_to_dict(task: Task) -> dict[str, Any]:
@@ -131,7 +227,18 @@ def task_to_yaml(task: Task) -> str:
     """The text of a task file with every default filled in."""
     import yaml
 
-    return yaml.safe_dump(task_to_dict(task), sort_keys=False, width=120, allow_unicode=True)
+    class Dumper(yaml.SafeDumper):
+        pass
+
+    Dumper.add_representer(_Row, lambda dumper, row: dumper.represent_sequence(_SEQUENCE, row, flow_style=True))
+    content = task_to_dict(task)
+    if content["scene"]["terrain"] is not None:  # a line for each row, not for each number
+        content["scene"]["terrain"]["heights"] = [_Row(row) for row in content["scene"]["terrain"]["heights"]]
+    return yaml.dump(content, Dumper=Dumper, sort_keys=False, width=120, allow_unicode=True)
+
+
+class _Row(list[float]):
+    """A list that is written in one go."""
 
 
 def _cost(name: str, content: Any, *, where: str) -> Cost:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from levade.costs import Criterion, Term
 from levade.engines import Fall, Physics, Settled
 from levade.errors import LevadeError, did_you_mean
-from levade.optimizers import OPTIMIZERS
+from levade.optimizers import OPTIMIZERS, settings
 from levade.scenes import Scene
 
 
@@ -53,7 +53,9 @@ class PolicyChoice:
         right), "all" (one for all legs), "independent" (one each, as the paper's recovery), or lists of leg names.
     initial: the first mean of the search: "hold" what the joints were told last, or "interpolate" in a straight line from
         the joint angles at the start to the posture ``goal``.
-    goal: name of a posture of the robot, or joint -> angle [rad] on top of the neutral one.
+    goal: a posture, as in `levade.engines.Settled`.
+    depart, settle: shares of the horizon in which every reference leaves what the joints were told last, and goes over to
+        the goal; 0 leaves the ends to the weights. See `levade.policies.Ends`.
     """
 
     kernels: int = 16
@@ -61,7 +63,9 @@ class PolicyChoice:
     time: Literal["normalised", "seconds"] = "normalised"
     groups: Literal["pairs", "sides", "all", "independent"] | tuple[tuple[str, ...], ...] = "independent"
     initial: Literal["hold", "interpolate"] = "hold"
-    goal: str | Mapping[str, float] = "neutral"
+    goal: str | Mapping[str, float | str] = "neutral"
+    depart: float = 0.0
+    settle: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,6 +101,18 @@ class Stage:
 
 
 @dataclass(frozen=True)
+class Change:
+    """Weights that change in the middle of a search, as the sliders of ``levade solve --watch`` do it.
+
+    generation: the first one that they hold in, counted from 1. factors: cost -> factor on its weight, the task's own and
+    those of the stages, until another change names the cost; 1 for what the task says.
+    """
+
+    generation: int
+    factors: Mapping[str, float]
+
+
+@dataclass(frozen=True)
 class Search:
     """How to look.
 
@@ -106,7 +122,11 @@ class Search:
         none, as plain CMA-ES has it. modes: search only over so many of the smoothest directions of each joint's weights;
         all if None. step_adaptation: see `levade.optimizers.CMAES`.
     aim: whether one candidate of each generation is aimed at the criteria: see `levade.optimizers.Aim`.
+    restart: trials without a success after which the search starts anew, from the first stage, with other random numbers:
+        whoever rolled to the wrong side seldom finds the way back. None goes on to the end of the budget.
     polish: trials to go on for after the first success, for a lower cost; None goes on to the end of the budget.
+    settings: numbers that only this optimizer takes, such as {elite: 0.2}; see its class in `levade.optimizers`.
+    changes: of the costs' weights on the way.
     """
 
     optimizer: str = "cma"
@@ -117,7 +137,15 @@ class Search:
     modes: int | None = None
     step_adaptation: Literal["csa", "tpa"] = "tpa"
     aim: bool = True
+    restart: int | None = None
     polish: int | None = 0
+    settings: Mapping[str, float] = field(default_factory=dict)
+    changes: tuple[Change, ...] = ()
+
+    def factors(self, generation: int) -> dict[str, float]:
+        """Cost -> factor on its weight in a generation; costs that nothing changed are left out."""
+        due = sorted((c for c in self.changes if c.generation <= generation), key=lambda change: change.generation)
+        return {name: factor for change in due for name, factor in change.factors.items()}
 
 
 @dataclass(frozen=True)
@@ -190,6 +218,17 @@ class Task:
             if not (math.isfinite(stage.step) and stage.step > 0):
                 raise LevadeError(f"{where}.step: {stage.step} should be a positive factor on the step size")
 
+        for i, change in enumerate(self.search.changes):
+            _check_change(f"search.changes.{i}", change, self.costs)
+
+    def changed(self, change: Change) -> Task:
+        """The same task with one more change of its weights; it replaces factors that it names in the same generation."""
+        before = {c.generation: c for c in self.search.changes}
+        factors = before[change.generation].factors if change.generation in before else {}
+        before[change.generation] = Change(change.generation, {**factors, **change.factors})
+        changes = tuple(before[generation] for generation in sorted(before))
+        return replace(self, search=replace(self.search, changes=changes))
+
     @property
     def horizon_steps(self) -> int:
         return max(1, round(self.horizon / self.physics.timestep))
@@ -200,10 +239,10 @@ class Task:
 
 
 def looks_at_hold(term: object) -> bool:
-    """Whether a term or criterion needs the rows after the horizon."""
-    if getattr(term, "at", "horizon") != "horizon":
-        return True
-    return getattr(term, "over", "horizon") == "all"
+    """Whether a term or criterion needs the rows after the horizon. One that looks at the largest or smallest value of
+    all takes what there is.
+    """
+    return getattr(term, "at", "horizon") in ("end", "hold") or getattr(term, "over", "horizon") == "all"
 
 
 def _check_hold(where: str, term: object, hold: float) -> None:
@@ -211,11 +250,26 @@ def _check_hold(where: str, term: object, hold: float) -> None:
         raise LevadeError(f"{where}.at: hold, but the task has no hold; give it one (hold: 2.0) or say at: horizon")
 
 
+def _check_change(where: str, change: Change, costs: Mapping[str, Cost]) -> None:
+    if change.generation < 1:
+        raise LevadeError(f"{where}.generation: {change.generation} should be 1 or more; the first one is 1")
+    for name, factor in change.factors.items():
+        if name not in costs:
+            raise LevadeError(f"{where}.factors: no {name!r} in this task; {did_you_mean(name, costs)}")
+        if not (math.isfinite(factor) and factor >= 0):
+            raise LevadeError(f"{where}.factors.{name}: {factor} should be a factor on the weight, 0 or more")
+
+
 def _check_search(search: Search) -> None:
     if search.optimizer not in OPTIMIZERS:
         raise LevadeError(
             f"search.optimizer: no optimizer {search.optimizer!r}; {did_you_mean(search.optimizer, OPTIMIZERS)}"
         )
+    own = [name for name in settings(search.optimizer) if name != "step_adaptation"]
+    for name in search.settings:
+        if name not in own:
+            hint = did_you_mean(name, own) if own else "it takes none"
+            raise LevadeError(f"search.settings: no {name!r} for {search.optimizer}; {hint}")
     if search.trials < 1:
         raise LevadeError(f"search.trials: {search.trials} should be at least 1; the paper has about 3000")
     if search.population is not None and not 4 <= search.population <= 100_000:
@@ -224,5 +278,7 @@ def _check_search(search: Search) -> None:
         raise LevadeError(f"search.step: {search.step} should be a positive number of rad; 0.05 to 0.3 is usual")
     if not (math.isfinite(search.smoothness) and search.smoothness >= 0):
         raise LevadeError(f"search.smoothness: {search.smoothness} should be 0 or more, as a share of the horizon")
+    if search.restart is not None and search.restart < 1:
+        raise LevadeError(f"search.restart: {search.restart} should be at least 1; leave it out to go on")
     if search.polish is not None and search.polish < 0:
         raise LevadeError(f"search.polish: {search.polish} should be 0 or more trials")

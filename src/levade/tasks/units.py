@@ -1,14 +1,19 @@
-"""Numbers with units in task files: ``pitch: -60 deg``, ``horizon: 300 ms``. Plain numbers are SI."""
+"""Numbers with units in task files: ``pitch: -60 deg``, ``horizon: 300 ms``, ``z: 1.5 heights``. Plain numbers are SI.
+
+A task in units of the robot means the same on every robot; they are `levade.robots.Dimensions`, one or many of them:
+``1 height``, ``0.5 legs``, ``2 trunks``, ``6 falls``, ``0.2 heights/fall``.
+"""
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from levade.costs.success import QUANTITIES
 from levade.errors import LevadeError, did_you_mean
+from levade.robots import Dimensions
 
 UNITS: dict[str, tuple[str, float]] = {
     "rad": ("an angle", 1.0),
@@ -24,42 +29,75 @@ UNITS: dict[str, tuple[str, float]] = {
 }
 """Unit -> what it measures, and its size in SI."""
 
+ROBOT_UNITS: dict[str, tuple[str, Callable[[Dimensions], float]]] = {
+    "height": ("a length", lambda robot: robot.height),
+    "leg": ("a length", lambda robot: robot.leg),
+    "trunk": ("a length", lambda robot: robot.trunk),
+    "fall": ("a duration", lambda robot: robot.fall),
+    "height/fall": ("a speed", lambda robot: robot.height / robot.fall),
+    "rad/fall": ("an angular speed", lambda robot: 1.0 / robot.fall),
+}
+"""Unit of the robot -> what it measures, and its size in SI."""
+
+PLURALS = {  # of units of the robot
+    "heights": "height",
+    "legs": "leg",
+    "trunks": "trunk",
+    "falls": "fall",
+    "heights/fall": "height/fall",
+}
+
 _KEYS: dict[str, str] = {
     **dict.fromkeys(("roll", "pitch", "yaw", "slope", "spread"), "an angle"),
-    **dict.fromkeys(("x", "y", "z", "height", "position", "size"), "a length"),
+    **dict.fromkeys(("x", "y", "z", "height", "heights", "position", "size", "width", "depth"), "a length"),
     **dict.fromkeys(("horizon", "hold", "timestep", "time"), "a duration"),
 }
-_BOUNDS = ("target", "tolerance", "minimum", "maximum")
+_BOUNDS = ("target", "tolerance", "minimum", "maximum", "scale")
 _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-z°][\w°/²^]*)\s*")
 
 
-def to_si(content: Any, *, where: str, measures: str | None = None) -> Any:
+def to_si(
+    content: Any, *, where: str, measures: str | None = None, robot: Callable[[], Dimensions] | None = None
+) -> Any:
     """The same tables and lists with every "number unit" turned into a number in SI units.
 
     measures: what a bare value at this place stands for ("an angle", ...); None where no unit has a place.
+    robot: called for the size of the robot, if a number is in units of it; without, these are refused.
     Raises LevadeError for a unit that does not exist or does not fit the key.
     """
     if isinstance(content, Mapping):
-        return {
-            key: to_si(value, where=f"{where}.{key}", measures=_measured(str(key), content))
-            for key, value in content.items()
-        }
+        table = {}
+        for key, value in content.items():
+            inside = f"{where}.{key}"
+            if key in ("posture", "goal") and isinstance(value, Mapping) and "weight" not in value:
+                table[key] = {
+                    joint: to_si(angle, where=f"{inside}.{joint}", measures="an angle")
+                    for joint, angle in value.items()
+                }
+            else:
+                table[key] = to_si(value, where=inside, measures=measured(str(key), content), robot=robot)
+        return table
     if isinstance(content, (list, tuple)):
-        return [to_si(value, where=f"{where}.{i}", measures=measures) for i, value in enumerate(content)]
+        return [to_si(value, where=f"{where}.{i}", measures=measures, robot=robot) for i, value in enumerate(content)]
     match = _NUMBER.fullmatch(content) if isinstance(content, str) and not _is_number(content) else None
     if match is None:
         return content
     number, unit = match.groups()
-    fitting = [name for name, (kind, _) in UNITS.items() if kind == measures]
-    if unit not in UNITS:
-        hint = f"units here: {', '.join(fitting)}" if fitting else did_you_mean(unit, UNITS)
+    name = PLURALS.get(unit, unit)
+    kinds = {name: kind for name, (kind, _) in (UNITS | (ROBOT_UNITS if robot else {})).items()}
+    fitting = [name for name, kind in kinds.items() if kind == measures]
+    if name not in kinds:
+        hint = f"units here: {', '.join(fitting)}" if fitting else did_you_mean(unit, kinds)
         raise LevadeError(f"{where}: unknown unit {unit!r} in {content!r}; {hint}")
-    kind, size = UNITS[unit]
+    kind = kinds[name]
     if measures is None:
         raise LevadeError(f"{where}: {content!r}, but this number takes no unit; give it in SI, without one")
     if kind != measures:
         raise LevadeError(f"{where}: {content!r} is {kind}, but this is {measures}; units here: {', '.join(fitting)}")
-    return float(number) * size
+    if name in UNITS:
+        return float(number) * UNITS[name][1]
+    assert robot is not None
+    return float(number) * ROBOT_UNITS[name][1](robot())
 
 
 def _is_number(text: str) -> bool:
@@ -71,10 +109,17 @@ def _is_number(text: str) -> bool:
     return True
 
 
-def _measured(key: str, siblings: Mapping[str, Any]) -> str | None:
-    quantity, term = str(siblings.get("quantity")), siblings.get("term")
-    if key in _BOUNDS and quantity in QUANTITIES:
-        return UNITS[QUANTITIES[quantity]][0]
+def measure_of(criterion: Any) -> str | None:
+    """What a criterion's numbers stand for ("a length", ...); None without a unit, or if it is none."""
+    quantity = criterion.get("quantity") if isinstance(criterion, Mapping) else None
+    unit = QUANTITIES.get(quantity) if isinstance(quantity, str) else None
+    return UNITS[unit][0] if unit in UNITS else None
+
+
+def measured(key: str, siblings: Mapping[str, Any]) -> str | None:
+    term = siblings.get("term")
+    if key in _BOUNDS and (kind := measure_of(siblings)):
+        return kind
     if key == "tolerance" and siblings.get("term") in ("orientation", "position"):
         return "an angle" if siblings["term"] == "orientation" else "a length"
     # terms that aim at a velocity name their components x, y, z too

@@ -1,0 +1,100 @@
+"""How far an exported motion ends from itself when its player plays it on other drives than it was found with.
+
+    python benchmarks/replay.py [--task rearing] [--seeds 10]
+
+Each motion is exported as csv and played in MuJoCo by the player.py of the export, from standing, with its ramp of 1 s, a
+physics step a row. Drives: the simulated ones (torque-speed line, lag of 4 ms; torque goes in by way of the position), ones
+that deliver what is commanded up to the torque limit, and these with half the gains. Printed are median and largest
+distance, over the seeds, from what the motion has at the horizon: pitch and height of the trunk.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import mujoco
+import numpy as np
+
+from levade.export import export, player
+from levade.motion import Motion, record
+from levade.solve import Objective, solve
+from levade.tasks import load_task
+from levade.trajectory import roll_pitch_yaw
+
+ROWS = (
+    ("measured", "simulated", 1.0),
+    ("measured", "ideal", 1.0),
+    ("measured", "ideal", 0.5),
+    ("commanded", "simulated", 1.0),
+    ("commanded", "ideal", 1.0),
+)
+
+
+class Drives:
+    """The robot of a motion in MuJoCo, on its own drives or on ideal ones."""
+
+    def __init__(self, motion: Motion, kind: str) -> None:
+        spec = mujoco.MjSpec.from_string(motion.model_xml, assets=dict(motion.assets))
+        self.ideal = kind == "ideal"
+        if self.ideal:
+            for name, limit in zip(motion["joint_names"], motion.meta["limits"]["torque"], strict=True):
+                actuator = spec.actuator(str(name))
+                actuator.set_to_motor()
+                actuator.ctrlspec, actuator.actdim = 0, -1
+                actuator.forcerange = [-limit, limit]
+        self.model = spec.compile()
+        self.data = mujoco.MjData(self.model)
+        self.data.qpos[:], self.data.qvel[:] = motion["qpos0"], motion["qvel0"]
+        self.data.act[:] = motion["act0"][: self.model.na]
+        joints = [self.model.joint(str(name)) for name in motion["joint_names"]]
+        self.qpos, self.qvel = ([int(j.qposadr[0]) for j in joints], [int(j.dofadr[0]) for j in joints])
+        self.last = self.data.qpos.copy()
+
+    def read(self) -> tuple[np.ndarray, np.ndarray]:
+        return self.data.qpos[self.qpos].copy(), self.data.qvel[self.qvel].copy()
+
+    def write(self, position, velocity, torque, kp, kd) -> None:
+        self.last = self.data.qpos.copy()  # the last command comes at the horizon
+        if self.ideal:
+            now, rate = self.read()
+            self.data.ctrl[:] = kp * (position - now) + kd * (velocity - rate) + torque
+        else:
+            self.data.ctrl[0::2], self.data.ctrl[1::2] = position + torque / kp, velocity
+        mujoco.mj_step(self.model, self.data)
+
+
+def distance(motion: Motion, reference: str, drives: str, gain: float) -> tuple[float, float]:
+    """[rad], [m], of pitch and height at the horizon."""
+    gains = {"kp": 600.0 * gain, "kd": 20.0 * gain} if gain != 1.0 else {}
+    robot = Drives(motion, drives)
+    with TemporaryDirectory() as directory:
+        export(motion, "csv", Path(directory), reference=reference, hold=False, **gains)
+        played = player.Motion.load(Path(directory) / "motion.csv")
+    player.play(played, robot, ramp=1.0, tolerance=np.inf, wait=lambda instant: 0.0)
+    row = motion.horizon_steps - 1
+    pitch = roll_pitch_yaw(robot.last[3:7])[1] - roll_pitch_yaw(motion["trunk_quaternion"][row])[1]
+    return abs(pitch), abs(robot.last[2] - motion["trunk_position"][row, 2])
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--task", default="rearing")
+    parser.add_argument("--seeds", type=int, default=10)
+    arguments = parser.parse_args()
+    objective = Objective(load_task(arguments.task))
+    motions = [record(objective, solve(objective, seed=seed), seed=seed) for seed in range(arguments.seeds)]
+    print(f"{arguments.task}, seeds 0 to {arguments.seeds - 1}, MuJoCo {mujoco.__version__}: median (largest)\n")
+    print("| references | drives | pitch [rad] | height [cm] |\n|---|---|---|---|")
+    for reference, drives, gain in ROWS:
+        off = np.array([distance(motion, reference, drives, gain) for motion in motions])
+        (pitch, height), (most_pitch, most_height) = np.median(off, axis=0), off.max(axis=0)
+        name = f"{drives}, half the gains" if gain != 1.0 else drives
+        print(
+            f"| {reference} | {name} | {pitch:.3f} ({most_pitch:.3f}) | {100 * height:.1f} ({100 * most_height:.1f}) |"
+        )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,72 @@
+"""One run of a bench."""
+
+from __future__ import annotations
+
+import functools
+import time
+
+from levade.bench.plan import Case
+from levade.bench.results import Result
+from levade.motion import versions
+from levade.solve import Generation, Objective, solve
+from levade.tasks import Task
+
+
+def run_case(case: Case) -> Result:
+    """Solve one case on one thread. Raises LevadeError for whatever does not fit together."""
+    objective = _objective(case)
+    engine = objective.engine
+    at_success: tuple[int, float, float] | None = None
+    exhausted = False
+
+    def watch(generation: Generation) -> None:
+        nonlocal at_success, exhausted
+        if at_success is None and generation.trials_to_success is not None:
+            at_success = engine.steps - before, time.process_time() - began, generation.best.cost
+        if case.budget_steps is not None and engine.steps - before >= case.budget_steps:
+            exhausted = True
+            raise KeyboardInterrupt  # how an observer ends a search
+
+    before, began = engine.steps, time.process_time()
+    solution = solve(objective, seed=case.seed, observe=watch)
+    spent, core_seconds = engine.steps - before, time.process_time() - began
+    steps_to_success, core_seconds_to_success, cost_to_success = at_success or (None, None, None)
+    return Result(
+        task=case.task.name,
+        robot=case.robot,
+        optimizer=case.optimizer,
+        seed=case.seed,
+        until=case.until,
+        budget_trials=case.task.search.trials,
+        budget_steps=case.budget_steps,
+        success=solution.trials_to_success is not None,
+        trials=solution.trials,
+        trials_to_success=solution.trials_to_success,
+        steps=spent,
+        steps_to_success=steps_to_success,
+        core_seconds=round(core_seconds, 4),
+        core_seconds_to_success=None if core_seconds_to_success is None else round(core_seconds_to_success, 4),
+        cost=solution.best.cost,
+        cost_to_success=cost_to_success,
+        diverged=solution.diverged,
+        stopped="steps" if exhausted else solution.stopped,
+        checksum=case.checksum,
+        versions=made_with(),
+    )
+
+
+@functools.cache
+def made_with() -> str:
+    """The versions that decide the results, in words."""
+    return ", ".join(f"{name} {version}" for name, version in versions().items())
+
+
+_latest: tuple[Task, Objective] | None = None
+
+
+def _objective(case: Case) -> Objective:
+    """The latest one again, where the seed is all that has changed."""
+    global _latest
+    if _latest is None or _latest[0] != case.task:
+        _latest = case.task, Objective(case.task, threads=1)
+    return _latest[1]

@@ -1,0 +1,159 @@
+"""A bench: every case of a plan, in a directory that keeps each result as soon as there is one.
+
+DIR/bench.yaml       the plan
+DIR/results.csv      a row per run; in the plan's order once all are done
+DIR/results.parquet  the same, with types
+DIR/table.md         the summary
+DIR/trials.pdf, steps.pdf  success over what was spent, expected running time, final cost
+
+A second call goes on with the cases that have no row yet.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from levade.bench.case import made_with
+from levade.bench.figure import draw
+from levade.bench.measures import summarise
+from levade.bench.plan import Case, Plan, cases, plan_to_yaml, read_plan
+from levade.bench.pool import run_cases
+from levade.bench.results import Result, append, read, write, write_parquet
+from levade.bench.table import markdown
+from levade.errors import LevadeError
+
+PLAN, RESULTS, PARQUET, TABLE = "bench.yaml", "results.csv", "results.parquet", "table.md"
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a bench is. result: the latest one; None before the first."""
+
+    done: int
+    total: int
+    result: Result | None
+
+
+@dataclass(frozen=True)
+class Bench:
+    """What a bench came to: results, those of the plan first and in its order; how many of its cases are still to do."""
+
+    results: list[Result]
+    left: int
+
+
+def bench(
+    plan: Plan | None,
+    directory: Path,
+    *,
+    processes: int = 1,
+    force: bool = False,
+    others: Sequence[Result] = (),
+    observe: Callable[[Progress], object] | None = None,
+) -> Bench:
+    """Run the cases of a plan that have no result in the directory yet.
+
+    plan: None goes on with the directory's own. processes: cases at a time, each on one thread; results do not depend
+    on it. force: begin anew. others: results that will be reported beside these.
+    observe: called before the first case, after each, and about once a second between.
+    KeyboardInterrupt, from it or from the keyboard, ends the bench; what is done is kept.
+    Raises LevadeError before anything is written if a case does not fit together, or if results in the directory are of
+    other tasks, budgets or versions under the same names, or if one of ``others`` has the name of a case.
+    """
+    plan = plan or plan_of(directory)
+    wanted = cases(plan)
+    path = directory / RESULTS
+    before = [] if force or not path.exists() else read(path)
+    _check_same(path, before, wanted)
+    keys = {case.key for case in wanted} | {result.key for result in before}
+    for other in others:
+        if other.key in keys:
+            task, robot, optimizer, seed = other.key
+            raise LevadeError(
+                f"{task} on {robot}, {optimizer}, seed {seed}: is in this bench and in what is added to it"
+            )
+        keys.add(other.key)
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        (directory / PLAN).write_text(plan_to_yaml(plan), encoding="utf-8")
+    except OSError as error:
+        raise LevadeError(f"{directory}: cannot be written ({error.strerror}); give a directory that can") from None
+    write(path, before)  # without what was cut off
+    done = {result.key for result in before}
+    total = len(wanted)
+    left = [case for case in wanted if case.key not in done]
+    latest: Result | None = None
+
+    def tell() -> None:
+        if observe is not None:
+            observe(Progress(total - len(left), total, latest))
+
+    try:
+        tell()
+        for case, result in run_cases(tuple(left), processes=processes, waiting=tell):
+            append(path, result)
+            latest = result
+            left.remove(case)
+            tell()
+    except KeyboardInterrupt:
+        pass
+    ordered = in_order(read(path), wanted)  # the file knows best: an interrupt may come between any two lines above
+    write(path, ordered)
+    return Bench(ordered, total - len({case.key for case in wanted} & {result.key for result in ordered}))
+
+
+def plan_of(directory: Path) -> Plan:
+    """The plan that a directory was last called with. Raises LevadeError if there is none."""
+    if not (directory / PLAN).is_file():
+        raise LevadeError(f"{directory}: no bench to go on with; name tasks (--tasks rearing) or a plan's file")
+    return read_plan(directory / PLAN)
+
+
+def report(results: Sequence[Result], directory: Path, *, format: str = "pdf") -> tuple[list[Path], list[str]]:
+    """Write the table, the figures and the Parquet file. Returns what was written, and what could not be for want of an
+    extra, in words.
+
+    Raises LevadeError if a file cannot be written.
+    """
+    table = directory / TABLE
+    try:
+        table.write_text(markdown(summarise(results)), encoding="utf-8")
+    except OSError as error:
+        raise LevadeError(f"{table}: cannot be written ({error.strerror})") from None
+    written, missing = [table], list[str]()
+    if importlib.util.find_spec("matplotlib") is None:
+        missing.append("figures need matplotlib; pip install levade[bench]")
+    else:
+        written += draw(results, directory, format=format)
+    if importlib.util.find_spec("pyarrow") is None:
+        missing.append(f"{PARQUET} needs pyarrow; pip install levade[bench]")
+    else:
+        write_parquet(directory / PARQUET, results)
+        written.append(directory / PARQUET)
+    return written, missing
+
+
+def in_order(results: Iterable[Result], wanted: Sequence[Case]) -> list[Result]:
+    """Those of these cases first, in their order; then the others, by name."""
+    place = {case.key: number for number, case in enumerate(wanted)}
+    return sorted(results, key=lambda result: (place.get(result.key, len(place)), result.key))
+
+
+def _check_same(path: Path, results: Iterable[Result], wanted: Iterable[Case]) -> None:
+    by_key = {result.key: result for result in results}
+    for case in wanted:
+        result = by_key.get(case.key)
+        if result is None:
+            continue
+        if result.checksum != case.checksum or result.until != case.until:
+            raise LevadeError(
+                f"{path}: has {case} with another task, budget or end; write elsewhere: --out DIR, or begin anew: --force"
+            )
+        if result.versions != made_with():
+            raise LevadeError(
+                f"{path}: was made with {result.versions}, this is {made_with()}; write elsewhere: --out DIR, or begin"
+                " anew: --force"
+            )

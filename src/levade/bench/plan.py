@@ -1,0 +1,171 @@
+"""What a bench runs: tasks x robots x optimizers x seeds, as a YAML file or built in Python.
+
+tasks: [rearing, posture-recovery]      # names or files
+robots: [hyq2max]                       # names or files; left out, each task's own
+optimizers:                             # a list of names, or names of your own with what they change in the task
+  cma: {}
+  plain: {search.optimizer: cma, search.smoothness: 0, search.aim: false}
+seeds: 20                               # 0 to 19, or a list
+trials: 3000                            # budget; left out, each task's own
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import zlib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Literal, get_args
+
+from levade.document import build, read_yaml
+from levade.errors import LevadeError, did_you_mean
+from levade.optimizers import OPTIMIZERS
+from levade.solve import Objective
+from levade.tasks import Task, load_task, task_to_yaml
+
+Until = Literal["success", "budget"]
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a bench runs.
+
+    tasks: names or files. robots: names or files; each task's own if there are none.
+    optimizers: names, or a name of one's own -> path in the task -> value; each task's own if there are none.
+    seeds: how many, from 0, or which. trials, steps: budget of each run, in trials (the task's own if None) and in
+    physics steps (any number if None).
+    until: "success": a run ends as the task says, at its first success and what it polishes. "budget": it goes on to the
+    end of its budget.
+    changes: path in every task -> value.
+    """
+
+    tasks: tuple[str, ...]
+    robots: tuple[str, ...] = ()
+    optimizers: Mapping[str, Mapping[str, Any] | None] | tuple[str, ...] = ()
+    seeds: int | tuple[int, ...] = 5
+    trials: int | None = None
+    steps: float | None = None
+    until: Until = "success"
+    changes: Mapping[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if not self.tasks:
+            raise LevadeError("tasks: there are none; name at least one, such as tasks: [rearing]")
+        for name, values in (("tasks", self.tasks), ("robots", self.robots), ("optimizers", tuple(self.optimizers))):
+            twice = {value for value in values if values.count(value) > 1}
+            if twice:
+                raise LevadeError(f"{name}: {min(twice)} is there twice")
+        if not self.seed_list or min(self.seed_list) < 0 or len(set(self.seed_list)) < len(self.seed_list):
+            raise LevadeError(f"seeds: {self.seeds} should be a number from 1, or a list of different ones from 0")
+        if self.until not in get_args(Until):
+            raise LevadeError(f"until: {self.until!r} should be success or budget")
+        for name, value in (("trials", self.trials), ("steps", self.steps)):
+            if value is not None and not value >= 1:
+                raise LevadeError(f"{name}: {value} should be at least 1")
+
+    @property
+    def seed_list(self) -> tuple[int, ...]:
+        return tuple(range(self.seeds)) if isinstance(self.seeds, int) else self.seeds
+
+
+@dataclass(frozen=True)
+class Case:
+    """One run of a bench. task: with every change applied. budget_steps: physics steps; None for any number."""
+
+    task: Task
+    robot: str
+    optimizer: str
+    seed: int
+    until: Until
+    budget_steps: int | None
+
+    @property
+    def key(self) -> tuple[str, str, str, int]:
+        """What a result is found by: names of task, robot and optimizer, and the seed."""
+        return self.task.name, self.robot, self.optimizer, self.seed
+
+    @property
+    def checksum(self) -> int:
+        """Of everything that decides the result but the seed and the versions."""
+        return zlib.crc32(f"{task_to_yaml(self.task)}{self.budget_steps}".encode())
+
+    def __str__(self) -> str:
+        return f"{self.task.name} on {self.robot}, {self.optimizer}, seed {self.seed}"
+
+
+def read_plan(path: Path) -> Plan:
+    """A plan from its YAML file. Raises LevadeError."""
+    return build(Plan, read_yaml(path, like="tasks and optimizers"), where=str(path))
+
+
+def plan_to_yaml(plan: Plan) -> str:
+    """The text of a plan's file."""
+    import yaml
+
+    content = json.loads(json.dumps(dataclasses.asdict(plan)))
+    return yaml.safe_dump(content, sort_keys=False, width=120, allow_unicode=True)
+
+
+def cases(plan: Plan) -> list[Case]:
+    """Every case, in the plan's order. Raises LevadeError for whatever does not fit together."""
+    found: list[Case] = []
+    named: dict[tuple[str, str], tuple[str, str | None]] = {}
+    for task in plan.tasks:
+        for robot in plan.robots or (None,):
+            variants = list(_variants(plan, task, robot))
+            name = _fits(variants[0][1])
+            given = named.setdefault((variants[0][1].name, name), (task, robot))
+            if given != (task, robot):
+                same = f"{given[0]} and {task}" if given[0] != task else f"{given[1]} and {robot}"
+                raise LevadeError(f"{same}: have one name, {variants[0][1].name} on {name}; give them different ones")
+            budget = None if plan.steps is None else int(plan.steps)
+            found += [
+                Case(variant, name, optimizer, seed, plan.until, budget)
+                for optimizer, variant in variants
+                for seed in plan.seed_list
+            ]
+    return found
+
+
+def _variants(plan: Plan, task: str, robot: str | None) -> Iterator[tuple[str, Task]]:
+    """Name of each optimizer, and the task as it is for it."""
+    common = _changes(plan.changes)
+    if plan.trials is not None:
+        common.append(f"search.trials={plan.trials}")
+    if plan.until == "budget":
+        common.append("search.polish=null")
+    own = load_task(task, robot=robot).search.optimizer
+    if not plan.optimizers:
+        yield own, _load(task, robot, common, "changes")
+    for name in plan.optimizers:
+        changes = plan.optimizers[name] if isinstance(plan.optimizers, Mapping) else None
+        if changes:
+            yield name, _load(task, robot, [*_changes(changes), *common], f"optimizers.{name}")
+        elif name in OPTIMIZERS:
+            # numbers of the task's own optimizer are not for another
+            reset = [] if name == own else ["search.settings={}"]
+            yield name, _load(task, robot, [f"search.optimizer={name}", *reset, *common], f"optimizers.{name}")
+        else:
+            raise LevadeError(f"optimizers: no optimizer {name!r}; {did_you_mean(name, OPTIMIZERS)}")
+
+
+def _load(task: str, robot: str | None, changes: Sequence[str], where: str) -> Task:
+    try:
+        return load_task(task, robot=robot, changes=changes)
+    except LevadeError as error:
+        raise LevadeError(f"{where}: {error}") from None
+
+
+def _changes(changes: Mapping[str, Any]) -> list[str]:
+    """As `levade.tasks.load_task` takes them; JSON is YAML."""
+    return [f"{path}={json.dumps(value)}" for path, value in changes.items()]
+
+
+def _fits(task: Task) -> str:
+    """Name of the robot, once the task has been put together with it."""
+    try:
+        return Objective(task, threads=1).robot.name
+    except LevadeError as error:
+        raise LevadeError(f"{task.name} on {task.robot.name}: {error}") from None

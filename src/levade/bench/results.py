@@ -1,0 +1,152 @@
+"""Results of a bench: one row per run, in a CSV file that rows are appended to, and in Parquet.
+
+A row is appended in one write, so that whatever stops the bench leaves whole rows; a last one that was cut off is left out.
+"""
+
+from __future__ import annotations
+
+import csv
+import dataclasses
+import io
+import os
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from levade.errors import LevadeError
+
+
+@dataclass(frozen=True)
+class Result:
+    """What came of one run.
+
+    budget_trials, budget_steps: the most it might spend; no limit where None.
+    trials, steps: spent, physics steps of all roll-outs. core_seconds: CPU time of the search.
+    trials_to_success, steps_to_success, core_seconds_to_success: spent when a trial first met every success criterion, in
+    whole generations; None if none did. cost_to_success: of the best trial at that moment.
+    success: whether one did. cost: of the run's best trial at its end, by the task's own weights.
+    stopped: why it ended: "success" (and polished), "budget" or "steps".
+    checksum: of the task and the budget. versions: of what made it.
+    """
+
+    task: str
+    robot: str
+    optimizer: str
+    seed: int
+    until: str
+    budget_trials: int
+    budget_steps: int | None
+    success: bool
+    trials: int
+    trials_to_success: int | None
+    steps: int
+    steps_to_success: int | None
+    core_seconds: float
+    core_seconds_to_success: float | None
+    cost: float
+    cost_to_success: float | None
+    diverged: int
+    stopped: str
+    checksum: int
+    versions: str
+
+    @property
+    def key(self) -> tuple[str, str, str, int]:
+        """As `levade.bench.plan.Case.key`."""
+        return self.task, self.robot, self.optimizer, self.seed
+
+
+COLUMNS = tuple(field.name for field in dataclasses.fields(Result))
+_KINDS = {field.name: str(field.type) for field in dataclasses.fields(Result)}
+
+
+def append(path: Path, result: Result) -> None:
+    """Add a row to a file, which is begun if need be. Raises LevadeError if it cannot be written."""
+    new = not path.exists() or path.stat().st_size == 0
+    text = (_line(COLUMNS) if new else "") + _line([_text(getattr(result, name)) for name in COLUMNS])
+    try:
+        with path.open("ab", buffering=0) as file:
+            file.write(text.encode())
+            os.fsync(file.fileno())
+    except OSError as error:
+        raise LevadeError(
+            f"{path}: cannot be written ({error.strerror}); make room, then call again to go on"
+        ) from None
+
+
+def write(path: Path, results: Iterable[Result]) -> None:
+    """Replace a file by these rows, or leave it as it is. Raises LevadeError if it cannot be written."""
+    lines = [_line(COLUMNS), *(_line([_text(getattr(result, name)) for name in COLUMNS]) for result in results)]
+    partial = path.with_name(f".{path.name}.partial")
+    try:
+        partial.write_text("".join(lines), encoding="utf-8", newline="")
+        partial.replace(path)
+    except OSError as error:
+        partial.unlink(missing_ok=True)
+        raise LevadeError(f"{path}: cannot be written ({error.strerror})") from None
+
+
+def read(path: Path) -> list[Result]:
+    """The rows of a file, without a last one that was cut off; of rows with one key, the first.
+
+    Raises LevadeError if the file cannot be read or is none of a bench.
+    """
+    try:
+        text = path.read_bytes().decode("utf-8", errors="replace")
+    except OSError as error:
+        raise LevadeError(f"{path}: cannot be read ({error.strerror}); give the results.csv of a bench") from None
+    lines = text.splitlines(keepends=True)
+    if lines and not lines[-1].endswith("\n"):
+        lines.pop()
+    rows = list(csv.reader(lines))
+    if not rows or tuple(rows[0]) != COLUMNS:
+        raise LevadeError(f"{path}: is no results.csv of a bench, or of another version of levade")
+    found: dict[tuple[str, str, str, int], Result] = {}
+    for number, row in enumerate(rows[1:], start=2):
+        try:
+            result = Result(**{name: _value(name, text) for name, text in zip(COLUMNS, row, strict=True)})
+        except ValueError:
+            raise LevadeError(f"{path}: line {number} is damaged; remove it, and its run will be made again") from None
+        found.setdefault(result.key, result)
+    return list(found.values())
+
+
+def write_parquet(path: Path, results: Sequence[Result]) -> None:
+    """Write rows to a Parquet file. Raises LevadeError if it cannot be written or pyarrow is missing."""
+    try:
+        import pyarrow
+        import pyarrow.parquet
+    except ImportError:
+        raise LevadeError("Parquet needs pyarrow; pip install levade[bench]") from None
+    kinds = {"str": pyarrow.string(), "int": pyarrow.int64(), "float": pyarrow.float64(), "bool": pyarrow.bool_()}
+    schema = pyarrow.schema([(name, kinds[kind.split(" ")[0]]) for name, kind in _KINDS.items()])
+    table = pyarrow.Table.from_pylist([dataclasses.asdict(result) for result in results], schema=schema)
+    partial = path.with_name(f".{path.name}.partial")
+    try:
+        pyarrow.parquet.write_table(table, partial)
+        partial.replace(path)
+    except OSError as error:
+        raise LevadeError(f"{path}: cannot be written ({error.strerror})") from None
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+def _line(cells: Sequence[str]) -> str:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerow(cells)
+    return text.getvalue()
+
+
+def _text(value: Any) -> str:
+    return "" if value is None else str(int(value)) if isinstance(value, bool) else str(value)
+
+
+def _value(name: str, text: str) -> Any:
+    kind = _KINDS[name]
+    if text == "" and kind.endswith("None"):
+        return None
+    kind = kind.split(" ")[0]
+    if kind == "bool":
+        return bool(int(text))
+    return {"str": str, "int": int, "float": float}[kind](text)

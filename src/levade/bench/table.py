@@ -1,0 +1,93 @@
+"""The summary of a bench in words and numbers, one table for each task and robot."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from levade.bench.measures import LEVEL, Interval, Summary
+
+HEADINGS = (
+    "optimizer",
+    "success",
+    "trials to success",
+    "ERT [trials]",
+    "ERT [1000 steps]",
+    "ERT [core-s]",
+    "final cost",
+)
+
+SHORT_HEADINGS = ("optimizer", "success", "trials to success", "ERT [trials]", "ERT [core-s]", "final cost")
+"""What fits a terminal: no intervals of the core-seconds, no quartiles of the cost."""
+
+_ENDS = {
+    "success": "when it has succeeded and polished",
+    "budget": "when its budget is spent",
+    "mixed": "of runs some of which stop at success",
+}
+
+
+def rows(summaries: Sequence[Summary], *, short: bool = False) -> list[tuple[str, ...]]:
+    """Cells under `HEADINGS`, or `SHORT_HEADINGS`, for summaries of one task and robot."""
+    if short:
+        return [
+            (*cells[:4], number(summary.ert["core_seconds"].value), number(summary.cost[1]))
+            for summary, cells in zip(summaries, rows(summaries), strict=True)
+        ]
+    return [
+        (
+            summary.optimizer,
+            f"{summary.successes}/{summary.runs}",
+            f"{number(summary.median)} ({number(summary.least)} – {number(summary.most)})"
+            if summary.successes
+            else "∞",
+            interval(summary.ert["trials"]),
+            interval(summary.ert["steps"], unit=1000.0),
+            interval(summary.ert["core_seconds"]),
+            f"{number(summary.cost[1])} ({number(summary.cost[0])} – {number(summary.cost[2])})",
+        )
+        for summary in summaries
+    ]
+
+
+def by_case(summaries: Sequence[Summary]) -> dict[tuple[str, str], list[Summary]]:
+    """Task and robot -> its summaries."""
+    found: dict[tuple[str, str], list[Summary]] = {}
+    for summary in summaries:
+        found.setdefault((summary.task, summary.robot), []).append(summary)
+    return found
+
+
+def legend(summaries: Sequence[Summary], *, short: bool = False) -> str:
+    """What the columns mean, in a sentence or two."""
+    ends = " or ".join(dict.fromkeys(_ENDS[summary.until] for summary in summaries))
+    return (
+        "Trials to success: median of all runs (least – most), ∞ for a run without. ERT: expected running time, what all"
+        f" runs spent until success or their end over the number of successes [{LEVEL:.0%} bootstrap interval]. Final cost:"
+        f" median {'' if short else '(quartiles) '}of the best trial at a run's end, {ends}."
+    )
+
+
+def markdown(summaries: Sequence[Summary]) -> str:
+    """All tables, with headings."""
+    parts = []
+    for (task, robot), mine in by_case(summaries).items():
+        parts.append(f"## {task} on {robot}\n\n| {' | '.join(HEADINGS)} |\n|{'---|' * len(HEADINGS)}")
+        parts[-1] += "".join(f"\n| {' | '.join(cell.replace('|', '/') for cell in row)} |" for row in rows(mine))
+    return "\n\n".join([*parts, legend(summaries)]) + "\n" if parts else "no results\n"
+
+
+def interval(value: Interval, *, unit: float = 1.0) -> str:
+    """Value and limits in a unit: 310 [250 – 402]; ∞ alone where there is no success."""
+    if math.isinf(value.value):
+        return "∞"
+    return f"{number(value.value / unit)} [{number(value.low / unit)} – {number(value.high / unit)}]"
+
+
+def number(value: float) -> str:
+    """Three digits, or all of a whole number's; ∞."""
+    if math.isinf(value):
+        return "∞"
+    if abs(value) >= 100 or value == int(value):
+        return f"{value:.0f}"
+    return f"{value:.3g}"

@@ -1,0 +1,82 @@
+"""``levade export``: a motion in the formats of other tools and of robots."""
+
+from __future__ import annotations
+
+import json
+import shlex
+from pathlib import Path
+
+from rich.markup import escape
+
+from levade.cli.tables import make_console
+from levade.errors import LevadeError
+from levade.export import FORMATS, Exported, export
+from levade.motion import Motion
+
+_FILES = (".csv", ".json", ".npz", ".mcap", ".yaml", ".py")
+
+
+def export_motion(
+    path: Path,
+    to: str | None,
+    directory: Path | None,
+    *,
+    rate: float | None,
+    reference: str,
+    hold: bool,
+    kp: float | None,
+    kd: float | None,
+    as_json: bool,
+) -> int:
+    """Exit status 0: it was written."""
+    if to is None:
+        raise LevadeError(f"export {path}: say in which format: --to {', '.join(FORMATS)}")
+    if directory is not None and directory.suffix in _FILES:
+        raise LevadeError(f"--out {directory}: several files are written; give a directory, such as {directory.stem}")
+    motion = Motion.load(path)
+    options = [
+        ("--rate", rate),
+        ("--reference", None if reference == "measured" else reference),
+        ("--kp", kp),
+        ("--kd", kd),
+        ("--out", directory),
+    ]
+    words = ["levade", "export", str(path), "--to", to]
+    words += [word for name, value in options if value is not None for word in (name, _text(value))]
+    words += ["--no-hold"] * (not hold)
+    place = directory if directory is not None else path.with_name(f"{path.stem}-{to}")
+    done = export(motion, to, place, rate=rate, reference=reference, hold=hold, kp=kp, kd=kd, command=shlex.join(words))
+    if as_json:
+        print(json.dumps({"motion": str(path), **_summary(done)}, ensure_ascii=False))
+        return 0
+    console = make_console()
+    samples = done.samples
+    joints = len(samples.joints.names)
+    console.print(
+        f"[bold]{escape(motion.meta['task']['name'])}[/] on {escape(motion.meta['robot'])}: {len(samples.time)} rows at"
+        f" {samples.rate:g} Hz, {samples.time[-1]:g} s, {joints} joints, {samples.reference} references"
+    )
+    for note in done.notes:
+        console.print(f"[yellow]Note:[/] {escape(note)}")
+    names = ", ".join(escape(str(file.relative_to(done.directory))) for file in done.written)
+    console.print(f"Written to {escape(str(done.directory))}: {names}")
+    return 0
+
+
+def _summary(done: Exported) -> dict[str, object]:
+    samples = done.samples
+    return {
+        "format": done.format,
+        "directory": str(done.directory),
+        "written": [str(file) for file in done.written],
+        "rate": samples.rate,
+        "rows": len(samples.time),
+        "duration": float(samples.time[-1]),
+        "reference": samples.reference,
+        "joints": list(samples.joints.names),
+        "notes": list(done.notes),
+    }
+
+
+def _text(value: object) -> str:
+    return f"{value:g}" if isinstance(value, float) else str(value)

@@ -1,0 +1,81 @@
+"""``levade solve --watch``: the page beside the run."""
+
+from __future__ import annotations
+
+import time
+import webbrowser
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+from rich.markup import escape
+
+from levade.errors import LevadeError
+from levade.solve import Objective
+
+if TYPE_CHECKING:
+    from levade.viewer.server import Server
+    from levade.viewer.watching import Watch
+
+
+@dataclass(frozen=True)
+class Watching:
+    """Options of the page. keep: until Ctrl-C, after the solve has ended. browse: open it in the browser."""
+
+    host: str
+    port: int
+    browse: bool
+    keep: bool
+
+
+def options(watch: bool, host: str | None, port: int | None, browse: bool, keep: bool) -> Watching | None:
+    """None where no page is asked for; LevadeError if the others only make sense with one."""
+    given = {"--watch-host": host, "--watch-port": port, "--open": browse or None, "--keep-open": keep or None}
+    named = [name for name, value in given.items() if value is not None]
+    if named and not watch:
+        raise LevadeError(f"{' and '.join(named)}: of the page, so say --watch too")
+    return Watching(host or "127.0.0.1", port or 0, browse, keep) if watch else None
+
+
+@contextmanager
+def watched(
+    chosen: Watching,
+    console: Console,
+    objective: Objective,
+    *,
+    seed: int,
+    directory: Path,
+    interrupted: Callable[[], bool],
+) -> Iterator[Watch]:
+    """Serves the page of a run within the context, and says where; lingers at its end if that was chosen."""
+    from levade.viewer.pages import watch_page
+    from levade.viewer.scenes import LiveScenes
+    from levade.viewer.server import Server
+    from levade.viewer.watching import Watch
+
+    watch = Watch(objective, seed=seed, directory=directory, draw=LiveScenes(objective), interrupted=interrupted)
+    page = watch_page(objective.task.name)
+    with Server(lambda: page, events=watch.events, command=watch.command, host=chosen.host, port=chosen.port) as server:
+        tell_where(console, server, "Watch it at")
+        if chosen.browse:
+            webbrowser.open(server.url)
+        try:
+            yield watch
+        finally:
+            watch.finish(None)  # which changes nothing if it has been told the outcome
+        if chosen.keep and not interrupted():
+            console.print("The page stays until Ctrl-C.")
+            while not interrupted():
+                time.sleep(0.1)
+
+
+def tell_where(console: Console, server: Server, what: str) -> None:
+    """A line with the page's address, and another one if others can see it."""
+    console.print(f"{what} [link={server.url}]{escape(server.url)}[/link]")
+    if server.public:
+        console.print(
+            "[yellow]Other machines can reach this page[/]: whoever has its address sees it and can use its buttons."
+        )

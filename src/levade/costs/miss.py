@@ -1,0 +1,62 @@
+"""How far any quantity of the success criteria is from where it should be: a criterion as a cost."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from levade.costs.rows import mean_over_rows
+from levade.costs.success import Criterion, Legs, Quantity
+from levade.errors import LevadeError
+from levade.trajectory import Array, Trajectories
+
+
+@dataclass(frozen=True)
+class Miss:
+    """Squared distance of a quantity from a target, or from the nearest bound, as a multiple of ``scale`` [-].
+
+    quantity, target, minimum, maximum, legs: as in `levade.costs.Criterion`. tolerance: a distance from the target that
+        costs nothing; beyond, the excess counts.
+    at: when; over the hold, and over the whole motion up to the horizon ("motion"), it is the mean of the squares;
+        "max" and "min" look at the largest and the smallest value of all that was simulated: the apex of a jump.
+    scale: the distance that costs 1, in the quantity's unit.
+    """
+
+    unit: ClassVar[str] = "-"
+
+    quantity: Quantity
+    target: float | None = None
+    tolerance: float = 0.0
+    minimum: float | None = None
+    maximum: float | None = None
+    at: Literal["horizon", "end", "hold", "max", "min", "motion"] = "horizon"
+    legs: Legs = "all"
+    scale: float = 1.0
+
+    def __post_init__(self) -> None:
+        if self.at not in ("horizon", "end", "hold", "max", "min", "motion"):
+            raise LevadeError(
+                f"miss.{self.quantity}.at: {self.at!r} is unknown; horizon, end, max, min, hold or motion"
+            )
+        try:
+            self._criterion  # noqa: B018
+        except LevadeError as error:
+            raise LevadeError(f"miss{str(error).removeprefix('success')}") from None
+        if not (math.isfinite(self.scale) and self.scale > 0):
+            raise LevadeError(f"miss.scale: {self.scale} should be a positive number, the distance that costs 1")
+
+    @cached_property
+    def _criterion(self) -> Criterion:
+        tolerance = None if self.target is None else self.tolerance
+        at = "horizon" if self.at == "motion" else self.at
+        return Criterion(self.quantity, self.target, tolerance, self.minimum, self.maximum, at, self.legs)
+
+    def __call__(self, trajectories: Trajectories) -> Array:
+        """(n,) [-]."""
+        rows = slice(0, trajectories.horizon_steps) if self.at == "motion" else None
+        error = np.abs(self._criterion.deviations(trajectories, rows))
+        return mean_over_rows(np.square(np.maximum(error - self.tolerance, 0.0) / self.scale))

@@ -1,0 +1,69 @@
+"""``csv``: a table with one header line, for spreadsheets, pandas, PlotJuggler and `player.py`."""
+
+from __future__ import annotations
+
+import csv
+import json
+from importlib import resources
+from pathlib import Path
+
+import numpy as np
+
+from levade.export.content import Content, describe
+from levade.export.samples import Samples
+from levade.trajectory import Array
+
+XYZ, WXYZ = ("x", "y", "z"), ("w", "x", "y", "z")
+
+
+def columns(samples: Samples) -> dict[str, Array]:
+    """Name of each column -> its values, (rows,)."""
+    table = {"time": samples.time}
+    for i, joint in enumerate(samples.joints.names):
+        for name in ("position", "velocity", "torque"):
+            table[f"command/{joint}/{name}"] = getattr(samples, f"command_{name}")[:, i]
+        for name in ("kp", "kd"):
+            table[f"command/{joint}/{name}"] = np.full(len(samples.time), getattr(samples.joints, name)[i])
+    for i, joint in enumerate(samples.joints.names):
+        for name in ("position", "velocity", "torque"):
+            table[f"state/{joint}/{name}"] = getattr(samples, f"joint_{name}")[:, i]
+    for name in ("position", "com_position", "quaternion", "linear_velocity", "angular_velocity"):
+        values = getattr(samples, f"trunk_{name}")
+        for i, axis in enumerate(WXYZ if name == "quaternion" else XYZ):
+            table[f"state/trunk/{name}/{axis}"] = values[:, i]
+    for i, foot in enumerate(samples.feet):
+        for k, axis in enumerate(XYZ):
+            table[f"state/{foot}/contact_force/{axis}"] = samples.foot_contact_force[:, i, k]
+    return table
+
+
+def write_table(path: Path, table: dict[str, Array]) -> None:
+    """Write columns with all their digits: reading the numbers gives the same bits."""
+    with path.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(table)
+        writer.writerows(np.column_stack(list(table.values())).tolist())
+
+
+def write(content: Content, directory: Path) -> list[str]:
+    """motion.csv, and beside it meta.json and player.py."""
+    write_table(directory / "motion.csv", columns(content.playing))
+    write_json(directory / "meta.json", describe(content.playing, content.provenance), indent=2)
+    write_player(directory)
+    return []
+
+
+def write_player(directory: Path) -> None:
+    """player.py, as it is here."""
+    source = resources.files("levade.export").joinpath("player.py").read_text(encoding="utf-8")
+    (directory / "player.py").write_text(source, encoding="utf-8")
+
+
+def write_json(path: Path, content: object, *, indent: int | None = None) -> None:
+    """A JSON file; numbers with all their digits."""
+    path.write_text(to_json(content, indent=indent) + "\n", encoding="utf-8")
+
+
+def to_json(content: object, *, indent: int | None = None) -> str:
+    """JSON proper: nothing that is not a number among the numbers."""
+    return json.dumps(content, ensure_ascii=False, allow_nan=False, indent=indent)

@@ -1,0 +1,29 @@
+"""``json``: everything in one file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from levade.export.as_csv import write_json, write_player
+from levade.export.content import Content, describe
+
+
+def write(content: Content, directory: Path) -> list[str]:
+    """motion.json, and player.py, which reads it."""
+    samples = content.samples
+    document = {
+        "meta": describe(samples, content.provenance),
+        "time": samples.time.tolist(),
+        "command": {name: getattr(samples, f"command_{name}").tolist() for name in ("position", "velocity", "torque")},
+        "state": {
+            **{name: getattr(samples, f"joint_{name}").tolist() for name in ("position", "velocity", "torque")},
+            "trunk": {
+                name: getattr(samples, f"trunk_{name}").tolist()
+                for name in ("position", "com_position", "quaternion", "linear_velocity", "angular_velocity")
+            },
+            "contact_force": {foot: samples.foot_contact_force[:, i].tolist() for i, foot in enumerate(samples.feet)},
+        },
+    }
+    write_json(directory / "motion.json", document)
+    write_player(directory)
+    return []

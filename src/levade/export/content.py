@@ -1,0 +1,85 @@
+"""What is exported, before it takes a form: samples, the model, and where all of it came from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from levade.export.samples import Samples
+from levade.motion import Motion
+from levade.trajectory import Array
+
+UNITS = {
+    "time": "s",
+    "position": "rad",
+    "velocity": "rad/s",
+    "torque": "Nm",
+    "kp": "Nm/rad",
+    "kd": "Nm s/rad",
+    "trunk/position": "m",
+    "trunk/com_position": "m",
+    "trunk/quaternion": "trunk frame to world, w x y z",
+    "trunk/linear_velocity": "m/s, of the trunk frame's origin, world axes",
+    "trunk/angular_velocity": "rad/s, world axes",
+    "contact_force": "N, on the foot, world axes, mean until the next row",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Content:
+    """samples: at the rate asked for. playing: at a rate that a robot can follow; mostly the same.
+
+    provenance: task, robot, seed, versions, command.
+    """
+
+    motion: Motion
+    model: mujoco.MjModel
+    samples: Samples
+    playing: Samples
+    provenance: dict[str, Any]
+
+
+def provenance(motion: Motion, command: str | None) -> dict[str, Any]:
+    """Where a motion came from, and how well it does; JSON."""
+    from levade import __version__
+
+    meta = motion.meta
+    return {
+        "levade": __version__,
+        "command": command,
+        "task": meta["task"]["name"],
+        "robot": meta["robot"],
+        "seed": meta["seed"],
+        "success": meta["success"],
+        "errors": dict(meta["errors"]),
+        "engine": meta["engine"],
+        "made_with": dict(meta["versions"]),
+        "timestep": meta["timestep"],
+        "horizon": meta["horizon"],
+    }
+
+
+def describe(samples: Samples, provenance: dict[str, Any]) -> dict[str, Any]:
+    """All about a table of samples that is not in its rows; JSON. Limits are null where there is none."""
+    joints = samples.joints
+    return {
+        "provenance": provenance,
+        "rate": samples.rate,
+        "rows": len(samples.time),
+        "duration": float(samples.time[-1]),
+        "reference": samples.reference,
+        "between_steps": "policy" if samples.analytic else "cubic",
+        "joints": list(joints.names),
+        "kp": joints.kp.tolist(),
+        "kd": joints.kd.tolist(),
+        "limits": {name: _finite(getattr(joints, name)) for name in ("lower", "upper", "velocity", "torque")},
+        "start": {"position": joints.start_position.tolist(), "torque": joints.start_torque.tolist()},
+        "units": UNITS,
+    }
+
+
+def _finite(values: Array) -> list[float | None]:
+    return [float(value) if np.isfinite(value) else None for value in values]

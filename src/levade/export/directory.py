@@ -1,0 +1,44 @@
+"""A directory whose new files are all there in the end, or none of them."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from tempfile import mkdtemp
+
+from levade.errors import LevadeError
+
+
+@contextmanager
+def filling(directory: Path) -> Iterator[Path]:
+    """A place to write the files at; they go into the directory at the end, or away if something goes wrong.
+
+    Files of the same names are replaced, others stay. The directory is made if need be. Raises LevadeError if it cannot
+    be written, before any work is done.
+    """
+    made = [path for path in (directory.parent, *directory.parent.parents) if not path.exists()]
+    try:
+        if not next(path for path in (directory, *directory.absolute().parents) if path.exists()).is_dir():
+            raise NotADirectoryError(20, "Not a directory")
+        directory.parent.mkdir(parents=True, exist_ok=True)
+        partial = Path(mkdtemp(prefix=f".{directory.name}.", suffix=".partial", dir=directory.parent))
+    except OSError as error:
+        raise LevadeError(f"{directory}: cannot be written ({error.strerror}); give a directory that can") from None
+    try:
+        yield partial
+        for file in sorted(path for path in partial.rglob("*") if path.is_file()):
+            place = directory / file.relative_to(partial)
+            place.parent.mkdir(parents=True, exist_ok=True)
+            file.replace(place)
+    except OSError as error:
+        raise LevadeError(
+            f"{directory}: cannot be written ({error.strerror or error}); make room, then again"
+        ) from None
+    finally:
+        shutil.rmtree(partial, ignore_errors=True)
+        if not directory.exists():
+            for path in made:
+                with suppress(OSError):
+                    path.rmdir()

@@ -1,0 +1,58 @@
+"""The cross-entropy method."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from levade.optimizers.sampling import Learner, checked_share
+from levade.trajectory import Array
+
+
+class CEM(Learner):
+    """Cross-entropy method with a normal distribution for each coordinate (Rubinstein, Methodology and Computing in
+    Applied Probability 1(2), 1999; Stulp and Sigaud, ICML 2012, Table 1, left): mean and variance of the elite,
+
+    mu <- (1 - a) mu + a mean(elite),  sigma^2 <- (1 - a) sigma^2 + a var(elite)
+
+    smoothed by a, and a noise floor against stopping early (Szita and Lörincz, Neural Computation 18(12), 2006).
+    Arguments beside those of `Sampler`: elite: share of the trials that are learned from, at least two. smoothing: a.
+    floor: least standard deviation, as a share of ``step``; it shrinks by ``decay`` each generation.
+    """
+
+    def __init__(
+        self,
+        mean: Array,
+        *,
+        factor: Array | None = None,
+        step: float,
+        seed: int | tuple[int, ...],
+        population: int | None = None,
+        elite: float = 0.25,
+        smoothing: float = 0.5,
+        floor: float = 0.5,
+        decay: float = 0.98,
+    ) -> None:
+        super().__init__(mean, factor=factor, step=step, seed=seed, population=population)
+        self._elite = max(2, round(checked_share("elite", elite) * (self.population - 1)))
+        self._smoothing, self._decay = checked_share("smoothing", smoothing), checked_share("decay", decay)
+        self._least = checked_share("floor", floor) * self._first_step
+        self._deviation = np.full(self._centre.size, self._first_step)
+
+    @property
+    def step(self) -> float:
+        return float(np.sqrt(np.square(self._deviation).mean()))
+
+    def scale_step(self, factor: float) -> None:
+        self._deviation *= factor
+        self._least *= factor
+
+    def _draw(self, n: int) -> Array:
+        return self._deviation * self._generator.standard_normal((n, self._centre.size))
+
+    def _learn(self, z: Array, cost: Array) -> None:
+        elite = z[np.argsort(cost, kind="stable")[: self._elite]]
+        self._centre = self._centre + self._smoothing * (elite.mean(axis=0) - self._centre)
+        variance = np.square(self._deviation)
+        variance += self._smoothing * (elite.var(axis=0) - variance)
+        self._least *= self._decay
+        self._deviation = np.maximum(np.sqrt(variance), self._least)

@@ -1,0 +1,61 @@
+"""MPPI: model predictive path integral control as a search, its noise shrinking from generation to generation."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from levade.optimizers.sampling import Learner, checked_positive, checked_share, softmax
+from levade.trajectory import Array
+
+
+class MPPI(Learner):
+    """Annealed MPPI: the information-theoretic average of the trials (Williams et al., ICRA 2017, Algorithm 2),
+
+    u <- sum_k w_k u_k,  w_k = exp(-(S_k - min S) / lambda) / sum
+
+    with noise that shrinks from wide to narrow (as the outer loop of DIAL-MPC does: Xue et al., arXiv 2409.15610). As
+    there, the temperature lambda is a share of the standard deviation of the costs, so that their unit does not matter.
+    Arguments beside those of `Sampler`: temperature: that share. decay: of the noise, each generation. floor: what it
+    shrinks to, as a share of the first.
+    """
+
+    def __init__(
+        self,
+        mean: Array,
+        *,
+        factor: Array | None = None,
+        step: float,
+        seed: int | tuple[int, ...],
+        population: int | None = None,
+        temperature: float = 0.1,
+        decay: float = 0.97,
+        floor: float = 0.01,
+    ) -> None:
+        super().__init__(mean, factor=factor, step=step, seed=seed, population=population)
+        self._temperature = checked_positive("temperature", temperature)
+        self._decay, self._floor = checked_share("decay", decay), checked_share("floor", floor)
+        self._step = self._first_step
+
+    @property
+    def step(self) -> float:
+        return self._step
+
+    def scale_step(self, factor: float) -> None:
+        self._step *= factor
+
+    def _draw(self, n: int) -> Array:
+        return self._step * self._generator.standard_normal((n, self._centre.size))
+
+    def _learn(self, z: Array, cost: Array) -> None:
+        self._centre = weights(cost, self._temperature) @ z
+        self._step = max(self._step * self._decay, min(self._step, self._floor * self._first_step))
+
+
+def weights(cost: Array, temperature: float) -> Array:
+    """(n,), w of each trial, from costs (n,). All the same where the costs are."""
+    deviation = cost.std()
+    return (
+        softmax(-(cost - cost.min()) / (temperature * deviation))
+        if deviation > 0
+        else np.full(cost.size, 1 / cost.size)
+    )

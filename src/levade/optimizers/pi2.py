@@ -1,0 +1,117 @@
+"""PI², policy improvement with path integrals, and PI²-CMA, which adapts its exploration.
+
+In the general form each time step has probabilities of its own, from the cost that is still to go. Where, as here, one cost
+is known per trial, the cost to go is the same at all times, so are the probabilities, and the average over time is that
+probability: the black-box form, PI^BB (Stulp and Sigaud, Policy improvement: between black-box optimization and episodic
+reinforcement learning, 2012).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from levade.optimizers.sampling import Learner, checked_positive, checked_share, softmax
+from levade.trajectory import Array
+
+
+def probabilities(cost: Array, eliteness: float) -> Array:
+    """(n,), P of each trial, from costs (n,).
+
+    P_k = exp(-h S_k) / sum exp(-h S),  S = (J - min J) / (max J - min J)
+
+    h is ``eliteness``, 10 in Theodorou, Buchli and Schaal, JMLR 11, 2010. All the same where the costs are.
+    """
+    span = cost.max() - cost.min()
+    return softmax(-eliteness * (cost - cost.min()) / span) if span > 0 else np.full(cost.size, 1 / cost.size)
+
+
+class PI2(Learner):
+    """PI² (Theodorou, Buchli and Schaal, JMLR 11, 2010) in its black-box form: the probability-weighted mean of the trials,
+
+    theta <- sum_k P_k theta_k
+
+    and exploration that is not learned, but shrinks by ``decay`` each generation, down to ``floor`` of the first.
+    Arguments beside those of `Sampler`: eliteness: h of the probabilities. decay, floor: shares.
+    """
+
+    def __init__(
+        self,
+        mean: Array,
+        *,
+        factor: Array | None = None,
+        step: float,
+        seed: int | tuple[int, ...],
+        population: int | None = None,
+        eliteness: float = 10.0,
+        decay: float = 0.98,
+        floor: float = 0.01,
+    ) -> None:
+        super().__init__(mean, factor=factor, step=step, seed=seed, population=population)
+        self._eliteness = checked_positive("eliteness", eliteness)
+        self._decay, self._floor = checked_share("decay", decay), checked_share("floor", floor)
+        self._step = self._first_step
+
+    @property
+    def step(self) -> float:
+        return self._step
+
+    def scale_step(self, factor: float) -> None:
+        self._step *= factor
+
+    def _draw(self, n: int) -> Array:
+        return self._step * self._generator.standard_normal((n, self._centre.size))
+
+    def _learn(self, z: Array, cost: Array) -> None:
+        self._centre = probabilities(cost, self._eliteness) @ z
+        self._step = max(self._step * self._decay, min(self._step, self._floor * self._first_step))
+
+
+class PI2CMA(Learner):
+    """PI²-CMA (Stulp and Sigaud, ICML 2012, arXiv 1206.4621, Table 1): the same probabilities adapt the covariance, too,
+
+    Sigma <- sum_k P_k (theta_k - theta)(theta_k - theta)'        (their eq. 17; theta is the mean before the update)
+
+    Arguments beside those of `Sampler`: eliteness: h of the probabilities. rate: share of the new covariance, the rest
+    is the old one; 0.5 / sqrt(m) if None: the paper's 1 is too much where a full covariance has far more
+    entries than a generation has trials. floor: standard deviation that is
+    always there, as a share of ``step``.
+    """
+
+    def __init__(
+        self,
+        mean: Array,
+        *,
+        factor: Array | None = None,
+        step: float,
+        seed: int | tuple[int, ...],
+        population: int | None = None,
+        eliteness: float = 10.0,
+        rate: float | None = None,
+        floor: float = 0.0001,
+    ) -> None:
+        super().__init__(mean, factor=factor, step=step, seed=seed, population=population)
+        self._eliteness = checked_positive("eliteness", eliteness)
+        self._rate = checked_share("rate", 0.5 / math.sqrt(self._centre.size) if rate is None else rate)
+        self._floor = checked_share("floor", floor)
+        self._covariance = self._first_step**2 * np.eye(self._centre.size)
+
+    @property
+    def step(self) -> float:
+        return float(np.sqrt(np.diagonal(self._covariance).mean()))
+
+    def scale_step(self, factor: float) -> None:
+        self._covariance *= factor**2
+
+    def _draw(self, n: int) -> Array:
+        least = (self._floor * self._first_step) ** 2  # also what keeps the root from failing
+        root = np.linalg.cholesky(self._covariance + least * np.eye(self._centre.size))
+        return self._generator.standard_normal((n, self._centre.size)) @ root.T
+
+    def _learn(self, z: Array, cost: Array) -> None:
+        probability = probabilities(cost, self._eliteness)
+        deviation = z - self._centre
+        learned = (deviation.T * probability) @ deviation
+        self._covariance += self._rate * (learned - self._covariance)
+        self._centre = probability @ z

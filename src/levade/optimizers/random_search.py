@@ -1,0 +1,25 @@
+"""Pure random search: what a search has to be better than."""
+
+from __future__ import annotations
+
+from levade.optimizers.sampling import Sampler
+from levade.trajectory import Array
+
+
+class RandomSearch(Sampler):
+    """Samples round the start, always the same distribution (Brooks, Operations Research 6(2), 1958). Arguments as
+    `Sampler`; nothing is learned, and there is no injecting candidates, which would no longer be random.
+    """
+
+    @property
+    def step(self) -> float:
+        return self._first_step
+
+    def scale_step(self, factor: float) -> None:
+        self._first_step *= factor
+
+    def _draw(self, n: int) -> Array:
+        return self._first_step * self._generator.standard_normal((n, self._centre.size))
+
+    def _learn(self, z: Array, cost: Array) -> None:
+        pass

@@ -1,0 +1,59 @@
+"""Where a reference comes from and where it goes to, whatever the weights say.
+
+    q(t) = (r(t) - s(t)) f(t) + (1 - r(t)) start + s(t) goal,        f: eq. 3
+
+r rises from 0 to 1 in the first part of the horizon, s in the last: the reference departs from what the joints were told
+last, without a jump, and settles in a posture. A search then has to find only what lies between.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from levade.errors import LevadeError
+from levade.trajectory import Array
+
+
+@dataclass(frozen=True, eq=False)
+class Ends:
+    """The two ends of a reference.
+
+    start, goal: (joints,) [rad]. depart, settle: shares of the horizon in which the reference leaves ``start`` and goes
+    over to ``goal``, which it reaches at the horizon; 0 for neither. Raises LevadeError if they overlap.
+    """
+
+    start: Array
+    goal: Array
+    depart: float = 0.0
+    settle: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name, share in (("depart", self.depart), ("settle", self.settle)):
+            if not (math.isfinite(share) and share >= 0):
+                raise LevadeError(f"{name}: {share} is not a share of the horizon; 0 to 1")
+        if self.depart + self.settle > 1:
+            raise LevadeError(f"settle: {self.settle} and depart: {self.depart} are together more than the horizon")
+
+    def blend(self, share: Array) -> tuple[Array, Array, Array, Array]:
+        """How much of the kernels' reference counts and what is added to it, at shares (rows,) of the horizon.
+
+        Returns the factor (rows, 1) [-] and the addition (rows, joints) [rad], and their derivatives by the share.
+        """
+        rise, rise_rate = _step(share, 0.0, self.depart)
+        fall, fall_rate = _step(share, 1.0 - self.settle, 1.0)
+        if self.settle == 0:
+            fall, fall_rate = np.zeros_like(fall), np.zeros_like(fall)
+        added = (1.0 - rise) * self.start + fall * self.goal
+        return rise - fall, added, rise_rate - fall_rate, fall_rate * self.goal - rise_rate * self.start
+
+
+def _step(share: Array, begin: float, end: float) -> tuple[Array, Array]:
+    """From 0 to 1 between begin and end with the least jerk (10 u^3 - 15 u^4 + 6 u^5), and the derivative; (rows, 1)."""
+    if end <= begin:
+        return np.ones((len(share), 1)), np.zeros((len(share), 1))
+    u = np.clip((share - begin) / (end - begin), 0.0, 1.0)[:, None]
+    rise = np.where(u == 1.0, 1.0, u**3 * (10.0 - 15.0 * u + 6.0 * u**2))
+    return rise, 30.0 * u**2 * (1.0 - u) ** 2 / (end - begin)

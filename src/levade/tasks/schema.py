@@ -1,0 +1,150 @@
+"""The form of a task file as a JSON schema, for editors: completion, and mistakes underlined while typing.
+
+    schema = task_schema()                          # levade tasks schema > task.schema.json
+
+It follows from the dataclasses of a task and its terms: their fields, types and docstrings. What it cannot say (bounds in the
+right order, a group for every leg) `levade.tasks.load_task` says.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+import types
+import typing
+from collections.abc import Mapping
+from typing import Any, Literal
+
+from levade.costs import Criterion
+from levade.costs.success import QUANTITIES
+from levade.tasks.document import TERMS
+from levade.tasks.task import Task
+from levade.tasks.units import PLURALS, ROBOT_UNITS, UNITS, measured
+
+Schema = dict[str, Any]
+
+DIALECT = "https://json-schema.org/draft/2020-12/schema"
+
+
+def task_schema() -> Schema:
+    """The JSON schema (draft 2020-12) of task files."""
+    definitions: dict[str, Schema] = {}
+    task = _table(Task, definitions)
+    task["properties"]["costs"] = _costs(definitions)
+    task["properties"]["success"] = _success(definitions)
+    definitions["Stage"]["properties"]["promote"] = {"type": "object", "additionalProperties": _number("any")}
+    heights = definitions["Terrain"]
+    heights["properties"]["file"] = {"type": "string", "description": "A .npy of heights in m, or an image."}
+    heights["properties"]["height"] = _number("a length") | {"description": "Of white, in an image."}
+    heights["required"] = ["size"]
+    heights["oneOf"] = [{"required": ["heights"]}, {"required": ["file"]}]
+    definitions["StartChoice"] |= {"minProperties": 1, "maxProperties": 1}
+    return {"$schema": DIALECT, "title": "levade task", **task, "$defs": definitions}
+
+
+def _costs(definitions: dict[str, Schema]) -> Schema:
+    """A cost is named after its term, or says which it is."""
+    for name, term in TERMS.items():
+        definitions[f"term {name}"] = table = _table(term, definitions, term=name)
+        table["properties"] |= {"term": {"const": name}, "weight": {"type": "number"}}
+        table["required"] = [*table.get("required", []), "weight"]
+    explicit = {"required": ["term"], "oneOf": [_reference(f"term {name}") for name in TERMS]}
+    named = {
+        name: {"if": {"required": ["term"]}, "then": explicit, "else": _reference(f"term {name}")} for name in TERMS
+    }
+    return {
+        "type": "object",
+        "description": "Name -> term and weight, the paper's Q.",
+        "properties": named,
+        "additionalProperties": explicit,
+        "minProperties": 1,
+    }
+
+
+def _success(definitions: dict[str, Schema]) -> Schema:
+    """A criterion is named after its quantity, or says which it is."""
+    table = definitions["Criterion"] = _table(Criterion, definitions)
+    del table["required"]
+    return {
+        "type": "object",
+        "description": "Name -> criterion; a motion succeeds when all hold.",
+        "properties": {name: _reference("Criterion") for name in QUANTITIES},
+        "additionalProperties": {"allOf": [_reference("Criterion"), {"required": ["quantity"]}]},
+    }
+
+
+def _table(kind: Any, definitions: dict[str, Schema], *, term: str | None = None) -> Schema:
+    """The schema of a dataclass."""
+    fields = [field for field in dataclasses.fields(kind) if field.init]
+    hints, texts = typing.get_type_hints(kind), _described(kind, [field.name for field in fields])
+    properties: dict[str, Schema] = {}
+    for field in fields:
+        if kind is Task and field.name in ("costs", "success"):
+            continue
+        measures = "any" if kind is Criterion else measured(field.name, {"term": term})
+        if term == "miss" and field.name in ("target", "tolerance", "minimum", "maximum", "scale"):
+            measures = "any"
+        schema = _schema(hints[field.name], measures, definitions)
+        if field.name in texts:
+            schema = {"description": texts[field.name], **schema}
+        if isinstance(field.default, (bool, int, float, str)):
+            schema["default"] = field.default
+        properties[field.name] = schema
+    missing = dataclasses.MISSING
+    required = [f.name for f in fields if f.default is missing and f.default_factory is missing]
+    summary = " ".join((kind.__doc__ or "").strip().split("\n\n")[0].split())
+    schema = {"type": "object", "description": summary, "properties": properties, "additionalProperties": False}
+    return schema | ({"required": required} if required else {})
+
+
+def _schema(hint: Any, measures: str | None, definitions: dict[str, Schema]) -> Schema:
+    """The schema of a type; numbers may have the units of what they measure."""
+    origin, arguments = typing.get_origin(hint), typing.get_args(hint)
+    if dataclasses.is_dataclass(hint):
+        name = typing.cast(type, hint).__name__
+        if name not in definitions:
+            definitions[name] = {}  # a place, for those that hold themselves
+            definitions[name] = _table(hint, definitions)
+        return _reference(name)
+    if origin in (typing.Union, types.UnionType):
+        return {"anyOf": [_schema(argument, measures, definitions) for argument in arguments]}
+    if origin is Literal:
+        return {"enum": list(arguments)}
+    if origin in (tuple, list):
+        if arguments[-1] is Ellipsis or origin is list:
+            return {"type": "array", "items": _schema(arguments[0], measures, definitions)}
+        items = [_schema(argument, measures, definitions) for argument in arguments]
+        return {"type": "array", "prefixItems": items, "minItems": len(items), "maxItems": len(items)}
+    if isinstance(origin, type) and issubclass(origin, Mapping):
+        return {"type": "object", "additionalProperties": _schema(arguments[1], measures, definitions)}
+    if hint is float:
+        return _number(measures)
+    plain = {int: "integer", str: "string", bool: "boolean", type(None): "null"}
+    return {"type": plain[hint]}
+
+
+def _number(measures: str | None) -> Schema:
+    """A number, or a text with a number and a unit that fits."""
+    if measures is None:
+        return {"type": "number"}
+    kinds = {name: kind for name, (kind, _) in (UNITS | ROBOT_UNITS).items()}
+    kinds |= {plural: kinds[one] for plural, one in PLURALS.items()}
+    fitting = sorted(name for name, kind in kinds.items() if measures in ("any", kind))
+    pattern = r"^\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*(" + "|".join(map(re.escape, fitting)) + r")\s*$"
+    return {"anyOf": [{"type": "number"}, {"type": "string", "pattern": pattern}]}
+
+
+def _reference(name: str) -> Schema:
+    return {"$ref": f"#/$defs/{name.replace(' ', '%20')}"}
+
+
+def _described(kind: Any, names: list[str]) -> dict[str, str]:
+    """Field -> what the docstring says of it, where it says ``field: ...`` or ``one, other: ...``."""
+    text = " ".join((kind.__doc__ or "").split())
+    label = r"(?:" + "|".join(map(re.escape, names)) + r")"
+    parts = re.split(rf"(?:^|(?<=[.;)] ))({label}(?:, {label})*): ", text)
+    described = {}
+    for labels, what in zip(parts[1::2], parts[2::2], strict=True):
+        for name in labels.split(", "):
+            described[name] = re.sub(r" ?Raises LevadeError.*", "", what).strip().replace("``", "'")
+    return described

@@ -1,0 +1,26 @@
+"""What the 3D player of a served page draws."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from levade.motion import Motion
+from levade.report.scene import scene_data
+from levade.solve import Objective
+
+_RATE = 100.0
+"""[Hz], poses a second of motions that a better one will soon replace."""
+
+
+class LiveScenes:
+    """Scenes of motions of one objective: shapes and colours are made once."""
+
+    def __init__(self, objective: Objective) -> None:
+        self._model = objective.engine.model
+        self._like: dict[str, Any] | None = None
+
+    def __call__(self, motion: Motion) -> dict[str, Any]:
+        """As `levade.report.scene.scene_data`."""
+        scene = scene_data(motion, like=self._like, model=self._model, rate=_RATE)
+        self._like = self._like or scene
+        return scene

@@ -1,0 +1,108 @@
+"""``levade export``: what it writes where, what it prints, and what it says of wrong input."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from levade.cli import main
+from levade.export import FORMATS
+from levade.run import run
+from levade.tasks import load_task
+
+
+@pytest.fixture(scope="module")
+def motion(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A motion that has not met its goal."""
+    directory = tmp_path_factory.mktemp("runs") / "rearing"
+    run(load_task("rearing", changes=["search.population=8", "search.trials=16"]), seed=0, directory=directory)
+    return directory / "motion.npz"
+
+
+def levade(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:
+    with pytest.raises(SystemExit) as stopped:
+        main([str(argument) for argument in arguments])
+    out, err = capsys.readouterr()
+    assert isinstance(stopped.value.code, int)
+    return stopped.value.code, out, err
+
+
+@pytest.mark.parametrize("to", FORMATS)
+def test_it_prints_what_was_written(motion: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], to: str) -> None:
+    if to == "ros2":
+        pytest.importorskip("mcap", reason="a bag needs mcap: pip install levade[ros2]")
+    status, out, err = levade(capsys, "export", motion, "--to", to, "--out", tmp_path / to, "--json")
+    assert (status, err, out.count("\n")) == (0, "", 1)
+    content = json.loads(out)
+    assert content["format"] == to
+    assert sorted(content["written"]) == sorted(str(p) for p in (tmp_path / to).rglob("*") if p.is_file())
+    assert content["rate"] == {"mjlab": 50.0}.get(to, 500.0)
+    assert content["rows"] == round(0.3 * content["rate"]) + 1
+    assert len(content["joints"]) == 12
+    assert content["notes"][0] == "the motion does not meet its success criteria"
+    assert Path(tmp_path / to / "player.py").read_text().startswith("#!/usr/bin/env python3\n")
+    status, out, err = levade(capsys, "export", motion, "--to", to, "--out", tmp_path / to)
+    assert (status, err) == (0, "")
+    assert "rows at" in out
+    assert "player.py" in out
+
+
+def test_it_writes_beside_the_motion_and_records_the_command(
+    motion: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "my run").mkdir()
+    copy = tmp_path / "my run" / "motion.npz"
+    copy.write_bytes(motion.read_bytes())
+    monkeypatch.chdir(tmp_path)
+    status, out, _ = levade(
+        *(capsys, "export", "my run/motion.npz", "--to", "csv", "--rate", 250, "--reference", "commanded", "--no-hold")
+    )
+    assert status == 0
+    assert "Written to my run/motion-csv: meta.json, motion.csv, player.py" in out
+    meta = json.loads((tmp_path / "my run" / "motion-csv" / "meta.json").read_text())
+    command = "levade export 'my run/motion.npz' --to csv --rate 250 --reference commanded --no-hold"
+    assert meta["provenance"]["command"] == command
+    assert meta["rate"] == 250.0
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--to", "cvs"], "--to: no format 'cvs'; did you mean csv?"),
+        (["--to", "urdf"], "--to: no format 'urdf'; valid names: csv, json, mjlab, ros2, unitree"),
+        ([], "say in which format: --to csv, json, ros2, mjlab, unitree"),
+        (["--to", "csv", "--out", "x.csv"], "--out x.csv: several files are written; give a directory, such as x"),
+        (["--to", "csv", "--rate", "0"], "--rate 0.0: should be a positive number of rows per second"),
+        (["--to", "csv", "--rate", "fast"], "Invalid value for '--rate'"),
+        (["--to", "csv", "--reference", "both"], "--reference: no reference 'both'; valid names: commanded, measured"),
+        (["--to", "csv", "--kp", "60", "--reference", "commanded"], "--kp 60.0: commanded references only make"),
+        (["--to", "csv", "--kd", "-1"], "--kd -1.0: should be a number that is not negative"),
+        (["--to", "csv", "--out", "/dev/null/x"], "/dev/null/x: cannot be written (Not a directory)"),
+        (["--to", "csv", "--out", "/proc/x"], "/proc/x: cannot be written"),
+    ],
+)
+def test_wrong_input_is_one_line_and_nothing_is_written(
+    motion: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    options: list[str],
+    message: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    before = sorted(path.name for path in motion.parent.iterdir())
+    status, out, err = levade(capsys, "export", motion, *options)
+    assert (status, out) == (2, "")
+    assert message in err
+    assert err.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+    assert sorted(path.name for path in motion.parent.iterdir()) == before
+
+
+def test_what_is_no_motion(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    status, _, err = levade(capsys, "export", tmp_path / "none.npz", "--to", "csv")
+    assert status == 2
+    assert "no such file; give the motion.npz that levade solve wrote" in err
+    assert levade(capsys, "export")[0] == 2

@@ -1,0 +1,44 @@
+"""Two motions to export: one that meets its goal, and one with a hold that need not."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import mujoco
+import pytest
+
+from levade.export.model import compile_model
+from levade.motion import Motion, record
+from levade.solve import Objective, solve
+from levade.tasks import load_task
+
+
+@pytest.fixture(scope="session")
+def objective() -> Objective:
+    return Objective(load_task("rearing"))
+
+
+@pytest.fixture(scope="session")
+def rearing(objective: Objective) -> Motion:
+    """A motion of 0.3 s that rears, 150 steps of 2 ms, joints driven with a lag."""
+    return record(objective, solve(objective, seed=0), seed=0)
+
+
+@pytest.fixture(scope="session")
+def rearing_model(rearing: Motion) -> mujoco.MjModel:
+    return compile_model(rearing)
+
+
+@pytest.fixture(scope="session")
+def held() -> Motion:
+    """16 trials of the recovery with 0.1 s of hold, every leg on its own, joints driven without a lag."""
+    changes = ["search.population=8", "search.trials=16", "hold=0.1", "robot.actuation=ideal"]
+    small = Objective(load_task("posture-recovery", changes=changes))
+    return record(small, solve(small, seed=0), seed=0)
+
+
+@pytest.fixture(scope="session")
+def motion_file(rearing: Motion, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("rearing") / "motion.npz"
+    rearing.save(path)
+    return path

@@ -1,0 +1,304 @@
+"""The player: against MuJoCo made from the motion's own model, against robots that misbehave, and on its own."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import time
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+
+from levade.export import export
+from levade.export.player import Motion as Played
+from levade.export.player import StandIn, Stopped, clock, main, play
+from levade.motion import Motion
+from levade.trajectory import roll_pitch_yaw
+
+
+def no_clock(instant: float) -> float:
+    return 0.0
+
+
+@dataclass
+class Simulated:
+    """The robot of a motion in MuJoCo, one physics step a command.
+
+    lagging: driven as in the motion, by its own actuators; torque goes in by way of the position, ``position + torque / kp``.
+    Else by ideal drives, which deliver what is commanded up to the torque limit.
+    """
+
+    motion: Motion
+    lagging: bool
+    timestep: float | None = None
+    states: list[np.ndarray] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        spec = mujoco.MjSpec.from_string(self.motion.model_xml)
+        names = self.motion["joint_names"].tolist()
+        if not self.lagging:
+            for name, limit in zip(names, self.motion.meta["limits"]["torque"], strict=True):
+                actuator = spec.actuator(name)
+                actuator.set_to_motor()
+                actuator.ctrlspec, actuator.actdim = 0, -1
+                actuator.forcerange = [-limit, limit]
+        if self.timestep is not None:
+            spec.option.timestep = self.timestep
+        self.model = spec.compile()
+        assert self.model.nu == (24 if self.lagging else 12)
+        self.data = mujoco.MjData(self.model)
+        self.data.qpos[:], self.data.qvel[:] = self.motion["qpos0"], self.motion["qvel0"]
+        self.data.act[:] = self.motion["act0"][: self.model.na]
+
+    def read(self) -> tuple[np.ndarray, np.ndarray]:
+        return self.data.qpos[7:].copy(), self.data.qvel[6:].copy()
+
+    def write(self, position, velocity, torque, kp, kd) -> None:
+        self.states.append(np.concatenate([self.data.qpos, self.data.qvel]))
+        if self.lagging:
+            self.data.ctrl[0::2], self.data.ctrl[1::2] = position + torque / kp, velocity
+        else:
+            now, rate = self.read()
+            self.data.ctrl[:] = kp * (position - now) + kd * (velocity - rate) + torque
+        mujoco.mj_step(self.model, self.data)
+
+    def off(self) -> tuple[float, float]:
+        """[rad], [m]: pitch and height at the last command, the horizon, against the motion."""
+        qpos = self.states[-1][:19]
+        row = self.motion.horizon_steps - 1
+        pitch, meant = (roll_pitch_yaw(q)[1] for q in (qpos[3:7], self.motion["trunk_quaternion"][row]))
+        return abs(pitch - meant), abs(qpos[2] - self.motion["trunk_position"][row, 2])
+
+
+def played(motion: Motion, directory: Path, **options) -> Played:
+    export(motion, "csv", directory, hold=False, **options)
+    return Played.load(directory / "motion.csv")
+
+
+def test_commanded_references_are_the_simulation_again_to_the_bit(rearing: Motion, tmp_path: Path) -> None:
+    robot = Simulated(rearing, lagging=True)
+    worst = play(played(rearing, tmp_path, reference="commanded"), robot, ramp=0.0, wait=no_clock)
+    states = np.array(robot.states)[1:]
+    assert worst == 0.0
+    np.testing.assert_array_equal(states[:, :3], rearing["trunk_position"])
+    np.testing.assert_array_equal(states[:, 3:7], rearing["trunk_quaternion"])
+    np.testing.assert_array_equal(states[:, 7:19], rearing["joint_position"])
+    np.testing.assert_array_equal(states[:, 25:], rearing["joint_velocity"])
+
+
+@pytest.mark.parametrize("reference", ["commanded", "measured"])
+def test_after_the_ramp_the_goal_is_reached(rearing: Motion, tmp_path: Path, reference: str) -> None:
+    """From a stand that is not quite the start, on drives with the lag that the motion was found with."""
+    robot = Simulated(rearing, lagging=True)
+    robot.data.qpos[7:] += 0.03 * np.random.default_rng(0).normal(size=12)
+    worst = play(played(rearing, tmp_path, reference=reference), robot, ramp=1.0, wait=no_clock)
+    pitch, height = robot.off()
+    assert len(robot.states) == 500 + 151
+    assert pitch < 0.03
+    assert height < 0.03
+    assert worst < 0.3
+
+
+@pytest.mark.parametrize("rate", [500.0, 1000.0])
+def test_measured_references_reach_the_goal_on_other_drives_and_commanded_ones_do_not(
+    rearing: Motion, tmp_path: Path, rate: float
+) -> None:
+    """Drives without lag, and with half the gains: measured references bring their torque along. So they are the default."""
+    off = {}
+    for reference, options in (("measured", {}), ("measured", {"kp": 300.0, "kd": 12.0}), ("commanded", {})):
+        robot = Simulated(rearing, lagging=False, timestep=1 / rate)
+        motion = played(rearing, tmp_path, rate=rate, reference=reference, **options)
+        play(motion, robot, ramp=1.0, tolerance=9.0, wait=no_clock)
+        off[reference, len(options)] = robot.off()
+    for pitch, height in (off["measured", 0], off["measured", 2]):
+        assert pitch < 0.03
+        assert height < 0.03
+    assert sum(off["commanded", 0]) > 2 * max(sum(off["measured", 0]), sum(off["measured", 2]))
+
+
+@pytest.fixture(scope="module")
+def motion(rearing: Motion, tmp_path_factory: pytest.TempPathFactory) -> Played:
+    return played(rearing, tmp_path_factory.mktemp("player"))
+
+
+@dataclass
+class Faulty:
+    """Does what it should, but for one fault."""
+
+    motion: Played
+    start: np.ndarray | None = None
+    freeze_at: int | None = None
+    nan_at: int | None = None
+    sent: list[tuple[np.ndarray, ...]] = field(default_factory=list)
+
+    def read(self) -> tuple[np.ndarray, np.ndarray]:
+        row = len(self.sent) if self.freeze_at is None else min(len(self.sent), self.freeze_at)
+        position = self.motion.expected[min(row, len(self.motion.expected) - 1)].copy()
+        if self.start is not None:
+            position = self.start
+        if self.nan_at is not None and len(self.sent) >= self.nan_at:
+            position[4] = np.nan
+        return position, np.zeros(12)
+
+    def write(self, *command: np.ndarray) -> None:
+        self.sent.append(command)
+
+
+def damps(motion: Played, robot: Faulty) -> bool:
+    """Whether the last commands are damping and nothing else, for a second."""
+    last = robot.sent[-500:]
+    return all(
+        (kp == 0).all() and (tau == 0).all() and (qd == 0).all() and (kd == motion.kd).all()
+        for _, qd, tau, kp, kd in last
+    )
+
+
+def test_it_does_not_begin_far_from_the_start(motion: Played) -> None:
+    robot = Faulty(motion, start=motion.start_position + np.eye(12)[7] * 0.6)
+    with pytest.raises(Stopped, match=r"lh_hfe is at .* before the ramp: bring it near the start first"):
+        play(motion, robot, wait=no_clock)
+    assert damps(motion, robot)
+    assert len(robot.sent) == 500
+
+
+def test_it_does_not_begin_if_the_ramp_did_not_get_there(motion: Played) -> None:
+    robot = Faulty(motion, start=motion.start_position + np.eye(12)[2] * 0.4)
+    with pytest.raises(Stopped, match=r"lf_kfe .* within 0.3 at 0.000 s"):
+        play(motion, robot, ramp=0.1, wait=no_clock)
+    assert len(robot.sent) == 50 + 500
+
+
+def test_it_stops_when_a_joint_is_left_behind(motion: Played) -> None:
+    robot = Faulty(motion, freeze_at=20)
+    with pytest.raises(Stopped, match=r"_[hk]fe is at .* should be at .* within 0.3 at 0\.\d\d\d s"):
+        play(motion, robot, ramp=0.0, wait=no_clock)
+    assert 20 < len(robot.sent) - 500 < 120
+    assert damps(motion, robot)
+
+
+def test_it_stops_at_readings_that_are_no_numbers_and_at_exceptions(motion: Played) -> None:
+    robot = Faulty(motion, nan_at=10)
+    with pytest.raises(Stopped, match="should be 12 numbers"):
+        play(motion, robot, ramp=0.0, wait=no_clock)
+    assert damps(motion, robot)
+    robot = Faulty(motion)
+
+    def interrupted(instant: float) -> float:
+        if instant > 0.05:
+            raise KeyboardInterrupt
+        return 0.0
+
+    with pytest.raises(KeyboardInterrupt):
+        play(motion, robot, ramp=0.0, wait=interrupted)
+    assert damps(motion, robot)
+
+
+def test_it_stops_when_it_is_late(motion: Played) -> None:
+    with pytest.raises(Stopped, match="the loop is 30 ms late; 500 Hz is too fast for it"):
+        play(motion, Faulty(motion), ramp=0.0, wait=lambda instant: 0.03 if instant > 0.1 else 0.0)
+
+
+def test_what_it_sends_is_within_the_limits(motion: Played) -> None:
+    narrow = replace(
+        motion,
+        lower=motion.position.min(axis=0) + 0.02,
+        upper=motion.position.max(axis=0) - 0.02,
+        torque_limit=np.full(12, 50.0),
+    )
+    robot = Faulty(motion)
+    play(narrow, robot, ramp=0.2, tolerance=9.0, wait=no_clock)
+    position, _, torque = (np.array(values) for values in list(zip(*robot.sent, strict=True))[:3])
+    sent = position[100:]
+    assert (sent >= narrow.lower).all()
+    assert (sent <= narrow.upper).all()
+    assert np.abs(torque).max() <= 50.0
+    assert (np.abs(motion.torque) > 50.0).any()
+    inside = (motion.position > narrow.lower) & (motion.position < narrow.upper)
+    np.testing.assert_array_equal(sent[inside], motion.position[inside])
+
+
+def test_the_ramp_leads_from_where_the_joints_are_and_the_last_row_is_held(motion: Played) -> None:
+    robot = StandIn(motion, ramp=0.5)
+    first, _ = robot.read()
+    commands: list[tuple[np.ndarray, ...]] = []
+    write = robot.write
+    robot.write = lambda *command: (commands.append(command), write(*command))[1]  # type: ignore[method-assign]
+    assert play(motion, robot, ramp=0.5, hold=0.1, wait=no_clock) < 1e-9
+    assert len(commands) == 250 + 151 + 50
+    position = np.array([command[0] for command in commands])
+    assert np.abs(position[0] - first).max() < 1e-4
+    np.testing.assert_allclose(position[249], motion.start_position, atol=1e-12)
+    assert np.abs(np.diff(position[:250], axis=0)).max() < 0.05 * 2 / 250
+    np.testing.assert_allclose(commands[249][2], motion.start_torque, atol=1e-9)
+    np.testing.assert_array_equal(position[-50:], np.tile(motion.position[-1], (50, 1)))
+
+
+def test_no_tick_comes_before_its_time() -> None:
+    wait = clock()
+    began = time.perf_counter()
+    for tick in range(1, 11):
+        wait(tick * 0.002)
+        assert time.perf_counter() - began >= (tick - 1) * 0.002 - 1e-4  # the clock begins with the first tick
+    time.sleep(0.05)
+    assert wait(0.024) > 0.02
+
+
+def test_csv_and_json_hold_the_same(rearing: Motion, tmp_path: Path) -> None:
+    export(rearing, "csv", tmp_path)
+    export(rearing, "json", tmp_path)
+    one, two = (Played.load(tmp_path / name) for name in ("motion.csv", "motion.json"))
+    for name, value in vars(one).items():
+        np.testing.assert_array_equal(value, getattr(two, name), err_msg=name)
+
+
+BARE = """
+import runpy, sys
+for name in ("levade", "mujoco", "yaml", "rich"):
+    sys.modules[name] = None
+sys.argv = ["player.py", *sys.argv[1:]]
+runpy.run_path("player.py", run_name="__main__")
+"""
+
+
+@pytest.mark.parametrize("to", ["csv", "json", "unitree", "mjlab"])
+def test_on_its_own_with_numpy_alone(rearing: Motion, tmp_path: Path, to: str) -> None:
+    export(rearing, to, tmp_path)
+    name = "motion.json" if to == "json" else "motion.csv"
+    command = [sys.executable, "-c", BARE, name, "--dry-run"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "played to the end; largest tracking error" in done.stdout
+
+
+def test_its_command_line(
+    rearing: Motion, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    export(rearing, "csv", tmp_path)
+    for arguments, message in (
+        (["motion.csv"], "give one of --dry-run and --robot"),
+        (["motion.csv", "--dry-run", "--ramp", "-1"], "should not be negative"),
+    ):
+        with pytest.raises(SystemExit) as exit_:
+            main(arguments)
+        assert exit_.value.code == 2
+        assert message in capsys.readouterr().err
+    assert main(["none.csv", "--dry-run"]) == 2
+    assert "none.csv" in capsys.readouterr().err
+    assert main(["motion.csv", "--robot", "my_robot"]) == 2
+    assert "should be MODULE:CLASS" in capsys.readouterr().err
+    (tmp_path / "my_robot_here.py").write_text(
+        "import numpy as np\n"
+        "class Lying:\n"
+        "    def read(self): return np.zeros(12), np.zeros(12)\n"
+        "    def write(self, *command): pass\n"
+    )
+    assert main(["motion.csv", "--robot", "my_robot_here:Lying"]) == 1
+    assert "stopped: " in capsys.readouterr().err
+    lines = (tmp_path / "motion.csv").read_text().splitlines()
+    (tmp_path / "motion.csv").write_text("\n".join(lines[:100]) + "\n")
+    assert main(["motion.csv", "--dry-run"]) == 2
+    assert "not 151 rows of numbers" in capsys.readouterr().err
