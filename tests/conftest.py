@@ -1,9 +1,10 @@
-"""Settings that every test shares."""
+"""Settings that every test shares, and a robot that tests write to files."""
 
 from __future__ import annotations
 
 import shutil
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Any
 
 import pytest
@@ -28,3 +29,121 @@ def browser() -> Iterator[Any]:
         browser = started.chromium.launch(executable_path=chromium, args=flags)
         yield browser
         browser.close()
+
+
+@dataclass(frozen=True)
+class Quadruped:
+    """A robot of boxes and balls, as URDF or MJCF; every number is also here, for closed forms.
+
+    legs: name -> direction along x and y. joints: of a leg: 2 without hip abduction, 4 with an ankle. knees: "inward", as
+    HyQ's, or "back", all the same way, as Go1's. forward: axis of the file's frame that points forward, "x" or "y".
+    """
+
+    legs: tuple[tuple[str, int, int], ...] = (("lf", 1, 1), ("rf", 1, -1), ("lh", -1, 1), ("rh", -1, -1))
+    joints: int = 3
+    knees: str = "inward"
+    forward: str = "x"
+
+    LINK = 0.2  # m, thigh and shank
+    HIP = (0.2, 0.08)  # m, of the abduction's axis
+    OUT = 0.05  # m, from abduction to hip flexion
+    FOOT = 0.02  # m, radius
+    MASS = (6.0, 0.5, 0.8, 0.2, 0.05)  # kg, trunk, hip, thigh, shank, foot
+    EFFORT, VELOCITY, DAMPING = 20.0, 15.0, 0.1
+    ABDUCTION, FLEXION, KNEE = (-0.8, 0.8), (-1.5, 1.5), (0.2, 2.5)  # rad
+
+    @property
+    def mass(self) -> float:
+        trunk, hip, thigh, shank, foot = self.MASS
+        return trunk + len(self.legs) * ((hip if self.joints > 2 else 0) + thigh + shank + foot)
+
+    def _place(self, x: float, y: float, z: float) -> str:
+        return f"{x:g} {y:g} {z:g}" if self.forward == "x" else f"{-y:g} {x:g} {z:g}"
+
+    @property
+    def _axes(self) -> tuple[str, str]:
+        """Along the robot, and to its left."""
+        return (self._place(1, 0, 0), self._place(0, 1, 0))
+
+    def _knee(self, end: int) -> tuple[float, float]:
+        back = end > 0 or self.knees == "back"
+        return (-self.KNEE[1], -self.KNEE[0]) if back else self.KNEE
+
+    def _chain(self, name: str, end: int, side: int) -> list[tuple[str, str, str, str, tuple[float, float], float]]:
+        """(link, joint, place, axis, range, mass) of the leg's moving links."""
+        ahead, left = self._axes
+        hip = self._place(end * self.HIP[0], side * self.HIP[1], 0)
+        thigh = self._place(0, side * self.OUT, 0)
+        if self.joints == 2:
+            hip, thigh = "", self._place(end * self.HIP[0], side * (self.HIP[1] + self.OUT), 0)
+        down = f"0 0 {-self.LINK:g}"
+        chain = [
+            (f"{name}_hip", f"{name}_haa", hip, ahead, self.ABDUCTION, self.MASS[1]),
+            (f"{name}_thigh", f"{name}_hfe", thigh, left, self.FLEXION, self.MASS[2]),
+            (f"{name}_shank", f"{name}_kfe", down, left, self._knee(end), self.MASS[3]),
+            (f"{name}_toe", f"{name}_ankle", down, left, self.FLEXION, 0.1),
+        ]
+        return chain[1:3] if self.joints == 2 else chain[: self.joints]
+
+    def urdf(self) -> str:
+        text = [f'<robot name="toy">{_link("trunk", self.MASS[0], 0.1, _BOX)}']
+        for name, end, side in self.legs:
+            parent = "trunk"
+            for link, joint, place, axis, limits, mass in self._chain(name, end, side):
+                z = 0.0 if link.endswith("_hip") else -self.LINK / 2
+                text.append(_link(link, mass, 0.002, "", z))
+                text.append(
+                    f'<joint name="{joint}" type="revolute"><parent link="{parent}"/><child link="{link}"/>'
+                    f'<origin xyz="{place}"/><axis xyz="{axis}"/><dynamics damping="{self.DAMPING}" friction="0"/>'
+                    f'<limit lower="{limits[0]}" upper="{limits[1]}" effort="{self.EFFORT}" velocity="{self.VELOCITY}"/>'
+                    "</joint>\n"
+                )
+                parent = link
+            text.append(_link(f"{name}_foot", self.MASS[4], 1e-5, f'<sphere radius="{self.FOOT}"/>'))
+            text.append(
+                f'<joint name="{name}_foot_joint" type="fixed"><parent link="{parent}"/><child link="{name}_foot"/>'
+                f'<origin xyz="0 0 {-self.LINK:g}"/></joint>\n'
+            )
+        return "".join([*text, "</robot>\n"])
+
+    def mjcf(self, actuator: str = '<position joint="{}" kp="60" kv="1.5" forcerange="-18 18"/>') -> str:
+        """actuator: one line, with the joint's name in the braces."""
+        text = [
+            '<mujoco model="toy"><compiler angle="radian"/><worldbody><geom name="floor" type="plane" size="1 1 1"/>\n'
+        ]
+        text += ['<body name="trunk" pos="0 0 0.4"><freejoint/>', _inertial(self.MASS[0], 0.1)]
+        text.append('<geom name="trunk" type="box" size="0.2 0.04 0.05"/>\n')
+        names = []
+        for name, end, side in self.legs:
+            chain = self._chain(name, end, side)
+            for link, joint, place, axis, limits, mass in chain:
+                z = 0.0 if link.endswith("_hip") else -self.LINK / 2
+                text.append(f'<body name="{link}" pos="{place}"><joint name="{joint}" axis="{axis}" ')
+                text.append(f'range="{limits[0]} {limits[1]}" damping="{self.DAMPING}"/>{_inertial(mass, 0.002, z)}\n')
+                names.append(joint)
+            text.append(f'<geom name="{name}_foot" size="{self.FOOT}" pos="0 0 {-self.LINK:g}"/>')
+            text.append("</body>" * len(chain) + "\n")
+        text.append("</body></worldbody><actuator>\n")
+        text += [actuator.format(joint) for joint in names]
+        return "".join([*text, "</actuator>\n</mujoco>\n"])
+
+
+_BOX = '<box size="0.4 0.08 0.1"/>'
+
+
+def _inertial(mass: float, inertia: float, z: float = 0.0) -> str:
+    return f'<inertial mass="{mass}" pos="0 0 {z:g}" diaginertia="{inertia} {inertia} {inertia}"/>'
+
+
+def _link(name: str, mass: float, inertia: float, shape: str, z: float = 0.0) -> str:
+    collision = f"<collision><geometry>{shape}</geometry></collision>" if shape else ""
+    return (
+        f'<link name="{name}"><inertial><origin xyz="0 0 {z:g}"/><mass value="{mass}"/>'
+        f'<inertia ixx="{inertia}" iyy="{inertia}" izz="{inertia}" ixy="0" ixz="0" iyz="0"/></inertial>{collision}</link>\n'
+    )
+
+
+@pytest.fixture(scope="session")
+def quadruped() -> type[Quadruped]:
+    """`Quadruped`, from which a test makes the robot that it wants."""
+    return Quadruped

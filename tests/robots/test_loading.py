@@ -250,7 +250,7 @@ def test_mistakes_in_the_description(toy: Path, old: str, new: str, message: str
 @pytest.mark.parametrize(
     ("file", "old", "new", "message"),
     [
-        ("toy.xml", "</mujoco>", "", "toy.xml: XML parse error"),
+        ("toy.xml", "</mujoco>", "", "toy.xml: broken XML (no element found: line 21"),
         ("toy.xml", 'name="base"', 'nam="base"', "toy.xml: Schema violation: unrecognized attribute: 'nam'"),
         ("toy.xml", 'mass="1"', 'mass="-1"', "toy.xml: "),
         ("shapes.xml", "wedge.obj", "wedges.obj", "toy.xml: mesh 'wedge' not found in geom"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -31,3 +32,15 @@ def note(where: str, what: str, remedy: str = "") -> Finding:
 def warning(where: str, what: str, remedy: str) -> Finding:
     """A `Finding` of what may spoil the motion."""
     return Finding("warning", where, what, remedy)
+
+
+def some(names: Sequence[str], most: int = 4) -> str:
+    """The names, or the first few and how many more there are."""
+    more = f" and {len(names) - most} more" if len(names) > most else ""
+    return ", ".join(names[:most]) + more
+
+
+def named(kind: str, names: Sequence[str]) -> str:
+    """Where a finding is that several joints, links or bodies share, such as "joints a, b, c, d and 8 more"."""
+    plural = kind if len(names) == 1 else {"body": "bodies", "foot": "feet"}.get(kind, f"{kind}s")
+    return f"{plural} {some(names)}"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,12 +9,11 @@ import mujoco
 import numpy as np
 
 from levade.errors import LevadeError, did_you_mean
-from levade.robots import gains
-from levade.robots.actuation import PID, Actuation, DCMotor
-from levade.robots.findings import note, warning
+from levade.robots.driving import SERVO, find_actuation, find_limits
+from levade.robots.findings import note, some
 from levade.robots.packages import find_package_robot
 from levade.robots.preparing import exclude_overlaps, fix_joints, float_freely, lighten, support_servos
-from levade.robots.reading import Draft, read_model
+from levade.robots.reading import Draft, Keyframe, read_model
 from levade.robots.robot import Robot
 from levade.robots.standing import (
     CROUCHED_EXTENSION,
@@ -33,10 +31,6 @@ if TYPE_CHECKING:
 
 _BUILT_IN = Path(__file__).parent / "data"
 _MODELS = (".xml", ".urdf", ".mjcf")
-_NO_LIMIT = 4
-"""Times the torque that could carry the robot; above it, a number in a file stands for "no limit"."""
-_SERVO = "servo"
-"""Name of the actuation of a robot whose description names none."""
 
 
 def builtin_robots() -> list[tuple[str, str]]:
@@ -65,7 +59,7 @@ def load_robot(
     """
     path = _find(str(name_or_path))
     form = _describe(path)
-    valid_actuations = list(form.actuations) or [_SERVO]
+    valid_actuations = list(form.actuations) or [SERVO]
     for value, key, valid in (
         (actuation or form.actuation, "actuation", valid_actuations),
         (variant, "variant", form.variants),
@@ -90,26 +84,26 @@ def load_robot(
     if variant is not None:
         _apply_variant(draft, path, form, variant)
     bare = _understand(draft, path, form)
-    torque, velocity = _limits(draft, bare, path, form)
+    torque, velocity = find_limits(draft, bare, path, form)
     postures = _postures(draft, bare, path, form, torque)
     joints = bare.joints
+    ranges = np.array([bare.ranges[joint] for joint in joints])
     neutral = dict(zip(joints, postures["neutral"].tolist(), strict=True))
-    chosen = _actuation(actuation or form.actuation, draft, bare, path, form, neutral, torque, velocity, kp, kd)
+    limits = JointLimits(ranges[:, 0], ranges[:, 1], velocity, torque, _curves(joints, path, form) if linkage else {})
+    chosen = find_actuation(actuation or form.actuation, draft, bare, path, form, neutral, limits, kp, kd)
     exclude_overlaps(draft, bare, neutral)
     if draft.urdf:
         support_servos(draft, bare, neutral, chosen)
     thin_visuals(draft, bare.model)
     lighten(draft)
     model = draft.compile()
-    curves = _curves(joints, path, form)
-    ranges = np.array([bare.ranges[joint] for joint in joints])
     return Robot(
         name=form.name,
         mjcf=draft.spec.to_xml(),
         assets=draft.assets,
         trunk=model.body(bare.trunk).name,
         legs=bare.legs,
-        limits=JointLimits(ranges[:, 0], ranges[:, 1], velocity, torque, curves if linkage else {}),
+        limits=limits,
         actuation=chosen,
         postures=postures,
         description=form.description,
@@ -117,6 +111,7 @@ def load_robot(
         linkage=linkage,
         source=str(path),
         findings=tuple(draft.findings),
+        origins=draft.origins,
     )
 
 
@@ -157,6 +152,8 @@ def _describe(path: Path) -> RobotForm:
 
 def _understand(draft: Draft, path: Path, form: RobotForm) -> Bare:
     """Trunk and legs, as described or found; whatever else moves is fixed."""
+    from levade.robots.description import per_joint
+
     model = draft.compile()
     where = str(path)
     trunk = find_trunk(model, where)
@@ -164,38 +161,38 @@ def _understand(draft: Draft, path: Path, form: RobotForm) -> Bare:
         raise LevadeError(
             f"{path}: trunk: {form.trunk} is not the body that floats freely, {model.body(trunk).name} is"
         )
-    for joint in form.fixed:
-        names = [model.joint(j).name for j in range(model.njnt)]
-        if joint not in names:
-            raise LevadeError(f"{path}: fixed: no joint {joint!r} in {form.model}; {did_you_mean(joint, names)}")
+    free = int(model.body_jntadr[trunk])
+    movable = [model.joint(j).name for j in range(model.njnt) if j != free]
+    fixed = per_joint(form.fixed, movable, f"{path}: fixed", all_joints=False)
+    if fixed:
+        fix_joints(draft, fixed, path)
+        model = draft.compile()
+        trunk = find_trunk(model, where)
+        draft.origins["fixed"] = f"{some(list(fixed))} (robot.yaml)"
     if form.legs:
-        legs = _described_legs(model, trunk, path, form)
+        legs, others = _described_legs(model, trunk, path, form), []
         used = {joint for leg in legs for joint in leg.joints}
-        free = model.joint(int(model.body_jntadr[trunk])).name
-        others = [
-            name for j in range(model.njnt) for name in [model.joint(j).name] if name not in used and name != free
-        ]
-        for joint in others:
-            if joint not in form.fixed:
+        for joint in movable:
+            if joint not in used and joint not in fixed:
                 raise LevadeError(
                     f"{path}: legs: joint {joint} of {form.model} is in no leg; add it to one, or: fixed: {{{joint}: 0}}"
                 )
     else:
         legs, others = find_legs(model, trunk, where)
-        kept = draft.keyframes[0].angles if draft.keyframes else {}
-        if others:
-            draft.findings.append(
-                note(
-                    ", ".join(others[:4]) + (f" and {len(others) - 4} more" if len(others) > 4 else ""),
-                    "in no leg: held fixed" + (f" as in keyframe {draft.keyframes[0].name}" if kept else " at zero"),
-                    "robot.yaml, fixed: {joint: angle} holds them elsewhere",
-                )
-            )
-        form = form.model_copy(update={"fixed": {**{j: kept.get(j, 0.0) for j in others}, **form.fixed}})
+    draft.origins["legs"] = "robot.yaml" if form.legs else "found in the kinematics"
     if others:
-        fix_joints(draft, {joint: form.fixed[joint] for joint in others}, path)
+        frame = draft.keyframes[0] if draft.keyframes else None
+        fix_joints(draft, {joint: _resting(model, joint, frame) for joint in others}, path)
         model = draft.compile()
         trunk = find_trunk(model, where)
+        how = (
+            f"as in keyframe {frame.name}".rstrip() if frame else "at zero, or at the end of the range that is nearest"
+        )
+        draft.findings.append(
+            note(some(others), f"in no leg: held fixed {how}", "robot.yaml, fixed: {joint: angle} holds them elsewhere")
+        )
+        earlier = [draft.origins["fixed"]] if fixed else []
+        draft.origins["fixed"] = ", ".join([*earlier, f"{some(others)} ({'keyframe' if frame else 'zero'})"])
     ranges = {}
     for joint in (joint for leg in legs for joint in leg.joints):
         handle = model.joint(joint)
@@ -205,6 +202,14 @@ def _understand(draft: Draft, path: Path, form: RobotForm) -> Bare:
             (float(f"{handle.range[0]:.6g}"), float(f"{handle.range[1]:.6g}")) if limited else (-np.inf, np.inf)
         )
     return Bare(model, trunk, legs, ranges)
+
+
+def _resting(model: mujoco.MjModel, joint: str, frame: Keyframe | None) -> float:
+    """Where a joint of no leg is held: as in the keyframe, else at zero, or as near to it as its range allows."""
+    if frame is not None and joint in frame.angles:
+        return frame.angles[joint]
+    handle = model.joint(joint)
+    return float(np.clip(0.0, *handle.range)) if handle.limited[0] else 0.0
 
 
 def _described_legs(model: mujoco.MjModel, trunk: int, path: Path, form: RobotForm) -> tuple[Leg, ...]:
@@ -268,34 +273,6 @@ def _apply_variant(draft: Draft, path: Path, form: RobotForm, variant: str) -> N
             body.iquat = [1.0, 0.0, 0.0, 0.0]
 
 
-def _limits(draft: Draft, bare: Bare, path: Path, form: RobotForm) -> tuple[Array, Array]:
-    """Torque [Nm] and velocity [rad/s] limits, (joints,): the description's, else the model's, else assumed."""
-    from levade.robots.description import joint_array
-
-    joints = bare.joints
-    if form.limits.velocity:
-        velocity = joint_array(form.limits.velocity, joints, f"{path}: limits.velocity")
-    else:
-        velocity = np.array([draft.velocity.get(joint, np.inf) for joint in joints])
-    if form.limits.torque:
-        return joint_array(form.limits.torque, joints, f"{path}: limits.torque"), velocity
-    torque = np.array([draft.effort.get(joint, np.inf) for joint in joints])
-    mass = float(bare.model.body_mass.sum())
-    longest = max(bare.leg_length(leg) for leg in bare.legs)
-    assumed = gains.assumed_torque(mass, longest)
-    missing = [joint for joint, limit in zip(joints, torque, strict=True) if limit > _NO_LIMIT * assumed]
-    if missing and not form.actuations:
-        torque[torque > _NO_LIMIT * assumed] = assumed
-        draft.findings.append(
-            warning(
-                f"joints {', '.join(missing)}" if len(missing) < len(joints) else "all joints",
-                f"have no torque limit; {assumed:.3g} Nm is assumed",
-                "robot.yaml, limits: {torque: ...} gives the real one",
-            )
-        )
-    return torque, velocity
-
-
 def _curves(joints: tuple[str, ...], path: Path, form: RobotForm) -> dict[int, TorqueCurve]:
     from levade.robots.description import per_joint
 
@@ -317,6 +294,7 @@ def _postures(draft: Draft, bare: Bare, path: Path, form: RobotForm, torque: Arr
                 where = f"{path}: postures.{name}: {joint} = {angle:g} rad"
                 raise LevadeError(f"{where} is outside its range {lower:.4g} .. {upper:.4g} rad")
     understood = all({"hfe", "kfe"} <= set(leg.roles) for leg in bare.legs)
+    draft.origins["neutral"] = "robot.yaml"
     if "neutral" not in postures:
         if not understood:
             raise LevadeError(f"{path}: postures: neutral is missing; give the angles of the standing robot")
@@ -333,14 +311,15 @@ def _neutral(draft: Draft, bare: Bare, path: Path, torque: Array) -> dict[str, f
     keyframe = neutral_from(bare, draft.keyframes)
     if keyframe is not None:
         angles, name = keyframe
-        draft.findings.append(note("posture neutral", f"is keyframe {name or 'without a name'} of the model"))
+        draft.origins["neutral"] = f"keyframe {name or 'without a name'} of the model"
+        draft.findings.append(note("posture neutral", f"is {draft.origins['neutral']}"))
         return angles
     reachable = None
     for extension in NEUTRAL_EXTENSION:
         angles = bare.posture(extension)
         if angles is None:
             continue
-        reachable = reachable or (angles, extension)
+        reachable = angles, extension  # at last the straightest, which is the easiest to hold
         needed = bare.static_torque(angles)
         if all(abs(needed[joint]) <= limit for joint, limit in zip(bare.joints, torque, strict=True)):
             break
@@ -351,81 +330,6 @@ def _neutral(draft: Draft, bare: Bare, path: Path, torque: Array) -> dict[str, f
                 " robot.yaml, postures: {neutral: {joint: angle}}"
             )
         angles, extension = reachable
-        needed = bare.static_torque(angles)
-        joint = max(bare.joints, key=lambda j: abs(needed[j]) / torque[bare.joints.index(j)])
-        draft.findings.append(
-            warning(
-                f"joint {joint}",
-                f"needs {abs(needed[joint]):.3g} Nm to stand, more than its limit",
-                "check the limits and the masses",
-            )
-        )
-    draft.findings.append(
-        note("posture neutral", f"found by search: feet under the hips, {extension:.0%} of the leg's length below")
-    )
+    draft.origins["neutral"] = f"found by search: feet under the hips, {extension:.0%} of the leg's length below"
+    draft.findings.append(note("posture neutral", draft.origins["neutral"]))
     return angles
-
-
-def _actuation(
-    name: str | None,
-    draft: Draft,
-    bare: Bare,
-    path: Path,
-    form: RobotForm,
-    neutral: Mapping[str, float],
-    torque: Array,
-    velocity: Array,
-    kp: float | None,
-    kd: float | None,
-) -> Actuation:
-    """The actuators: the description's, else the model's servos, else servos with derived gains."""
-    from levade.robots.description import PIDForm, joint_array
-
-    joints = bare.joints
-    name = name or next(iter(form.actuations), _SERVO)
-    chosen = form.actuations.get(name)
-
-    def values(key: str) -> Array | None:
-        table = getattr(chosen, key, None)
-        return None if table is None else joint_array(table, joints, f"{path}: actuations.{name}.{key}")
-
-    kps = values("kp") if kp is None else np.full(len(joints), float(kp))
-    kds = values("kd") if kd is None else np.full(len(joints), float(kd))
-    if chosen is None and set(joints) <= set(draft.servos):
-        kept = [draft.servos[joint] for joint in joints]
-        kps = np.array([servo.kp for servo in kept], dtype=float) if kps is None else kps
-        kds = np.array([servo.kd for servo in kept], dtype=float) if kds is None else kds
-        draft.findings.append(
-            note("gains", f"are the model's own servos': {_range(kps, 'Nm/rad')}, {_range(kds, 'Nm s/rad')}")
-        )
-    if kps is None or kds is None:
-        mass = float(bare.model.body_mass.sum())
-        derived = gains.stiffness(mass, max(bare.leg_length(leg) for leg in bare.legs))
-        kps = np.full(len(joints), derived) if kps is None else kps
-        if kds is None:
-            inertia = max(bare.joint_inertia(neutral).values())
-            kds = np.full(len(joints), gains.damping(float(kps.max()), inertia))
-        draft.findings.append(
-            note(
-                "gains",
-                f"derived from mass and inertia: {_range(kps, 'Nm/rad')}, {_range(kds, 'Nm s/rad')}",
-                "robot.yaml, actuations: {servo: {kind: pid, kp: ..., kd: ...}} gives others",
-            )
-        )
-    torques = values("torque")
-    torques = torque if torques is None else torques
-    if isinstance(chosen, PIDForm) or (chosen is None and not np.isfinite(velocity).all()):
-        return PID(name, kps, kds, torques)
-    if chosen is None:
-        lines = [gains.speed_line(float(t), float(v)) for t, v in zip(torques, velocity, strict=True)]
-        stall, no_load = np.array(lines).T
-        return DCMotor(name, kps, kds, torques, stall, no_load, 0.0)
-    stall, no_load = values("stall_torque"), values("no_load_speed")
-    assert stall is not None
-    assert no_load is not None
-    return DCMotor(name, kps, kds, torques, stall, no_load, chosen.time_constant)
-
-
-def _range(values: Array, unit: str) -> str:
-    low, high = float(values.min()), float(values.max())
-    return f"{low:.3g} {unit}" if low == high else f"{low:.3g} to {high:.3g} {unit}"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from io import BytesIO
 from pathlib import Path, PurePosixPath
 
 import numpy as np
@@ -92,7 +93,8 @@ def _binary_stl(path: Path) -> bytes:
             f"{path.name}: MuJoCo does not read {path.suffix}; install levade[meshes], or convert it to binary .stl or .obj"
         ) from None
     try:
-        mesh = trimesh.load_mesh(path, process=False)
+        # from memory: beside a path it would read the textures too, which are larger than the mesh
+        mesh = trimesh.load_mesh(BytesIO(path.read_bytes()), file_type=path.suffix[1:].lower(), process=False)
         vertices, faces = np.asarray(mesh.vertices, dtype=float), np.asarray(mesh.faces)
     except Exception as error:  # readers of foreign files raise whatever they like
         if isinstance(error, ImportError):

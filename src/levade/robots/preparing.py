@@ -10,11 +10,12 @@ import numpy as np
 
 from levade.errors import LevadeError, did_you_mean
 from levade.robots.actuation import Actuation
-from levade.robots.findings import note
+from levade.robots.findings import named, note, some, warning
 from levade.robots.reading import Draft
 from levade.robots.standing import Bare
+from levade.robots.understanding import moved_bodies
 
-_TIMESTEP = 0.002
+TIMESTEP = 0.002
 """[s], at which servos have to be stable: the default of `levade.engines.Physics`."""
 _OVERLAP = 1e-4
 """[m]"""
@@ -36,9 +37,15 @@ def float_freely(draft: Draft, trunk: str, path: Path) -> None:
 
 def fix_joints(draft: Draft, angles: Mapping[str, float], path: Path) -> None:
     """Take joints out of the model, their bodies staying where the angles [rad] (or, of slides, [m]) put them."""
+    if not draft.urdf:  # as text, frames and Euler angles are gone, and angles are in radians
+        draft.spec.compile()
+        draft.spec = mujoco.MjSpec.from_string(draft.spec.to_xml(), assets=draft.assets)
+        draft.spec.assets = draft.assets
     spec = draft.spec
-    for name, value in angles.items():
+    _loosen(spec, set(angles))
+    for name, angle in angles.items():
         joint = spec.joint(name)
+        value = angle - float(joint.ref)
         body = joint.parent
         axis = np.asarray(joint.axis, dtype=float)
         quaternion, turn = np.asarray(body.quat, dtype=float), np.empty(4)
@@ -60,9 +67,19 @@ def fix_joints(draft: Draft, angles: Mapping[str, float], path: Path) -> None:
         else:
             raise LevadeError(f"{path}: joint {name} cannot be held fixed: it is neither a hinge nor a slide")
         body.pos = np.asarray(body.pos, dtype=float) + turned
-        for tendon_or_equality in [e for e in spec.equalities if name in (e.name1, e.name2)]:
-            spec.delete(tendon_or_equality)
         spec.delete(joint)
+
+
+def _loosen(spec: mujoco.MjSpec, joints: set[str]) -> None:
+    """Delete the tendons that run over joints, and the equalities that bind them."""
+    kinds = mujoco.mjtWrap.mjWRAP_JOINT
+    tendons = [t for t in spec.tendons if any(w.type == kinds and w.target.name in joints for w in t.path)]
+    names = joints | {tendon.name for tendon in tendons}
+    coupling = (mujoco.mjtEq.mjEQ_JOINT, mujoco.mjtEq.mjEQ_TENDON)
+    for equality in [e for e in spec.equalities if e.type in coupling and names & {e.name1, e.name2}]:
+        spec.delete(equality)
+    for tendon in tendons:
+        spec.delete(tendon)
 
 
 def exclude_overlaps(draft: Draft, bare: Bare, neutral: Mapping[str, float]) -> None:
@@ -74,15 +91,24 @@ def exclude_overlaps(draft: Draft, bare: Bare, neutral: Mapping[str, float]) -> 
         one, other = sorted(int(bare.model.geom_bodyid[geom]) for geom in contact.geom)
         if contact.dist < -_OVERLAP and one != other:
             pairs[one, other] = min(pairs.get((one, other), 0.0), float(contact.dist))
-    for (one, other), depth in pairs.items():
+    if not pairs:
+        return
+    legs = {body: leg.name for leg in bare.legs for body in moved_bodies(bare.model, leg)}
+    within: list[tuple[int, int]] = []
+    across: list[tuple[int, int]] = []
+    for one, other in pairs:
         names = [bare.model.body(body).name for body in (one, other)]
         draft.spec.add_exclude(name=f"{names[0]}-{names[1]}-at-rest", bodyname1=names[0], bodyname2=names[1])
-        draft.findings.append(
-            note(
-                f"bodies {names[0]} and {names[1]}",
-                f"overlap by {-depth * 1000:.0f} mm in the neutral posture: contact between them is left out",
-            )
-        )
+        apart = one in legs and other in legs and legs[one] != legs[other]
+        (across if apart else within).append((one, other))
+    for couples, add in ((within, note), (across, warning)):
+        if not couples:
+            continue
+        names = [" - ".join(bare.model.body(body).name for body in couple) for couple in couples]
+        depth = -min(pairs[couple] for couple in couples) * 1000
+        what = f"overlap by up to {depth:.0f} mm in the neutral posture: contact between them is left out"
+        remedy = "legs should stand apart: mend the shapes, or robot.yaml, postures: {neutral: ...}"
+        draft.findings.append(add(f"bodies {some(names)}", what, remedy if couples is across else ""))
 
 
 def support_servos(draft: Draft, bare: Bare, neutral: Mapping[str, float], actuation: Actuation) -> None:
@@ -90,7 +116,7 @@ def support_servos(draft: Draft, bare: Bare, neutral: Mapping[str, float], actua
     inertia = bare.joint_inertia(neutral)
     raised = {}
     for joint, kd in zip(bare.joints, actuation.kd, strict=True):
-        least = float(kd) * _TIMESTEP
+        least = float(kd) * TIMESTEP
         if inertia[joint] < least:
             raised[joint] = least - inertia[joint]
             element = draft.spec.joint(joint)
@@ -99,7 +125,7 @@ def support_servos(draft: Draft, bare: Bare, neutral: Mapping[str, float], actua
         largest = max(raised.values())
         draft.findings.append(
             note(
-                f"joints {', '.join(raised)}" if len(raised) < len(bare.joints) else "all joints",
+                named("joint", list(raised)) if len(raised) < len(bare.joints) else "all joints",
                 f"get up to {largest:.2g} kg m2 of reflected rotor inertia (armature), without which servos of this damping"
                 " are unstable",
             )

@@ -6,20 +6,25 @@ it needs in memory.
 
 from __future__ import annotations
 
+import re
+import xml.etree.ElementTree as ET
+from contextlib import suppress
 from dataclasses import dataclass, field
+from itertools import count
 from pathlib import Path
 
 import mujoco
 import numpy as np
 
 from levade.errors import LevadeError
-from levade.robots.findings import Finding, note, warning
+from levade.robots.findings import Finding, named, note, warning
 from levade.robots.meshes import find_mesh, read_mesh
 from levade.robots.servos import Servo, read_servos
 from levade.robots.urdf import read_urdf
 from levade.trajectory import Array
 
-_UNITS = "kg, m and rad"
+_UNITS = "kg and kg m2"
+_FUSED = " The static bodies of the spec were fused before this error, and remain so."
 
 
 @dataclass(frozen=True)
@@ -36,6 +41,7 @@ class Draft:
     """A robot's file, read.
 
     effort [Nm], velocity [rad/s]: joint -> limit, of those that have one. servos: joint -> position servo.
+    driven: joints of an MJCF that an actuator drives. origins: what of the robot came from where, see `Robot`.
     """
 
     path: Path
@@ -45,8 +51,10 @@ class Draft:
     effort: dict[str, float] = field(default_factory=dict)
     velocity: dict[str, float] = field(default_factory=dict)
     servos: dict[str, Servo] = field(default_factory=dict)
+    driven: set[str] = field(default_factory=set)
     keyframes: list[Keyframe] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)
+    origins: dict[str, str] = field(default_factory=dict)
 
     def compile(self) -> mujoco.MjModel:
         """The model. Raises LevadeError in one line."""
@@ -64,12 +72,15 @@ def read_model(path: Path) -> Draft:
         raise LevadeError(f"{path}: not a text file; give an MJCF or URDF") from None
     except OSError as error:
         raise LevadeError(f"{path}: cannot be read ({error.strerror})") from None
-    is_urdf = path.suffix.lower() == ".urdf" or "<robot" in content[:4000]
-    draft = _read_urdf(path, content) if is_urdf else _read_mjcf(path)
+    root = _parse(path, content)
+    draft = _read_urdf(path, root) if root is not None and root.tag == "robot" else _read_mjcf(path)
     _name_everything(draft.spec)
+    _check_ranges(draft)
     model = draft.compile()
-    if not is_urdf:
+    if not draft.urdf:
+        _say_what_is_mended(draft)
         servos = read_servos(model)
+        draft.driven = {name for name, servo in servos.items() if servo.driven}
         draft.servos = {name: servo for name, servo in servos.items() if servo.kp is not None}
         draft.effort = {name: servo.torque for name, servo in servos.items() if np.isfinite(servo.torque)}
         draft.keyframes = _keyframes(model)
@@ -78,13 +89,34 @@ def read_model(path: Path) -> Draft:
     return draft
 
 
-def _read_urdf(path: Path, content: str) -> Draft:
-    source = read_urdf(path, content)
+def _parse(path: Path, content: str) -> ET.Element | None:
+    """The root of an XML file; None for an MJCF that MuJoCo's more lenient parser may still take."""
+    if not content.strip():
+        raise LevadeError(f"{path}: is empty; give an MJCF or URDF")
+    try:
+        root = ET.fromstring(content.encode())
+    except ET.ParseError as error:
+        if "<mujoco" in content:
+            with suppress(ValueError):
+                mujoco.MjSpec.from_string(re.sub(r"<include\b[^>]*>", "", content))
+                return None
+        raise LevadeError(f"{path}: broken XML ({error}); mend it there") from None
+    if root.tag not in ("robot", "mujoco"):
+        raise LevadeError(f"{path}: starts with <{root.tag}>; a URDF starts with <robot>, an MJCF with <mujoco>")
+    return root
+
+
+def _read_urdf(path: Path, root: ET.Element) -> Draft:
+    source = read_urdf(path, root)
     try:
         spec = mujoco.MjSpec.from_string(source.text, assets=source.assets)
     except ValueError as error:
         raise LevadeError(f"{path}: {_explain(error)}") from None
     spec.assets = source.assets
+    for mesh in spec.meshes:
+        mesh.inertia = (
+            mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
+        )  # flat ones have no volume; links have their own inertia
     return Draft(path, spec, source.assets, True, source.effort, source.velocity, findings=source.findings)
 
 
@@ -165,16 +197,57 @@ def _massless(geom) -> bool:
 
 def _name_everything(spec: mujoco.MjSpec) -> None:
     """Names for bodies, joints and colliding geoms that have none."""
-    taken = {geom.name for geom in spec.geoms if geom.name}
+    bodies, joints, geoms = ({e.name for e in kind if e.name} for kind in (spec.bodies, spec.joints, spec.geoms))
     for i, body in enumerate(spec.bodies[1:], start=1):
-        body.name = body.name or f"body{i}"
-        joints = body.joints
-        for k, joint in enumerate(joints):
-            joint.name = joint.name or (f"{body.name}_joint" if len(joints) == 1 else f"{body.name}_joint{k}")
+        body.name = body.name or _free_name(f"body{i}", bodies)
+        for joint in body.joints:
+            joint.name = joint.name or _free_name(f"{body.name}_joint", joints)
         for k, geom in enumerate(body.geoms):
             if not geom.name and (geom.contype or geom.conaffinity):
-                geom.name = next(name for name in (f"{body.name}_{k}", f"{body.name}_geom{k}") if name not in taken)
-                taken.add(geom.name)
+                geom.name = _free_name(f"{body.name}_{k}", geoms)
+
+
+def _free_name(name: str, taken: set[str]) -> str:
+    """The name, with a number behind it if it is taken; taken from now on."""
+    free = name if name not in taken else next(n for i in count(1) if (n := f"{name}_{i}") not in taken)
+    taken.add(free)
+    return free
+
+
+def _check_ranges(draft: Draft) -> None:
+    """Raise LevadeError for joints whose limits are inverted: MuJoCo takes them for none."""
+    for joint in draft.spec.joints:
+        lower, upper = joint.range
+        if lower > upper and joint.limited != mujoco.mjtLimited.mjLIMITED_FALSE:
+            raise LevadeError(
+                f"{draft.path}: joint {joint.name}: limits are inverted, lower {lower:g} is above upper {upper:g};"
+                " exchange them"
+            )
+
+
+def _say_what_is_mended(draft: Draft) -> None:
+    """Warn of inertias that MuJoCo's compiler replaces without a word."""
+    broken = []
+    for body in draft.spec.bodies[1:]:
+        if body.explicitinertial and body.compiler.balanceinertia:
+            xx, yy, zz, xy, xz, yz = body.fullinertia
+            full = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+            least, middle, most = np.linalg.eigvalsh(np.diag(body.inertia) if np.isnan(full).any() else full)
+            if least + middle < most * (1 - 1e-6):
+                broken.append(body.name)
+    if broken:
+        what = (
+            "the inertia breaks the triangle inequality; balanceinertia takes the mean of its moments about every axis"
+        )
+        draft.findings.append(warning(named("body", broken), what, "mend it in the file"))
+    compiler = draft.spec.compiler
+    for name, least, unit in (
+        ("boundmass", compiler.boundmass, "kg"),
+        ("boundinertia", compiler.boundinertia, "kg m2"),
+    ):
+        if least > 0:
+            what = f"raises whatever is below it to {least:g} {unit}, missing values too"
+            draft.findings.append(warning(f"compiler {name}", what, "give every body its own, and leave it out"))
 
 
 def _keep_massless(draft: Draft, model: mujoco.MjModel) -> None:
@@ -207,6 +280,9 @@ def _strip(draft: Draft) -> None:
     for element in [*spec.sensors, *spec.actuators, *spec.keys]:
         spec.delete(element)
     world = spec.worldbody
+    of_world = {geom.name for geom in world.geoms if geom.name}
+    for pair in [pair for pair in spec.pairs if {pair.geomname1, pair.geomname2} & of_world]:
+        spec.delete(pair)
     if world.geoms and not draft.urdf:
         draft.findings.append(
             note(
@@ -217,21 +293,42 @@ def _strip(draft: Draft) -> None:
         )
     for element in [*world.geoms, *world.sites, *spec.lights, *spec.cameras]:
         spec.delete(element)
-    for body in [body for body in world.bodies if not _moves(body)]:
+    robots = [body for body in world.bodies if any(_moves(child) for child in body.bodies)]
+    for body in [body for body in world.bodies if (body not in robots if robots else not _moves(body))]:
         draft.findings.append(note(f"body {body.name}", "of the world, is left out"))
-        spec.delete(body)
+        _delete_body(spec, body)
 
 
 def _moves(body) -> bool:
     return bool(body.joints) or any(_moves(child) for child in body.bodies)
 
 
+def _delete_body(spec: mujoco.MjSpec, body) -> None:
+    """With what else names it or its shapes."""
+    bodies, geoms = {body.name}, {geom.name for geom in body.find_all("geom") if geom.name}
+    bodies |= {child.name for child in body.find_all("body")}
+    for pair in [pair for pair in spec.pairs if {pair.geomname1, pair.geomname2} & geoms]:
+        spec.delete(pair)
+    for exclude in [exclude for exclude in spec.excludes if {exclude.bodyname1, exclude.bodyname2} & bodies]:
+        spec.delete(exclude)
+    for equality in [equality for equality in spec.equalities if {equality.name1, equality.name2} & bodies]:
+        spec.delete(equality)
+    spec.delete(body)
+
+
 def _explain(error: Exception) -> str:
     """MuJoCo's message in one line, with a remedy where it is a usual one."""
     text = " ".join(str(error).split())
-    text = text.removeprefix("Error: ").removeprefix("XML Error: ")
+    text = text.removeprefix("Error: ").removeprefix("XML Error: ").removesuffix(_FUSED)
+    element = re.search(r"Element name '([^']+)'", text)
+    body = f"body {element[1]}" if element else "a body"
     if "mjMINVAL" in text:
-        return f"a moving body has no mass or inertia ({text}); give it both, in {_UNITS}"
-    if "inertia must" in text or "positive eigenvalues" in text:
-        return f'{text}; mend the inertia, or set <compiler balanceinertia="true"/>'
+        return f"{body} moves but has no mass or no inertia; give it both, in {_UNITS}"
+    if "A + B >= C" in text:
+        return (
+            f"{body}: its inertia breaks the triangle inequality (two of its moments are below the third); mend it, or set"
+            ' <compiler balanceinertia="true"/>'
+        )
+    if "positive eigenvalues" in text:
+        return f"{body}: its inertia is not positive; mend it"
     return text

@@ -10,11 +10,15 @@ import mujoco
 
 @dataclass(frozen=True)
 class Servo:
-    """What drives a joint. torque [Nm], infinite if it has no limit; kp [Nm/rad] and kd [Nm s/rad], None for a motor."""
+    """What drives a joint. torque [Nm], infinite if it has no limit; kp [Nm/rad] and kd [Nm s/rad], None for a motor.
+
+    driven: whether there is an actuator at all, and not just a limit on the joint.
+    """
 
     torque: float
     kp: float | None = None
     kd: float | None = None
+    driven: bool = True
 
 
 def read_servos(model: mujoco.MjModel) -> dict[str, Servo]:
@@ -57,5 +61,5 @@ def read_servos(model: mujoco.MjModel) -> dict[str, Servo]:
         ):
             limit = float(abs(model.jnt_actfrcrange[joint]).min())
             if limit > 0:
-                servos[name] = Servo(limit)
+                servos[name] = Servo(limit, driven=False)
     return servos

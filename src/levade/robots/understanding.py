@@ -1,8 +1,8 @@
 """Understanding: which body is the trunk, which joints make a leg, what stands on the ground; from kinematics alone.
 
-Names are not looked at. A limb is a serial chain of joints that hangs on the trunk; legs are four limbs of the same two
-or three hinges each, one in every quadrant of the trunk's frame (x forward, y left). Whatever else moves, such as an arm,
-is held fixed.
+Names are not looked at. A limb is a chain of joints that hangs on the trunk; legs are four serial limbs of two or three
+hinges each, about the axes of a leg, one in every quadrant of the trunk's frame (x forward, y left). Whatever else moves,
+such as an arm, is held fixed.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import mujoco
 import numpy as np
 
 from levade.errors import LevadeError
+from levade.robots.findings import some
 from levade.robots.shapes import reach
 from levade.trajectory import Array
 
@@ -99,22 +100,13 @@ def find_legs(model: mujoco.MjModel, trunk: int, where: str) -> tuple[tuple[Leg,
     Raises LevadeError, with the limbs that were found, if there are not four legs.
     """
     limbs = find_limbs(model, trunk)
-    hinge = mujoco.mjtJoint.mjJNT_HINGE
-    serial = [
-        limb
-        for limb in limbs
-        if not limb.branches and len(limb.joints) in (2, 3) and all(model.jnt_type[j] == hinge for j in limb.joints)
-    ]
     data = mujoco.MjData(model)
     _level(model, data, trunk)
-    for count in (3, 2):
-        legs = [limb for limb in serial if len(limb.joints) == count]
-        if len(legs) == 4:
-            break
-    else:
-        raise LevadeError(
-            f"{where}: has no four legs of two or three hinges each, which is what levade moves; it has {_census(model, limbs)}"
-        )
+    legs = _four_alike(model, limbs)
+    if legs is None:
+        raise LevadeError(f"{where}: levade moves four legs of two or three hinges each; {_census(model, limbs)}")
+    for limb in legs:
+        _check_roles(model, data, trunk, limb, where)
     centres = np.array([data.xanchor[limb.joints].mean(axis=0) for limb in legs])
     middle = centres.mean(axis=0)
     quadrants = [
@@ -130,25 +122,63 @@ def find_legs(model: mujoco.MjModel, trunk: int, where: str) -> tuple[tuple[Leg,
     for limb, (side, end) in zip(legs, quadrants, strict=True):
         name = LEG_NAMES[side, end]
         joints = tuple(model.joint(j).name for j in limb.joints)
-        found[name] = Leg(
-            name, joints, find_foot(model, limb.joints[-1], f"{where}: leg {name}"), side, end, roles(model, joints)
-        )
-    ordered = tuple(found[name] for name in LEG_NAMES.values())
-    for leg in ordered:
-        if leg.roles.count("hfe") != 1 or leg.roles.count("kfe") != 1:
-            axes = [np.round(data.xaxis[model.joint(joint).id], 2).tolist() for joint in leg.joints]
-            raise LevadeError(
-                f"{where}: leg {leg.name}: joints {', '.join(leg.joints)} turn about {axes} in the frame of"
-                f" {model.body(trunk).name}; levade knows hip abduction (about x), hip flexion and knee (about y): is x"
-                " forward there?"
-            )
+        foot = find_foot(model, limb.joints[-1], f"{where}: leg {name}")
+        found[name] = Leg(name, joints, foot, side, end, roles(model, joints))
     used = {j for limb in legs for j in limb.joints}
     others = [
         model.joint(j).name
         for j in range(model.njnt)
         if j not in used and model.jnt_type[j] != mujoco.mjtJoint.mjJNT_FREE
     ]
-    return ordered, others
+    return tuple(found[name] for name in LEG_NAMES.values()), others
+
+
+def _four_alike(model: mujoco.MjModel, limbs: list[Limb]) -> list[Limb] | None:
+    """The four serial limbs of three hinges, or of two; where there are more, the four whose hinges are those of a leg."""
+    for count in (3, 2):
+        serial = [limb for limb in limbs if _is_serial(model, limb) and len(limb.joints) == count]
+        if len(serial) == 4:
+            return serial
+        legs = [
+            limb
+            for limb in serial
+            if {"hfe", "kfe"} <= set(roles(model, tuple(model.joint(j).name for j in limb.joints)))
+            and "other" not in roles(model, tuple(model.joint(j).name for j in limb.joints))
+        ]
+        if len(legs) == 4:
+            return legs
+    return None
+
+
+def _is_serial(model: mujoco.MjModel, limb: Limb) -> bool:
+    return not limb.branches and all(model.jnt_type[j] == mujoco.mjtJoint.mjJNT_HINGE for j in limb.joints)
+
+
+def _check_roles(model: mujoco.MjModel, data: mujoco.MjData, trunk: int, limb: Limb, where: str) -> None:
+    """Raise LevadeError if a limb's hinges are not those of a leg."""
+    names = tuple(model.joint(j).name for j in limb.joints)
+    named = roles(model, names)
+    if named.count("hfe") == named.count("kfe") == 1:
+        return
+    axes = np.array([data.xaxis[j] for j in limb.joints])
+    turned = sorted(_role_axes(axes[:, [1, 0, 2]])) == sorted(_role_axes(np.eye(3)[[0, 1, 1]][-len(axes) :]))
+    remedy = "it seems that y is forward there: turn the model" if turned else "this limb is no such leg"
+    raise LevadeError(
+        f"{where}: joints {', '.join(names)} turn about {', '.join(map(_axis_name, axes))} of {model.body(trunk).name};"
+        f" levade knows legs of hip abduction (about x), hip flexion and knee (about y), x forward; {remedy}"
+    )
+
+
+def _role_axes(axes: Array) -> list[int]:
+    """Along which axis each of (n, 3) is for the most part."""
+    return [int(k) for k in np.argmax(np.abs(axes), axis=1)]
+
+
+def _axis_name(axis: Array) -> str:
+    k = int(np.argmax(np.abs(axis)))
+    if abs(axis[k]) < 0.99:
+        return f"({', '.join(f'{value:.2f}' for value in axis)})"
+    return f"{'-' if axis[k] < 0 else ''}{'xyz'[k]}"
 
 
 def roles(model: mujoco.MjModel, joints: tuple[str, ...]) -> tuple[str, ...]:
@@ -200,6 +230,15 @@ def find_foot(model: mujoco.MjModel, joint: int, where: str) -> str:
     return model.geom(best).name
 
 
+def moved_bodies(model: mujoco.MjModel, leg: Leg) -> list[int]:
+    """Ids of the bodies that a leg moves, from the trunk outward."""
+    bodies = [int(model.jnt_bodyid[model.joint(leg.joints[0]).id])]
+    for body in range(bodies[0] + 1, model.nbody):
+        if int(model.body_parentid[body]) in bodies:
+            bodies.append(body)
+    return bodies
+
+
 def _level(model: mujoco.MjModel, data: mujoco.MjData, trunk: int) -> None:
     """Kinematics at zero angles, the trunk frame on the world frame."""
     data.qpos[:] = 0.0
@@ -211,19 +250,30 @@ def _level(model: mujoco.MjModel, data: mujoco.MjData, trunk: int) -> None:
 
 
 def _census(model: mujoco.MjModel, limbs: list[Limb]) -> str:
+    """What there is instead of four legs, and what may help."""
     if not limbs:
-        return "no joints beside the free base"
-
-    def one(limb: Limb) -> str:
-        kind = "branching " if limb.branches else ""
+        return "this model has no joints beside its free base"
+    kinds: dict[str, list[str]] = {}
+    for limb in limbs:
         hinges = sum(1 for j in limb.joints if model.jnt_type[j] == mujoco.mjtJoint.mjJNT_HINGE)
-        sliding = f", {len(limb.joints) - hinges} of them sliding" if hinges < len(limb.joints) else ""
-        plural = "s" * (len(limb.joints) > 1)
-        return f"a {kind}limb of {len(limb.joints)} joint{plural}{sliding} from {model.joint(limb.joints[0]).name}"
-
-    shown = [one(limb) for limb in limbs[:6]]
-    more = f" and {len(limbs) - 6} more" if len(limbs) > 6 else ""
-    return ", ".join(shown) + more
+        sliding = f" ({len(limb.joints) - hinges} of them sliding)" if hinges < len(limb.joints) else ""
+        joints = f"{len(limb.joints)} joint{'s' * (len(limb.joints) > 1)}{sliding}"
+        kinds.setdefault(f"{'branching ' * limb.branches}limb/ of {joints}", []).append(
+            model.joint(limb.joints[0]).name
+        )
+    counted = []
+    for kind, first in kinds.items():
+        count = f"{len(first)} {kind.replace('/', 's')}" if len(first) > 1 else f"a {kind.replace('/', '')}"
+        counted.append(f"{count} (from {some(first)})")
+    text = f"this robot has {' and '.join([', '.join(counted[:-1]), counted[-1]] if counted[1:] else counted)}"
+    sizes = [len(limb.joints) for limb in limbs if _is_serial(model, limb)]
+    if any(sizes.count(count) > 4 for count in (2, 3)):
+        return f"{text}; if four of them are its legs, name those in a robot.yaml (legs: ...)"
+    if len([size for size in sizes if size > 3]) == 4:
+        return (
+            f"{text}; if these are legs, hold the joints beyond three fixed in a robot.yaml (fixed: {{joint: angle}})"
+        )
+    return text
 
 
 def joint_positions(model: mujoco.MjModel, joints: tuple[str, ...]) -> Array:

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from levade.errors import LevadeError
-from levade.robots.findings import Finding, note, warning
+from levade.robots.findings import Finding, named, note, warning
 from levade.robots.meshes import find_mesh, read_mesh
 
 _WORLD = "levade-world"
@@ -22,6 +22,8 @@ _DUMMY = 1e-4
 """[kg]: links below it are markers that somebody's parser needed, not bodies."""
 _BIG_VISUAL = 1_500_000
 """[bytes]: visual meshes above it are left out; motion files carry their meshes along."""
+_SMALLEST = 1e-4
+"""[m]: bodies with a smaller radius of gyration have no inertia, for all that their file says."""
 _KNOWN_JOINTS = ("revolute", "continuous", "prismatic", "fixed")
 
 
@@ -40,9 +42,10 @@ class UrdfSource:
     findings: list[Finding] = field(default_factory=list)
 
 
-def read_urdf(path: Path, content: str) -> UrdfSource:
-    """Read and mend a URDF. Raises LevadeError for what cannot be simulated, with the link or joint and the remedy."""
-    root = _parse(path, content)
+def read_urdf(path: Path, root: ET.Element) -> UrdfSource:
+    """Mend a URDF, whose root is changed. Raises LevadeError for what cannot be simulated, with link or joint and remedy."""
+    if any(element.tag.startswith("{") and "xacro" in element.tag for element in root.iter()):
+        raise LevadeError(f"{path}: still holds xacro macros; expand them first: xacro {path.name} > robot.urdf")
     source = UrdfSource("")
     for extra in [*root.findall("transmission"), *root.findall("gazebo"), *root.findall("ros2_control")]:
         root.remove(extra)
@@ -59,28 +62,26 @@ def read_urdf(path: Path, content: str) -> UrdfSource:
     base = _real_root(root, links, joints, roots[0])
     _check_joints(path, joints, source)
     losses: dict[str, list[tuple[str, str]]] = {}
+    mended: dict[str, dict[str, float]] = {}
+    without: list[str] = []
+    _name_shapes_apart(links)
     for name, link in links.items():
-        _mend_inertial(
-            path, name, link, fixed=name == base or joints[parents[name]].get("type") == "fixed", source=source
-        )
+        fixed = name == base or joints[parents[name]].get("type") == "fixed"
+        if link.find("inertial") is None and not fixed:
+            without.append(name)
+        problem, moment = _mend_inertial(path, name, link)
+        if problem:
+            mended.setdefault(problem, {})[name] = moment
         _mend_shapes(path, name, link, source, losses)
+    if without:
+        remedy = "give mass and inertia, or the motion is that of nothing"
+        source.findings.append(warning(named("link", without), "no inertial", remedy))
+    source.findings += [_replaced(problem, moments) for problem, moments in mended.items()]
     source.findings += [_lost(kind, links_and_problems) for kind, links_and_problems in losses.items()]
     _add_floating_base(root, base)
     _say_how_to_compile(root)
     source.text = ET.tostring(root, encoding="unicode")
     return source
-
-
-def _parse(path: Path, content: str) -> ET.Element:
-    try:
-        root = ET.fromstring(content.encode())
-    except ET.ParseError as error:
-        raise LevadeError(f"{path}: broken XML ({error}); mend it there") from None
-    if root.tag != "robot":
-        raise LevadeError(f"{path}: starts with <{root.tag}>; a URDF starts with <robot>, an MJCF with <mujoco>")
-    if any(element.tag.startswith("{") and "xacro" in element.tag for element in root.iter()):
-        raise LevadeError(f"{path}: still holds xacro macros; expand them first: xacro {path.name} > robot.urdf")
-    return root
 
 
 def _name(element: ET.Element, path: Path) -> str:
@@ -105,6 +106,15 @@ def _tree(path: Path, links: dict[str, ET.Element], joints: dict[str, ET.Element
                         f"{path}: link {link} hangs on two joints, {parents[link]} and {name}; levade simulates trees only"
                     )
                 parents[link] = name
+    for start in links:
+        link, seen = start, {start}
+        while link in parents:
+            link = _link(joints[parents[link]], "parent")
+            if link in seen:
+                raise LevadeError(
+                    f"{path}: joint {parents[link]}: link {link} hangs on itself; levade simulates trees only"
+                )
+            seen.add(link)
     return parents
 
 
@@ -140,6 +150,8 @@ def _check_joints(path: Path, joints: dict[str, ET.Element], source: UrdfSource)
             source.findings.append(note(f"joint {name}", "mimics another joint, which is not simulated: held fixed"))
             continue
         limit = joint.find("limit")
+        if limit is None and kind == "revolute":
+            limit = ET.SubElement(joint, "limit")
         if limit is None or kind == "fixed":
             continue
         for key, table in (("effort", source.effort), ("velocity", source.velocity)):
@@ -153,29 +165,25 @@ def _check_joints(path: Path, joints: dict[str, ET.Element], source: UrdfSource)
                 f"{path}: joint {name}: limits are inverted, lower {lower:g} is above upper {upper:g}; exchange them"
             )
         if kind == "revolute" and (lower or 0.0) == (upper or 0.0):
+            if lower:
+                raise LevadeError(
+                    f"{path}: joint {name}: limits leave it no room, both are {lower:g}; give a range, or make it fixed"
+                )
             joint.set("type", "continuous")
-            source.findings.append(
-                warning(f"joint {name}", "has no range: turns without end", "give <limit lower= upper=>")
-            )
 
 
-def _mend_inertial(path: Path, name: str, link: ET.Element, *, fixed: bool, source: UrdfSource) -> None:
+def _mend_inertial(path: Path, name: str, link: ET.Element) -> tuple[str, float]:
+    """Replace an inertia that no body can have; what was wrong with it, and the moment [kg m2] that it has got instead."""
     inertial = link.find("inertial")
     if inertial is None:
-        if not fixed:
-            source.findings.append(
-                warning(
-                    f"link {name}", "has no inertial", "give its mass and inertia, or its motion is that of nothing"
-                )
-            )
-        return
+        return "", 0.0
     mass_element, inertia = inertial.find("mass"), inertial.find("inertia")
     mass = _number(None if mass_element is None else mass_element.get("value"), f"{path}: link {name}: mass") or 0.0
     if mass < 0:
         raise LevadeError(f"{path}: link {name}: mass {mass:g} kg is negative")
     if mass <= _DUMMY:
         link.remove(inertial)
-        return
+        return "", 0.0
     if inertia is None:
         raise LevadeError(
             f"{path}: link {name}: has a mass but no <inertia>; give it, [kg m2] about its centre of mass"
@@ -186,28 +194,37 @@ def _mend_inertial(path: Path, name: str, link: ET.Element, *, fixed: bool, sour
     )
     tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     principal = np.linalg.eigvalsh(tensor)
-    if principal[0] > 0 and principal[0] + principal[1] >= principal[2] * (1 - 1e-6):
-        return
-    # what no body can have: the sphere of the same mean inertia, or of 2 cm where there is none at all
+    least = mass * _SMALLEST**2
+    if principal[0] > least and principal[0] + principal[1] >= principal[2] * (1 - 1e-6):
+        return "", 0.0
+    # what no body can have: the sphere of the same mean inertia, or one of water where there is none at all
     mean = float(np.mean(np.diag(tensor)))
-    mended = mean if mean > 0 else 0.4 * mass * 0.02**2
+    mended = mean if mean > least else 0.4 * mass * (0.75 * mass / (math.pi * 1000)) ** (2 / 3)
     for key in ("ixx", "iyy", "izz"):
         inertia.set(key, repr(mended))
     for key in ("ixy", "ixz", "iyz"):
         inertia.set(key, "0")
-    what = (
-        "is not positive"
-        if principal[0] <= 0
-        else "breaks the triangle inequality (two of its moments are below the third)"
-    )
-    kilograms = f"{mass:.3g} kg"
-    source.findings.append(
-        warning(
-            f"link {name}",
-            f"its inertia {what}; {mended:.3g} kg m2 about every axis is taken for its {kilograms}",
-            "mend it in the file",
-        )
-    )
+    if principal[0] <= least:
+        return "is not positive" if principal[0] <= 0 else "is that of a point", mended
+    return "breaks the triangle inequality (two of its moments are below the third)", mended
+
+
+def _replaced(problem: str, moments: dict[str, float]) -> Finding:
+    low, high = min(moments.values()), max(moments.values())
+    taken = f"{low:.3g}" if low == high else f"{low:.3g} to {high:.3g}"
+    what = f"the inertia {problem}; {taken} kg m2 is taken about every axis"
+    return warning(named("link", list(moments)), what, "mend it in the file")
+
+
+def _name_shapes_apart(links: dict[str, ET.Element]) -> None:
+    """Take names from shapes that share them: the reader would complain on standard error."""
+    taken: set[str] = set()
+    for link in links.values():
+        for shape in [*link.findall("collision"), *link.findall("visual")]:
+            name = shape.attrib.pop("name", "")
+            if name and name not in taken:
+                taken.add(name)
+                shape.set("name", name)
 
 
 def _mend_shapes(
@@ -237,9 +254,7 @@ def _lost(kind: str, losses: list[tuple[str, str]]) -> Finding:
     """One finding for all links that lost a mesh in the same way."""
     names = list(dict.fromkeys(name for name, _ in losses))
     problem = losses[0][1]
-    where = f"link{'s' * (len(names) > 1)} {', '.join(names[:3])}" + (
-        f" and {len(names) - 3} more" if len(names) > 3 else ""
-    )
+    where = named("link", names)
     if kind == "visual":
         return note(where, f"not shown as meshes: {problem}")
     if kind == "part":
