@@ -217,8 +217,8 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
             "torque": _finite(limits.torque),
         },
         "trunk_com_offset": objective.robot.trunk_com_offset.tolist(),
-        "engine": "mujoco",
-        "versions": versions(),
+        "engine": task.physics.engine,
+        "versions": versions(task.physics.engine),
         "seed": seed,
         "timestep": task.physics.timestep,
         "horizon": task.horizon_steps * task.physics.timestep,
@@ -236,13 +236,18 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
     return Motion(meta, engine.xml, arrays, dict(engine.assets))
 
 
-def versions() -> dict[str, str]:
-    """The versions that decide a motion's bits."""
+def versions(engine: str = "mujoco") -> dict[str, str]:
+    """The versions that decide a motion's bits; MuJoCo's too with another engine, which reads the model from it."""
     from importlib.metadata import version
 
     from levade import __version__
 
-    return {"levade": __version__, **{name: version(name) for name in ("mujoco", "numpy", "cma")}}
+    made = {"levade": __version__, **{name: version(name) for name in ("mujoco", "numpy", "cma")}}
+    if engine == "ode":
+        from levade.engines.ode.library import load
+
+        made["ode"] = load().name
+    return made
 
 
 def _finite(limit: Array) -> list[float | None]:

@@ -71,7 +71,8 @@ def run(
     """
     objective = task if isinstance(task, Objective) else Objective(task, threads=threads)
     text = task_to_yaml(objective.task)
-    header = {"task": objective.task.name, "seed": seed, "versions": versions(), "task_checksum": _checksum(text)}
+    made = versions(objective.task.physics.engine)
+    header = {"task": objective.task.name, "seed": seed, "versions": made, "task_checksum": _checksum(text)}
     new = not directory.exists()
     try:
         directory.mkdir(parents=True, exist_ok=True)
@@ -97,7 +98,7 @@ def resume(directory: Path, *, threads: int = 0, observe: Callable[[Generation],
     libraries made it.
     """
     task, header, records = read_run(directory)
-    now = versions()
+    now = versions(task.physics.engine)
     for name, version in header["versions"].items():
         if now.get(name) != version:
             raise LevadeError(

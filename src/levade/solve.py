@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from levade.costs import DIVERGED, errors, evaluate, total
-from levade.engines import MujocoEngine
+from levade.engines import make_engine
 from levade.errors import LevadeError, did_you_mean
 from levade.optimizers import OPTIMIZERS, Aim, Optimizer
 from levade.policies import Follower, GaussianKernels, Group, Policy, smoothness_factor
@@ -54,7 +54,7 @@ class Objective:
         self.task = task
         choice = asdict(task.robot)
         self.robot = load_robot(choice.pop("name"), **choice)
-        self.engine = MujocoEngine(self.robot, task.scene, task.physics, threads=threads)
+        self.engine = make_engine(self.robot, task.scene, task.physics, threads=threads)
         self.policy = make_policy(task, self.robot)
         self.terms = {name: cost.term for name, cost in task.costs.items()}
         bodies = {name: getattr(term, "bodies", ()) for name, term in self.terms.items()}

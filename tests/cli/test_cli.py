@@ -87,7 +87,10 @@ def test_help_and_version(run) -> None:
         ),
         ('solve rearing --set scene.boxes=[{"position":[0,0,0.4],"size":[1,1,0.8]}]', "overlap by"),
         ("solve rearing --resume here", "--resume here: the run says all; leave out TASK"),
-        ("solve --resume here --trials 3", "--resume here: the run says all; leave out --set, --trials or --optimizer"),
+        (
+            "solve --resume here --trials 3",
+            "--resume here: the run says all; leave out --set, --trials, --optimizer or --engine",
+        ),
         (
             "solve --resume here",
             "here: no run to resume, task.yaml or checkpoint.jsonl is missing; give the --out of a solve",

@@ -73,6 +73,7 @@ def solve(
     seed: Annotated[int, typer.Option(min=0, help="Of the search; the same seed gives the same motion.")] = 0,
     trials: Annotated[int | None, typer.Option(help="Budget, instead of the task's.")] = None,
     optimizer: Annotated[str | None, typer.Option(help="Instead of the task's.")] = None,
+    engine: Annotated[str | None, typer.Option(help="mujoco or ode, instead of the task's.")] = None,
     change: Annotated[
         list[str] | None, typer.Option("--set", metavar="PATH=VALUE", help="Change a value of the task. Repeatable.")
     ] = None,
@@ -93,8 +94,15 @@ def solve(
         changes.append(f"search.trials={trials}")
     if optimizer is not None:
         changes.append(f"search.optimizer={optimizer}")
+    if engine is not None:
+        changes.append(f"physics.engine={engine}")
     if resume is not None:
-        given = {"TASK": task, "--robot": robot, "--out": out, "--set, --trials or --optimizer": changes or None}
+        given = {
+            "TASK": task,
+            "--robot": robot,
+            "--out": out,
+            "--set, --trials, --optimizer or --engine": changes or None,
+        }
         extra = [name for name, value in given.items() if value is not None]
         if extra:
             raise LevadeError(f"--resume {resume}: the run says all; leave out {' and '.join(extra)}")

@@ -3,25 +3,59 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Literal
 
 from levade.errors import LevadeError
 
 
 @dataclass(frozen=True)
-class Physics:
-    """How time and contact are resolved.
+class Ode:
+    """Settings of the engine ode; the defaults are Gazebo's.
 
-    timestep: [s]. integrator, cone, impratio: as in MuJoCo's ``option``. The elliptic cone with a friction constraint
-    that is stiffer than the normal one (impratio > 1) keeps feet from creeping: with MuJoCo's own defaults HyQ2Max,
-    standing still, sinks by 1 cm in 5 s as its feet slide apart.
+    solver: "quick" is ``dWorldQuickStep``, ``iterations`` sweeps of successive over-relaxation by the factor
+    ``relaxation``; "exact" is ``dWorldStep``, which solves for all constraints at once.
+    erp: share of a constraint's error that is corrected in a step. cfm: its softness [1/(N s/m)].
+    surface_layer: [m], depth up to which contacts may sink in. max_correcting_velocity: [m/s], of contacts.
     """
 
+    solver: Literal["quick", "exact"] = "quick"
+    iterations: int = 50
+    relaxation: float = 1.3
+    erp: float = 0.2
+    cfm: float = 1e-10
+    surface_layer: float = 0.001
+    max_correcting_velocity: float = 100.0
+
+    def __post_init__(self) -> None:
+        if not 1 <= self.iterations <= 100_000:
+            raise LevadeError(f"physics.ode.iterations: {self.iterations} should be 1 or more; Gazebo has 50")
+        if not 0 < self.relaxation < 2:
+            raise LevadeError(f"physics.ode.relaxation: {self.relaxation} should be between 0 and 2; Gazebo has 1.3")
+        if not 0 <= self.erp <= 1:
+            raise LevadeError(f"physics.ode.erp: {self.erp} should be between 0 and 1; Gazebo has 0.2")
+        for field in fields(self)[4:]:
+            value = getattr(self, field.name)
+            if not (math.isfinite(value) and value >= 0):
+                raise LevadeError(f"physics.ode.{field.name}: {value} should be 0 or more; Gazebo has {field.default}")
+
+
+@dataclass(frozen=True)
+class Physics:
+    """Which engine simulates, and how time and contact are resolved.
+
+    engine: "mujoco", or "ode", which needs a library: see docs/engines.md.
+    timestep: [s]. integrator, cone, impratio: as in MuJoCo's ``option``, of no effect in ODE. The elliptic cone with a
+    friction constraint that is stiffer than the normal one (impratio > 1) keeps feet from creeping: with MuJoCo's own
+    defaults HyQ2Max, standing still, sinks by 1 cm in 5 s as its feet slide apart. ode: see `Ode`.
+    """
+
+    engine: Literal["mujoco", "ode"] = "mujoco"
     timestep: float = 0.002
     integrator: Literal["implicitfast", "implicit", "Euler", "RK4"] = "implicitfast"
     cone: Literal["elliptic", "pyramidal"] = "elliptic"
     impratio: float = 10.0
+    ode: Ode = Ode()
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.timestep) and 0 < self.timestep <= 0.02):

@@ -205,8 +205,10 @@ def load_model(motion: Motion) -> Any:
 
 
 def replay(motion: Motion) -> Poses:
-    """Simulate the motion from its file."""
+    """Simulate the motion from its file; take it as recorded if another engine than MuJoCo made it."""
     model = load_model(motion)
+    if motion.meta["engine"] != "mujoco":
+        return _recorded(motion, model)
     data = mujoco.MjData(model)
     data.qpos[:], data.qvel[:], data.act[:] = motion["qpos0"], motion["qvel0"], motion["act0"]
     qpos = np.empty((len(motion["ctrl"]) + 1, model.nq))
@@ -215,6 +217,15 @@ def replay(motion: Motion) -> Poses:
         data.ctrl[:] = ctrl
         mujoco.mj_step(model, data)
         qpos[row] = data.qpos
+    return Poses(model, np.concatenate([[0.0], motion["time"]]), qpos)
+
+
+def _recorded(motion: Motion, model: Any) -> Poses:
+    qpos = np.repeat(motion["qpos0"][None], len(motion["time"]) + 1, axis=0)
+    root = int(model.jnt_qposadr[model.body(motion.meta["trunk"]).jntadr[0]])
+    qpos[1:, root : root + 3], qpos[1:, root + 3 : root + 7] = motion["trunk_position"], motion["trunk_quaternion"]
+    for column, joint in enumerate(motion["joint_names"]):
+        qpos[1:, int(model.joint(str(joint)).qposadr[0])] = motion["joint_position"][:, column]
     return Poses(model, np.concatenate([[0.0], motion["time"]]), qpos)
 
 

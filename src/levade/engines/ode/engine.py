@@ -1,0 +1,132 @@
+"""The engine ode: the Open Dynamics Engine, the paper's contact model, behind the same two methods as MuJoCo.
+
+engine = OdeEngine(load_robot("hyq2max"), Scene(), Physics(engine="ode"))
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import mujoco
+import numpy as np
+
+from levade.engines.engine import Engine
+from levade.engines.ode.crew import Crew
+from levade.engines.ode.simulation import Simulation
+from levade.engines.ode.skeleton import skeleton
+from levade.engines.physics import Physics
+from levade.engines.start import State
+from levade.errors import LevadeError
+from levade.robots import Robot
+from levade.scenes import Scene
+from levade.trajectory import Array, JointLimits, JointReference, Trajectories, rotate
+
+
+class OdeEngine(Engine):
+    """ODE. threads: processes at most, 0 for one per core; results do not depend on it.
+
+    Raises LevadeError if the library is missing, or the robot has something that ODE cannot simulate.
+    """
+
+    def __init__(self, robot: Robot, scene: Scene, physics: Physics, *, threads: int = 0) -> None:
+        super().__init__(robot, scene, physics, threads=threads)
+        self._stage = OdeStage(
+            self.xml,
+            self.assets,
+            physics,
+            joints=robot.joint_names,
+            feet=robot.feet,
+            limits=robot.limits,
+            trunk_com_offset=robot.trunk_com_offset,
+            threads=threads,
+        )
+
+    def rollout(
+        self, state: State, reference: JointReference, *, feet: bool = False, bodies: Sequence[str] = ()
+    ) -> Trajectories:
+        return self._stage.rollout((state.qpos, state.qvel, state.act), reference, feet=feet, bodies=bodies)
+
+    def _settle(self, model: mujoco.MjModel, data: mujoco.MjData, posture: Array, time: float) -> State:
+        steps = round(time / self.physics.timestep)
+        start = (data.qpos.copy(), data.qvel.copy(), data.act.copy())
+        if steps:
+            simulation = Simulation(skeleton(model), self.physics.ode, self.physics.timestep)
+            held = np.broadcast_to(posture[_order(simulation, self.robot.joint_names)[1]], (1, steps, posture.size))
+            record = simulation.run(*start, held, np.zeros_like(held))
+            if record.diverged[0]:
+                raise LevadeError(
+                    f"start: the simulation broke down within {time} s; a smaller physics.timestep or lower gains may help"
+                )
+            start = simulation.state_after(record, 0)
+        return State(*start, joint_position=start[0][self.layout.joint_qpos].copy(), joint_reference=posture.copy())
+
+
+class OdeStage:
+    """A model in ODE, by names: what a motion file has is enough.
+
+    xml, assets: MJCF and its files. joints, feet, limits, trunk_com_offset: as in `levade.robots.Robot`.
+    """
+
+    def __init__(
+        self,
+        xml: str,
+        assets: Mapping[str, bytes],
+        physics: Physics,
+        *,
+        joints: Sequence[str],
+        feet: Sequence[str],
+        limits: JointLimits,
+        trunk_com_offset: Array,
+        threads: int = 0,
+    ) -> None:
+        self._crew = Crew(xml, assets, physics, threads)
+        self._physics, self._limits, self._offset = physics, limits, trunk_com_offset
+        self._to, self._from = _order(self._crew.simulation, joints)
+        self._model = self._crew.simulation.skeleton.model
+        self._feet = [self._model.geom(foot).id for foot in feet]
+
+    def rollout(
+        self,
+        start: tuple[Array, Array, Array],
+        reference: JointReference,
+        *,
+        feet: bool = False,
+        bodies: Sequence[str] = (),
+    ) -> Trajectories:
+        """As `Engine.rollout`; start: qpos, qvel, act of the model."""
+        record = self._crew.run(
+            start,
+            reference.position[..., self._from],
+            reference.velocity[..., self._from],
+            geoms=self._feet if feet else [],
+            bodies=[self._model.body(body).id for body in bodies],
+        )
+        return Trajectories(
+            joint_position=record.angle[..., self._to],
+            joint_velocity=record.speed[..., self._to],
+            joint_torque=record.torque[..., self._to],
+            trunk_position=record.position,
+            trunk_quaternion=record.quaternion,
+            trunk_linear_velocity=record.linear,
+            trunk_angular_velocity=rotate(_inverse(record.quaternion), record.angular),
+            trunk_com_offset=self._offset,
+            reference=reference,
+            limits=self._limits,
+            timestep=self._physics.timestep,
+            horizon_steps=reference.horizon_steps,
+            diverged=record.diverged,
+            foot_contact_force=record.geom_force if feet else None,
+            body_contact_force={
+                body: np.linalg.norm(record.body_force[:, :, i], axis=-1) for i, body in enumerate(bodies)
+            },
+        )
+
+
+def _order(simulation: Simulation, joints: Sequence[str]) -> tuple[list[int], list[int]]:
+    """Where the joints are among the hinges, and the hinges among the joints."""
+    names = simulation.skeleton.hinges.names
+    return [names.index(joint) for joint in joints], [list(joints).index(name) for name in names]
+
+
+def _inverse(quaternion: Array) -> Array:
+    return quaternion * np.array([1.0, -1.0, -1.0, -1.0])

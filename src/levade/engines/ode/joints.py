@@ -1,0 +1,124 @@
+"""Joints, all trials at once: from the links' motion to angles, from what is asked of the joints to torques.
+
+Sums of three are written out, never left to a library's summation, whose order may depend on how many trials there are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import mujoco
+import numpy as np
+
+from levade.engines.ode.skeleton import Skeleton
+from levade.trajectory import Array, rotation_matrix
+
+_STIFF = 0.2
+"""Share of its speed that damping may take off a hinge in one step and still be left to explicit integration."""
+
+_FREE = 1e-9
+"""[Nm s/rad], resistance of a motor that is to do nothing."""
+
+
+class Angles:
+    """Angles and speeds of the hinges, measured on the links: the angle between two arms, one on either link."""
+
+    def __init__(self, skeleton: Skeleton) -> None:
+        hinges = skeleton.hinges
+        joints = len(hinges.names)
+        child, self._parent, self._zero = np.arange(1, joints + 1), hinges.parent, hinges.zero
+        least = np.eye(3)[np.argmin(np.abs(hinges.axis), axis=1)]
+        arm = np.cross(hinges.axis, least)
+        arm /= np.linalg.norm(arm, axis=1, keepdims=True)
+        at_rest = rotation_matrix(hinges.rest)
+        across, axis = (np.einsum("jab,jb->ja", at_rest, v) for v in (np.cross(hinges.axis, arm), hinges.axis))
+        self._of = np.concatenate([child, hinges.parent, hinges.parent, hinges.parent])
+        self._vectors = np.concatenate([arm, np.einsum("jab,jb->ja", at_rest, arm), across, axis])
+        self._joints = joints
+
+    def __call__(self, state: Mapping[str, Array], near: Array) -> tuple[Array, Array]:
+        """(n, J) angles [rad], of the turns the one that is nearest to ``near``, and (n, J) speeds [rad/s]."""
+        rotation = state["rotation"][:, self._of]
+        n, j, v = len(rotation), self._joints, self._vectors
+        turned = [
+            rotation[..., 3 * i] * v[:, 0] + rotation[..., 3 * i + 1] * v[:, 1] + rotation[..., 3 * i + 2] * v[:, 2]
+            for i in range(3)
+        ]
+        arm, along, across, axis = (slice(i * j, (i + 1) * j) for i in range(4))
+        x, y, z = turned
+        cosine = x[:, arm] * x[:, along] + y[:, arm] * y[:, along] + z[:, arm] * z[:, along]
+        sine = x[:, arm] * x[:, across] + y[:, arm] * y[:, across] + z[:, arm] * z[:, across]
+        angle = np.arctan2(sine, cosine) + self._zero
+        angle += 2 * np.pi * np.round((near - angle) / (2 * np.pi))
+        spin = state["angular"][:, 1 : j + 1] - state["angular"][:, self._parent]
+        speed = spin[..., 0] * x[:, axis] + spin[..., 1] * y[:, axis] + spin[..., 2] * z[:, axis]
+        return angle, speed.reshape(n, j)
+
+
+class Torques:
+    """The drives and the passive torques of the hinges.
+
+    Torques are explicit: those at the start of the step. Where that would be unstable, and for armature, the hinge has a
+    motor that resists: it makes ``hold * (speed before) - resistance * (speed after)``, in which armature / timestep is
+    in both and damping in the second. So does MuJoCo's implicit integration, to the same order.
+
+    resisted: (J,) bool, the hinges that have it.
+    """
+
+    def __init__(self, skeleton: Skeleton, timestep: float) -> None:
+        self._hinges, self._drives = skeleton.hinges, skeleton.drives
+        hinges, drives = self._hinges, self._drives
+        implicit = np.where(drives.time_constant == 0, drives.kd, 0.0)  # with a lag, MuJoCo has it explicit as well
+        stiff = (hinges.damping + implicit) * timestep * _mobility(skeleton) > _STIFF
+        self.resisted = stiff | (hinges.armature > 0)
+        self._implicit = np.where(self.resisted, implicit, 0.0)
+        self._explicit = np.where(self.resisted, 0.0, hinges.damping)
+        self._hold = hinges.armature / timestep
+        self._damping = self._hold + np.where(self.resisted, hinges.damping, 0.0)
+        with np.errstate(divide="ignore"):
+            self._follow = np.where(drives.time_constant > 0, -np.expm1(-timestep / drives.time_constant), 1.0)
+
+    def __call__(
+        self, lag: Array, angle: Array, speed: Array, position: Array, velocity: Array
+    ) -> tuple[Array, Array, Array, Array]:
+        """(n, J) each: torque delivered by the drives [Nm]; torque to put on the hinge; resistance [Nm s/rad] and target
+        [rad/s] of its motor, where it has one. ``lag``, (n, J) [Nm], goes on in place.
+        """
+        d, hinges = self._drives, self._hinges
+        command = d.kp * (position - angle) + d.kd * (velocity - speed)
+        command = np.clip(command, (-d.no_load - speed) * d.slope, (d.no_load - speed) * d.slope)
+        lag[:] = np.where(self._follow == 1.0, command, lag + self._follow * (command - lag))
+        torque = np.clip(lag, -d.limit, d.limit)
+        implicit = np.where(np.abs(lag) > d.limit, 0.0, self._implicit)  # at its limit a drive does not damp
+        pushed = torque + implicit * speed - self._explicit * speed - hinges.stiffness * (angle - hinges.spring)
+        resistance = np.maximum(self._damping + implicit, _FREE)
+        return torque, pushed, resistance, self._hold * speed / resistance
+
+
+def link_motion(skeleton: Skeleton, qpos: Array, qvel: Array) -> tuple[Array, Array, Array, Array]:
+    """(L, ...) of the links at a state of the model: centres of mass, quaternions, velocities, angular velocities."""
+    model, com = skeleton.model, skeleton.com
+    data = mujoco.MjData(model)
+    data.qpos[:], data.qvel[:] = qpos, qvel
+    mujoco.mj_fwdPosition(model, data)
+    mujoco.mj_fwdVelocity(model, data)
+    lever = np.einsum("lab,lb->la", data.xmat[skeleton.body].reshape(-1, 3, 3), com)
+    twist: Array = np.zeros((len(com), 6))
+    for row, body in zip(twist, skeleton.body, strict=True):
+        mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_XBODY, body, row, 0)
+    angular, linear = twist[:, :3], twist[:, 3:]
+    velocity = linear + np.asarray(np.cross(angular, lever), dtype=float)
+    return data.xpos[skeleton.body] + lever, data.xquat[skeleton.body], velocity, angular
+
+
+def _mobility(skeleton: Skeleton) -> Array:
+    """(J,) [rad/s² per Nm], of each hinge between its two links alone: no less than what it has in the robot."""
+    hinges = skeleton.hinges
+    at_rest = rotation_matrix(hinges.rest)
+    total = []
+    for j, parent in enumerate(hinges.parent):
+        axis = hinges.axis[j]
+        over = at_rest[j] @ axis
+        total.append(axis @ np.linalg.solve(skeleton.inertia[j + 1], axis))
+        total[-1] += over @ np.linalg.solve(skeleton.inertia[parent], over)
+    return np.array(total)

@@ -1,0 +1,216 @@
+"""The loop over time: actuators, contacts and steps of n trials side by side.
+
+simulation = Simulation(skeleton, Ode(), timestep=0.002)
+record = simulation.run(qpos, qvel, act, position, velocity)
+
+The trials share every numpy call, but no number: a trial gives the same bits alone, beside others, and in another
+process. Time costs mostly ODE: about 0.1 ms a step and trial for a robot of 12 joints on its feet.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from levade.engines.ode.joints import Angles, Torques, link_motion
+from levade.engines.ode.library import load
+from levade.engines.ode.nearness import Nearness
+from levade.engines.ode.skeleton import Skeleton
+from levade.engines.ode.worlds import CONTACTS, Worlds
+from levade.engines.physics import Ode
+from levade.trajectory import Array, rotate
+
+_SPEED = 1e4
+"""[m/s], [rad/s]: a simulation in which something is faster has broken down."""
+
+_TORQUE = 1e9
+"""[Nm]: more breaks a simulation down in one step."""
+
+_SEED = 2017
+"""Of the order in which QuickStep takes the constraints; each step has its own, the same in every trial."""
+
+
+@dataclass(frozen=True, eq=False)
+class Record:
+    """What n trials did, in the skeleton's order of links and hinges.
+
+    angle, speed, torque: (n, steps, J). position: (n, steps, 3), quaternion: (n, steps, 4), linear, angular: (n, steps,
+    3), of the trunk's frame: origin, orientation, velocity of the origin and angular velocity in world axes.
+    lag: (n, J), state of the drives at the end. geom_force: (n, steps, geoms asked for, 3) [N] on each geom, world axes;
+    body_force: (n, steps, bodies asked for, 3), by the world on each body. diverged: (n,).
+    """
+
+    angle: Array
+    speed: Array
+    torque: Array
+    position: Array
+    quaternion: Array
+    linear: Array
+    angular: Array
+    lag: Array
+    geom_force: Array
+    body_force: Array
+    diverged: NDArray[np.bool_]
+
+
+class Simulation:
+    """ODE's worlds of one skeleton, kept for the next run."""
+
+    def __init__(self, skeleton: Skeleton, settings: Ode, timestep: float) -> None:
+        self.skeleton = skeleton
+        self._torques = Torques(skeleton, timestep)
+        self._worlds = Worlds(load(), skeleton, settings, timestep, self._torques.resisted)
+        self._near = Nearness(skeleton)
+        self._timestep = timestep
+        self._angles = Angles(skeleton)
+
+    def run(
+        self,
+        qpos: Array,
+        qvel: Array,
+        act: Array,
+        position: Array,
+        velocity: Array,
+        *,
+        geoms: Sequence[int] = (),
+        bodies: Sequence[int] = (),
+    ) -> Record:
+        """Simulate n trials from one state of the model under desired hinge angles and speeds, (n, steps, J).
+
+        geoms, bodies: of the model, whose contact forces are recorded.
+        """
+        with np.errstate(all="ignore"):  # of simulations that break down
+            return self._run(qpos, qvel, act, position, velocity, list(geoms), list(bodies))
+
+    def state_after(self, record: Record, trial: int) -> tuple[Array, Array, Array]:
+        """qpos, qvel, act of the model at the end of a trial."""
+        s, model = self.skeleton, self.skeleton.model
+        qpos, qvel, act = model.qpos0.copy(), np.zeros(model.nv), np.zeros(model.na)
+        last = (trial, -1)
+        qpos[s.root_qpos : s.root_qpos + 7] = [*record.position[last], *record.quaternion[last]]
+        qvel[s.root_qvel : s.root_qvel + 3] = record.linear[last]
+        inverse = record.quaternion[last] * np.array([1.0, -1.0, -1.0, -1.0])
+        qvel[s.root_qvel + 3 : s.root_qvel + 6] = rotate(inverse, record.angular[last])
+        qpos[s.hinges.qpos], qvel[s.hinges.qvel] = record.angle[last], record.speed[last]
+        lagging = s.drives.act >= 0
+        act[s.drives.act[lagging]] = record.lag[trial, lagging]
+        return qpos, qvel, act
+
+    def _run(
+        self,
+        qpos: Array,
+        qvel: Array,
+        act: Array,
+        position: Array,
+        velocity: Array,
+        geoms: list[int],
+        bodies: list[int],
+    ) -> Record:
+        worlds, drives = self._worlds, self.skeleton.drives
+        n, steps, joints = position.shape
+        worlds.grow(n)
+        links = link_motion(self.skeleton, qpos, qvel)
+        worlds.place(range(n), *links)
+        self._near.forget()
+        state = worlds.read(n)
+        angle = np.repeat(qpos[None, self.skeleton.hinges.qpos], n, axis=0)
+        angle, speed = self._angles(state, angle)
+        lag = np.zeros((n, joints))
+        if act.size:
+            lag += np.where(drives.act >= 0, drives.gain * act[drives.act], 0.0)
+        angles, speeds, torques = (np.zeros((n, steps, joints)) for _ in range(3))
+        trunk = np.zeros((n, steps, 4 + 3 * 3))
+        geom_force, body_force = (np.zeros((n, steps, len(of), 3)) for of in (geoms, bodies))
+        touching: list[tuple[int, int]] | None = [] if geoms or bodies else None
+        seeds = np.random.default_rng(_SEED).integers(2**32, size=steps).tolist()
+        until = np.full(n, steps)  # the row from which on a trial has broken down
+        running = list(range(n))
+        resisted = bool(self._torques.resisted.any())
+        for k in range(steps):
+            torque, pushed, resistance, target = self._torques(lag, angle, speed, position[:, k], velocity[:, k])
+            still = [i for i, sound in zip(running, _sound(pushed, _TORQUE, running), strict=True) if sound]
+            pairs = self._near(state, self._timestep)
+            if touching is not None:
+                touching.clear()
+                worlds.make_room(CONTACTS * sum(map(len, pairs)))
+            push = pushed.tolist()
+            for i in still:
+                if resisted:
+                    worlds.resist(i, target[i], resistance[i])
+                worlds.advance(i, push[i], pairs[i], seeds[k], touching)
+            state = worlds.read(n)
+            fast = np.maximum(np.abs(state["linear"]), np.abs(state["angular"]))
+            still = [i for i, sound in zip(still, _sound(fast, _SPEED, still), strict=True) if sound]
+            if len(still) < len(running):
+                broken = sorted(set(running) - set(still))
+                until[broken] = k
+                worlds.place(broken, *links)
+                self._near.forget()
+                state = worlds.read(n)
+            running = still
+            angle, speed = self._angles(state, angle)
+            angles[:, k], speeds[:, k], torques[:, k] = angle, speed, torque
+            trunk[:, k] = np.concatenate(
+                [state[name][:, 0] for name in ("quaternion", "position", "linear", "angular")], 1
+            )
+            if touching:
+                self._add_forces(k, touching, geoms, bodies, geom_force, body_force)
+        out = Record(
+            *(angles, speeds, torques, *self._trunk(trunk), lag / drives.gain, geom_force, body_force),
+            diverged=until < steps,
+        )
+        for i in np.flatnonzero(out.diverged):
+            _repeat(out, int(i), int(until[i]), self.skeleton, qpos, qvel)
+        return out
+
+    def _trunk(self, row: Array) -> tuple[Array, Array, Array, Array]:
+        """Position, quaternion, velocity and angular velocity of the trunk's frame from those of its centre of mass."""
+        quaternion, centre, linear, angular = np.split(row, [4, 7, 10], axis=-1)
+        quaternion = quaternion / np.sqrt(np.sum(quaternion**2, axis=-1, keepdims=True))
+        lever = rotate(quaternion, self.skeleton.com[0])
+        return centre - lever, quaternion, linear - np.cross(angular, lever), angular.copy()
+
+    def _add_forces(
+        self,
+        k: int,
+        touching: list[tuple[int, int]],
+        geoms: list[int],
+        bodies: list[int],
+        geom_force: Array,
+        body_force: Array,
+    ) -> None:
+        """Sum the contacts' forces by geom, and those of the world by body."""
+        force = self._worlds.forces(len(touching))
+        trial, pair = np.array(touching).T
+        shapes = self.skeleton.shapes
+        one, other = ([shapes[i] for i in self.skeleton.pairs[pair, side]] for side in (0, 1))
+        for column, geom in enumerate(geoms):
+            for sign, side in ((1.0, one), (-1.0, other)):
+                of = np.array([shape.geom == geom for shape in side])
+                np.add.at(geom_force, (trial[of], k, column), sign * force[of])
+        for column, body in enumerate(bodies):
+            of = np.array([a.body == body and b.link < 0 for a, b in zip(one, other, strict=True)])
+            np.add.at(body_force, (trial[of], k, column), force[of])
+
+
+def _sound(values: Array, limit: float, trials: list[int]) -> list[bool]:
+    """Of the trials: whether all values, (n, ...), are within the limit, and numbers."""
+    return np.all(np.abs(values).reshape(len(values), -1) < limit, axis=1)[trials].tolist()
+
+
+def _repeat(out: Record, trial: int, row: int, skeleton: Skeleton, qpos: Array, qvel: Array) -> None:
+    """From a row on, repeat the row before it, or the start."""
+    start = {
+        "angle": qpos[skeleton.hinges.qpos],
+        "speed": qvel[skeleton.hinges.qvel],
+        "position": qpos[skeleton.root_qpos : skeleton.root_qpos + 3],
+        "quaternion": qpos[skeleton.root_qpos + 3 : skeleton.root_qpos + 7],
+        "linear": qvel[skeleton.root_qvel : skeleton.root_qvel + 3],
+    }
+    names = ("angle", "speed", "torque", "position", "quaternion", "linear", "angular", "geom_force", "body_force")
+    for name in names:
+        values = getattr(out, name)[trial]
+        values[row:] = values[row - 1] if row else start.get(name, 0.0)

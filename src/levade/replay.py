@@ -1,0 +1,132 @@
+"""Replay: a motion from its file, in the engine of choice; the same references, another physics.
+
+    replay = replay_in("ode", Motion.load("motion.npz"))
+    replay.success, replay.errors["pitch"]
+    replay.trajectories.trunk_position[0]               # (steps, 3) [m]
+
+Nothing but the file is needed: the model, the state at the start and the references are in it. The replay begins in the
+file's own state, wherever the engine itself would have the robot settle.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from mujoco.batch import Batch, SimulationError
+
+from levade.costs import errors, success
+from levade.engines import Ode
+from levade.engines.engine import Layout
+from levade.errors import LevadeError, did_you_mean
+from levade.motion import Motion
+from levade.tasks import Task, task_from_dict
+from levade.trajectory import Array, JointLimits, JointReference, Trajectories
+
+ENGINES = ("mujoco", "ode")
+
+
+@dataclass(frozen=True, eq=False)
+class Replay:
+    """What came of it. trajectories: of one trial, with foot forces. errors, success: by the criteria of its task."""
+
+    engine: str
+    trajectories: Trajectories
+    errors: Mapping[str, float]
+    success: bool
+
+
+def replay_in(engine: str, motion: Motion, *, ode: Ode | None = None) -> Replay:
+    """The motion's references, simulated from its start in an engine.
+
+    engine: "mujoco" or "ode". ode: settings of the latter; those of the motion's task if None. In the engine that made
+    the motion, with the same versions, it is the motion itself, to the bit. Raises LevadeError for an engine that is not
+    there, or cannot simulate the motion's model.
+    """
+    if engine not in ENGINES:
+        raise LevadeError(f"no engine {engine!r}; {did_you_mean(engine, ENGINES)}")
+    task = task_from_dict(motion.meta["task"], where="the motion's task")
+    reference = JointReference(
+        motion["joint_position_reference"][None],
+        motion["joint_velocity_reference"][None],
+        float(motion.meta["timestep"]),
+        motion.horizon_steps,
+    )
+    names = _Names(motion)
+    if engine == "ode":
+        trajectories = _in_ode(motion, names, task, reference, ode or task.physics.ode)
+    else:
+        trajectories = _in_mujoco(motion, names, reference)
+    off = errors(task.success, trajectories)
+    return Replay(
+        engine=engine,
+        trajectories=trajectories,
+        errors={name: float(error[0]) for name, error in off.items()},
+        success=bool(success(task.success, trajectories)[0]),
+    )
+
+
+class _Names:
+    """Names and limits of the motion's robot."""
+
+    def __init__(self, motion: Motion) -> None:
+        meta = motion.meta
+        self.joint_names = tuple(str(name) for name in motion["joint_names"])
+        self.trunk = str(meta["trunk"])
+        self.feet = tuple(str(leg["foot"]) for leg in meta["legs"].values())
+        self.trunk_com_offset = np.array(meta["trunk_com_offset"], dtype=float)
+        self.limits = JointLimits(
+            lower=_limit(meta["limits"]["lower"], -np.inf),
+            upper=_limit(meta["limits"]["upper"], np.inf),
+            velocity=_limit(meta["limits"]["velocity"], np.inf),
+            torque=_limit(meta["limits"]["torque"], np.inf),
+        )
+
+
+def _limit(values: Sequence[float | None], none: float) -> Array:
+    return np.array([none if value is None else value for value in values], dtype=float)
+
+
+def _in_ode(motion: Motion, names: _Names, task: Task, reference: JointReference, settings: Ode) -> Trajectories:
+    from levade.engines.ode.engine import OdeStage
+
+    stage = OdeStage(
+        motion.model_xml,
+        motion.assets,
+        dataclasses.replace(task.physics, engine="ode", timestep=reference.timestep, ode=settings),
+        joints=names.joint_names,
+        feet=names.feet,
+        limits=names.limits,
+        trunk_com_offset=names.trunk_com_offset,
+        threads=1,
+    )
+    return stage.rollout((motion["qpos0"], motion["qvel0"], motion["act0"]), reference, feet=True)
+
+
+def _in_mujoco(motion: Motion, names: _Names, reference: JointReference) -> Trajectories:
+    model = mujoco.MjModel.from_xml_string(motion.model_xml, dict(motion.assets))
+    model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
+    layout, batch = Layout(names, model), Batch(model, 1, 1)
+    data = mujoco.MjData(model)
+    data.qpos[:], data.qvel[:], data.act[:] = motion["qpos0"], motion["qvel0"], motion["act0"]
+    whole = mujoco.mjtState.mjSTATE_INTEGRATION
+    mujoco.mj_getState(model, data, batch.state[0], whole)
+    ctrl = np.zeros((1, reference.steps, model.nu))
+    ctrl[..., layout.ctrl_position] = reference.position
+    ctrl[..., layout.ctrl_velocity] = reference.velocity
+    recorded = ["qpos", "qvel", "actuator_force", "sensordata"]
+    try:
+        out = batch.rollout(reference.steps, ctrl, record=recorded)
+    except SimulationError:
+        raise LevadeError("the motion's model breaks down in MuJoCo before the first step") from None
+    return layout.trajectories(
+        out,
+        reference,
+        limits=names.limits,
+        trunk_com_offset=names.trunk_com_offset,
+        diverged=np.array([np.any(batch.warning[0])]),
+        feet=True,
+    )
