@@ -90,7 +90,7 @@ def test_pictures_show_a_motion_of_ode_as_it_was_recorded(motion: Callable[[str]
 
 
 def test_a_run_in_ode_goes_on_where_it_stopped_to_the_same_motion(tmp_path: Path) -> None:
-    task = load_task("rearing", changes=["physics.engine=ode", "search.trials=51"])
+    task = load_task("rearing", changes=["physics.engine=ode", "search.trials=51", "start.settled.time=0.3"])
     whole = run(task, seed=3, directory=tmp_path / "whole").motion
 
     def stop(generation) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import gc
 import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -13,7 +14,7 @@ import pytest
 
 import levade.robots
 from levade.engines import Engine, Fall, MujocoEngine, Ode, Physics, Settled, State, make_engine
-from levade.engines.ode import library
+from levade.engines.ode import crew, library
 from levade.engines.ode.joints import Torques, link_motion
 from levade.engines.ode.library import load
 from levade.engines.ode.nearness import Nearness
@@ -180,8 +181,13 @@ def test_motions_stay_together_for_a_tenth_of_a_second(
 
 
 def test_processes_order_and_company_do_not_matter(
-    robot: Robot, ode: Engine, standing: State, wave: Callable[..., JointReference]
+    robot: Robot,
+    ode: Engine,
+    standing: State,
+    wave: Callable[..., JointReference],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    monkeypatch.setattr(crew, "_HIRE", 0)
     reference = wave(standing.joint_reference, n=7, steps=220)
     expected = ode.rollout(standing, reference, feet=True, bodies=("trunk", "lf_lower"))
     three = make_engine(robot, Scene(), PHYSICS, threads=3)
@@ -196,6 +202,11 @@ def test_processes_order_and_company_do_not_matter(
             np.testing.assert_array_equal(getattr(out, name), getattr(expected, name)[rows], err_msg=f"{label}: {name}")
         if out.foot_contact_force is not None:
             np.testing.assert_array_equal(out.foot_contact_force, expected.foot_contact_force[rows], err_msg=label)
+    helpers = list(three._stage._crew._helpers)  # type: ignore[attr-defined]
+    assert [helper.poll() for helper in helpers] == [None, None]
+    del three
+    gc.collect()
+    assert None not in [helper.poll() for helper in helpers]  # they go with the engine
     # the shank's body has the foot on it, and only the foot touched the ground
     force = np.linalg.norm(expected.foot_contact_force[:, :, 0], axis=-1)
     np.testing.assert_allclose(expected.body_contact_force["lf_lower"], force, rtol=1e-6, atol=1e-6)

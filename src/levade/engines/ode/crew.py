@@ -13,6 +13,7 @@ import subprocess
 import sys
 import weakref
 from collections.abc import Mapping
+from contextlib import suppress
 from typing import IO, Any
 
 import mujoco
@@ -24,7 +25,10 @@ from levade.engines.physics import Physics
 from levade.trajectory import Array
 
 _WORTH = 1500
-"""Steps, over all trials, from which on a roll-out is shared; starting a process costs as much."""
+"""Steps, over all trials, from which on a roll-out is shared."""
+
+_HIRE = 20_000
+"""Steps simulated before another process is started, which costs as much as thousands."""
 
 
 class Crew:
@@ -37,12 +41,15 @@ class Crew:
         self._model = (xml, dict(assets), physics)
         self.simulation = simulation(*self._model)
         self._size = threads or _cores()
+        self._done = 0
         self._helpers: list[subprocess.Popen[bytes]] = []
+        weakref.finalize(self, _dismiss, self._helpers)
 
     def run(self, start: tuple[Array, Array, Array], position: Array, velocity: Array, **forces: Any) -> Record:
         """`Simulation.run` of n trials; start: qpos, qvel, act."""
         n, steps = position.shape[:2]
-        size = min(self._size, n) if n * steps >= _WORTH else 1
+        self._done += n * steps
+        size = min(self._size, n) if n * steps >= _WORTH and self._done >= _HIRE else 1
         shares = np.array_split(np.arange(n), size)
         while len(self._helpers) < size - 1:
             self._helpers.append(_hire(self._model))
@@ -53,9 +60,7 @@ class Crew:
             for helper, _ in zip(self._helpers, shares[1:], strict=False):
                 records.append(_receive(helper.stdout))
         except BaseException:  # an answer that nobody waits for would be taken for the next one
-            for helper in self._helpers:
-                _dismiss(helper)
-            self._helpers.clear()
+            _dismiss(self._helpers)
             raise
         if len(records) == 1:
             return records[0]
@@ -81,17 +86,19 @@ def _hire(model: tuple[str, dict[str, bytes], Physics]) -> subprocess.Popen[byte
         env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)},
         process_group=0,  # Ctrl-C is for this process, which knows what to do
     )
-    weakref.finalize(helper, _dismiss, helper)
     _send(helper.stdin, model)
     return helper
 
 
-def _dismiss(helper: subprocess.Popen[bytes]) -> None:
-    helper.kill()
-    for pipe in (helper.stdin, helper.stdout):
-        if pipe is not None:
-            pipe.close()
-    helper.wait()
+def _dismiss(helpers: list[subprocess.Popen[bytes]]) -> None:
+    while helpers:
+        helper = helpers.pop()
+        helper.kill()
+        for pipe in (helper.stdin, helper.stdout):
+            if pipe is not None:
+                with suppress(BrokenPipeError):  # of what was not yet sent
+                    pipe.close()
+        helper.wait()
 
 
 def _send(pipe: IO[bytes] | None, content: object) -> None:
