@@ -82,7 +82,7 @@ def changed(default: T, changes: Sequence[str], *, option: str) -> T:
             table = read_yaml(Path(change), like=", ".join(list(content)[:3]))
             build(type(default), to_si(table, where=change), where=change)  # mistakes are the file's
             content |= table
-    return build(type(default), to_si(content, where=option), where=option)
+    return build(type(default), to_si(content, where=option[2:]), where=option[2:])
 
 
 def _tell(console: Console, path: Path, certificate: Certificate) -> None:

@@ -32,7 +32,8 @@ _KEYS: dict[str, str] = {
     **dict.fromkeys(("start_joint", "start_attitude", "ground_slope"), "an angle"),
     **dict.fromkeys(("com", "ground_height", "obstacle"), "a length"),
     **dict.fromkeys(("start_rate", "start_joint_velocity"), "an angular speed"),
-    **{"latency": "a duration", "start_velocity": "a speed"},
+    "latency": "a duration",
+    "start_velocity": "a speed",
 }
 _BOUNDS = ("target", "tolerance", "minimum", "maximum")
 _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-z°][\w°/²^]*)\s*")
