@@ -45,6 +45,7 @@ def check(
     *,
     runs: int = 500,
     seed: int = 0,
+    divide: int = 1,
     perturbation: Perturbation | None = None,
     demands: Demands | None = None,
     criteria: Task | None = None,
@@ -52,8 +53,9 @@ def check(
 ) -> Certificate:
     """Check a motion against its model's uncertainty, its numbers, other engines and its hardware.
 
-    perturbation, demands: the defaults if None. criteria: a task whose success criteria are used instead of the motion's own.
-    threads: results do not depend on it. Raises LevadeError if there is nothing to judge by, or no runs.
+    divide: the time step of the perturbed runs by so much. perturbation, demands: the defaults if None. criteria: a task
+    whose success criteria are used instead of the motion's own. threads: results do not depend on it.
+    Raises LevadeError if there is nothing to judge by, or no runs.
     """
     subject = Subject(motion, criteria=None if criteria is None else criteria.success, threads=threads)
     if not subject.criteria:
@@ -62,13 +64,15 @@ def check(
         )
     if not 1 <= runs <= 1_000_000:
         raise LevadeError(f"check: {runs} runs; 1 or more, 500 is usual")
+    if not 1 <= divide <= 64:
+        raise LevadeError(f"check: the time step divided by {divide}; 1 to 64, 2 is usual")
     demands = demands or Demands()
     return Certificate(
         task=subject.task.name,
         robot=str(motion.meta["robot"]),
         criteria=subject.task.name if criteria is None else criteria.name,
         demands=demands,
-        perturbed=perturbed(subject, perturbation or Perturbation(), runs=runs, seed=seed),
+        perturbed=perturbed(subject, perturbation or Perturbation(), runs=runs, seed=seed, divide=divide),
         numerics=numerics(subject),
         engines=other_engines(subject),
         margins=margins(subject, demands),

@@ -14,7 +14,7 @@ from levade.check.subject import Subject
 from levade.costs import DIVERGED, errors, success
 from levade.engines import Ensemble, Perturbation, Sample
 from levade.engines.perturbation import PARAMETERS, joined, labels
-from levade.trajectory import Array
+from levade.trajectory import Array, JointReference
 
 _AT_ONCE = 64
 """Runs simulated together: what they record has to fit into memory."""
@@ -56,8 +56,8 @@ class Perturbed:
     """What came of the perturbed runs.
 
     low, high: of the share, Wilson's interval at 95 %. errors: criterion -> lowest, mean and highest error [SI], and in how
-    many runs it was missed. diverged: runs whose simulation broke down. worst: the run that misses by the most times its
-    tolerance: its number, errors, and the parameters' values. sensitivity: in order, strongest first.
+    many runs it was missed. timestep: [s]. diverged: runs whose simulation broke down. worst: the run that misses by the most
+    times its tolerance: its number, errors, and the parameters' values. sensitivity: in order, strongest first.
     """
 
     runs: int
@@ -65,6 +65,7 @@ class Perturbed:
     low: float
     high: float
     seed: int
+    timestep: float
     diverged: int
     errors: Mapping[str, Mapping[str, float]]
     worst: Mapping[str, Any]
@@ -76,16 +77,24 @@ class Perturbed:
 
     def to_json(self) -> dict[str, Any]:
         return {
-            **{name: getattr(self, name) for name in ("runs", "successes", "share", "low", "high", "seed", "diverged")},
+            **{
+                name: getattr(self, name)
+                for name in ("runs", "successes", "share", "low", "high", "seed", "timestep", "diverged")
+            },
             "errors": {name: dict(values) for name, values in self.errors.items()},
             "worst": dict(self.worst),
             "sensitivity": [one.to_json() for one in self.sensitivity],
         }
 
 
-def perturbed(subject: Subject, perturbation: Perturbation, *, runs: int, seed: int) -> Perturbed:
-    """Simulate a motion on ``runs`` perturbed versions of its model, and once more with each parameter alone."""
-    ensemble = subject.ensemble()
+def perturbed(subject: Subject, perturbation: Perturbation, *, runs: int, seed: int, divide: int = 1) -> Perturbed:
+    """Simulate a motion on ``runs`` perturbed versions of its model, and once more with each parameter alone.
+
+    divide: the motion's time step by so much.
+    """
+    model = subject.model_copy()
+    model.opt.timestep /= divide
+    ensemble, reference = subject.ensemble(model), subject.reference_at(divide)[0]
     sample = perturbation.draw(ensemble.model, ensemble.joints, n=runs, seed=seed)
     names = [
         name
@@ -95,7 +104,7 @@ def perturbed(subject: Subject, perturbation: Perturbation, *, runs: int, seed: 
     corners = {
         name: perturbation.corners(ensemble.model, ensemble.joints, name, n=_CORNERS, seed=seed) for name in names
     }
-    whole = _judge(subject, ensemble, joined([sample, *corners.values()]))
+    whole = _judge(subject, ensemble, reference, joined([sample, *corners.values()]))
     drawn = whole.part(0, runs)
     alone, first = {}, runs
     for name, corner in corners.items():
@@ -111,6 +120,7 @@ def perturbed(subject: Subject, perturbation: Perturbation, *, runs: int, seed: 
         low=low,
         high=high,
         seed=seed,
+        timestep=reference.timestep,
         diverged=int(drawn.diverged.sum()),
         errors={
             name: {
@@ -147,11 +157,11 @@ class _Judged:
         return _Judged(off, self.success[at], self.diverged[at], self.miss[at])
 
 
-def _judge(subject: Subject, ensemble: Ensemble, sample: Sample) -> _Judged:
+def _judge(subject: Subject, ensemble: Ensemble, reference: JointReference, sample: Sample) -> _Judged:
     criteria, parts = subject.criteria, []
     for first in range(0, len(sample), _AT_ONCE):
         part = Sample({name: values[first : first + _AT_ONCE] for name, values in sample.values.items()})
-        trajectories = ensemble.rollout(ensemble.vary(subject.start, part), subject.reference)
+        trajectories = ensemble.rollout(ensemble.vary(subject.start, part), reference)
         parts.append((errors(criteria, trajectories), success(criteria, trajectories), trajectories.diverged))
     off = {name: np.concatenate([part[0][name] for part in parts]) for name in criteria}
     met, diverged = (np.concatenate([part[i] for part in parts]) for i in (1, 2))

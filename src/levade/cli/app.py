@@ -154,6 +154,7 @@ def check(
     motion: Annotated[Path, typer.Argument(metavar="MOTION", help="A motion.npz.")],
     runs: Annotated[int, typer.Option(help="Perturbed runs.")] = 500,
     seed: Annotated[int, typer.Option(min=0, help="Of the perturbations; the same seed gives the same runs.")] = 0,
+    divide: Annotated[int, typer.Option(help="Divide the time step of the perturbed runs by this.")] = 1,
     perturb: Annotated[
         list[str] | None,
         typer.Option(
@@ -181,6 +182,7 @@ def check(
         motion,
         runs=runs,
         seed=seed,
+        divide=divide,
         perturb=perturb or [],
         demand=demand or [],
         criteria=criteria,

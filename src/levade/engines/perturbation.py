@@ -174,6 +174,17 @@ class Perturbation:
             if least is not None and low < least:
                 raise LevadeError(f"perturb.{name}: {low} is too low; {least} or more, {about.nominal:g} is nominal")
 
+    def spread(self, model: mujoco.MjModel, joints: int, *, n: int, seed: int | tuple[int, ...]) -> Sample:
+        """n runs that together cover every range evenly: a Latin hypercube, for few runs that have to stand for many.
+
+        Each number's range is cut into n parts, and each run has it in another one (McKay, Beckman and Conover, Technometrics
+        21, 1979).
+        """
+        shapes = _sizes(model, joints)
+        generator = np.random.default_rng(seed)
+        part = np.argsort(generator.random((n, sum(shapes.values()))), axis=0, kind="stable")
+        return self._sample((part + generator.random(part.shape)) / n, shapes)
+
     def draw(self, model: mujoco.MjModel, joints: int, *, n: int, seed: int | tuple[int, ...]) -> Sample:
         """n runs, drawn at random. seed: one number, or several that together make one."""
         shapes = _sizes(model, joints)

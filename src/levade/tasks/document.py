@@ -45,7 +45,7 @@ TERMS = {
 
 _ORDER = (
     *("name", "description", "robot", "scene", "physics", "start", "horizon", "hold"),
-    *("policy", "costs", "stages", "success", "search"),
+    *("policy", "costs", "stages", "success", "search", "robust"),
 )
 _BUILT_IN = Path(__file__).parent / "data"
 
