@@ -240,7 +240,8 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
         "timestep": task.physics.timestep,
         "horizon": task.horizon_steps * task.physics.timestep,
         "horizon_steps": task.horizon_steps,
-        "success": bool(success(task.success, trajectories)[0]),
+        # of a robust search also on enough of its perturbed models, which only the search can tell
+        "success": bool(success(task.success, trajectories)[0]) and (task.robust is None or solution.best.success),
         "diverged": bool(trajectories.diverged[0]),
         "errors": {name: float(error[0]) for name, error in off.items()},
         "cost": float(solution.best.cost),

@@ -55,7 +55,7 @@ def replay_in(engine: str, motion: Motion, *, ode: Ode | None = None) -> Replay:
         float(motion.meta["timestep"]),
         motion.horizon_steps,
     )
-    names = _Names(motion)
+    names = Names(motion)
     if engine == "ode":
         trajectories = _in_ode(motion, names, task, reference, ode or task.physics.ode)
     else:
@@ -69,7 +69,7 @@ def replay_in(engine: str, motion: Motion, *, ode: Ode | None = None) -> Replay:
     )
 
 
-class _Names:
+class Names:
     """Names and limits of the motion's robot."""
 
     def __init__(self, motion: Motion) -> None:
@@ -104,7 +104,7 @@ def _limit(values: Sequence[float | None], none: float) -> Array:
     return np.array([none if value is None else value for value in values], dtype=float)
 
 
-def _in_ode(motion: Motion, names: _Names, task: Task, reference: JointReference, settings: Ode) -> Trajectories:
+def _in_ode(motion: Motion, names: Names, task: Task, reference: JointReference, settings: Ode) -> Trajectories:
     from levade.engines.ode.engine import OdeStage
 
     stage = OdeStage(
@@ -121,7 +121,7 @@ def _in_ode(motion: Motion, names: _Names, task: Task, reference: JointReference
     return stage.rollout((motion["qpos0"], motion["qvel0"], motion["act0"]), reference, feet=True)
 
 
-def _in_mujoco(motion: Motion, names: _Names, reference: JointReference) -> Trajectories:
+def _in_mujoco(motion: Motion, names: Names, reference: JointReference) -> Trajectories:
     model = mujoco.MjModel.from_xml_string(motion.model_xml, dict(motion.assets))
     model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
     layout, batch = Layout(names, model), Batch(model, 1, 1)

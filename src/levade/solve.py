@@ -17,18 +17,20 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from levade.costs import DIVERGED, errors, evaluate, total
-from levade.engines import make_engine
+from levade.costs.risk import ranked_behind, risk
+from levade.engines import Variations, make_engine
 from levade.errors import LevadeError, did_you_mean
 from levade.optimizers import OPTIMIZERS, Aim, Injectable, Optimizer, settings
 from levade.policies import Ends, Follower, GaussianKernels, Group, Policy, smoothness_factor
 from levade.robots import Leg, Robot, load_robot, mirror_signs
+from levade.robust import Sampler, Samples
 from levade.tasks import Change, PolicyChoice, Stage, Task, looks_at_hold
 from levade.trajectory import Array, Trajectories
 
@@ -38,13 +40,21 @@ class Evaluation:
     """What n trials achieved.
 
     terms: cost -> (n,), unweighted. errors: criterion -> (n,), SI. Both are NaN where the hold was not simulated and the
-    cost or criterion looks at it. success, diverged: (n,).
+    cost or criterion looks at it. success, diverged: (n,). samples: what they did on perturbed models, if they were tried on
+    any; a success is then one on enough of these, too. verified: roll-outs that it took to tell, beyond these.
     """
 
     terms: Mapping[str, Array]
     errors: Mapping[str, Array]
     success: NDArray[np.bool_]
     diverged: NDArray[np.bool_]
+    samples: Samples | None = None
+    verified: int = 0
+
+    @property
+    def trials(self) -> int:
+        """Roll-outs that were made."""
+        return len(self.success) + (0 if self.samples is None else int(self.samples.known.sum()) + self.verified)
 
 
 class Objective:
@@ -67,6 +77,7 @@ class Objective:
         self._bodies = tuple(sorted({body for named in bodies.values() for body in named}))
         self.state = self.engine.start(task.start.choice)
         self.policy = make_policy(task, self.robot, start=self.state.joint_reference)
+        self.sampler = None if task.robust is None else Sampler(self.engine, self.state, task.robust)
         self.evaluate(self.initial_weights[None])  # terms that cannot be evaluated say so now
         make_optimizer(self, seed=0)  # and so do settings of its own that an optimizer does not take
 
@@ -83,11 +94,20 @@ class Objective:
         reference = self.policy.reference(weights, hold_steps=hold_steps)
         return self.engine.rollout(self.state, reference, feet=feet, bodies=self._bodies)
 
-    def evaluate(self, weights: Array, *, hold_steps: int | None = None) -> Evaluation:
+    def evaluate(
+        self,
+        weights: Array,
+        *,
+        hold_steps: int | None = None,
+        models: Variations | None = None,
+        race: Mapping[str, float] | None = None,
+    ) -> Evaluation:
         """Simulate and judge trials (n, d).
 
         hold_steps: how much of the hold to simulate; all of it if None. With less, those trials that meet every criterion
         so far are simulated again through all of it, to see whether they succeed.
+        models: perturbed models to try the candidates on as well, as the task's ``robust`` says. race: weights of the costs by
+        which candidates are left behind after a few of the models; None runs all on all.
         """
         full = self.task.hold_steps
         hold_steps = full if hold_steps is None else hold_steps
@@ -96,13 +116,58 @@ class Objective:
             for trial in np.flatnonzero(result.success):
                 through = self._judge(self.rollout(weights[trial : trial + 1]))
                 result.success[trial] = through.success[0]
-        return result
+        return result if models is None else self._on_models(result, weights, hold_steps, models, race)
 
     def cost(self, evaluation: Evaluation, weights: Mapping[str, float]) -> Array:
-        """(n,), the weighted sum of the terms, less those that look at the hold if none of it was simulated."""
+        """(n,), the weighted sum of the terms, less those that look at the hold if none of it was simulated.
+
+        Of candidates that were tried on perturbed models, the task's measure of all their roll-outs.
+        """
         terms = {name: values for name, values in evaluation.terms.items() if not np.isnan(values).any()}
         cost = total(terms, {name: weights[name] for name in terms})
-        return np.where(evaluation.diverged, DIVERGED, cost)
+        cost = np.where(evaluation.diverged, DIVERGED, cost)
+        samples, robust = evaluation.samples, self.task.robust
+        if samples is None or robust is None:
+            return cost
+        on_models = total({name: samples.terms[name] for name in terms}, {name: weights[name] for name in terms})
+        costs = np.column_stack([cost, np.where(samples.diverged, DIVERGED, on_models)])
+        known = np.column_stack([np.ones(len(cost), dtype=bool), samples.known])
+        measured = risk(costs, known, measure=robust.measure, tail=robust.tail)
+        return ranked_behind(measured, samples.complete)
+
+    def _on_models(
+        self,
+        nominal: Evaluation,
+        weights: Array,
+        hold_steps: int,
+        models: Variations,
+        race: Mapping[str, float] | None,
+    ) -> Evaluation:
+        """The same trials, tried on perturbed models as well."""
+        robust, sampler, full = self.task.robust, self.sampler, self.task.hold_steps
+        assert robust is not None
+        assert sampler is not None
+
+        def run(samples: Samples, trials: NDArray[np.intp], columns: NDArray[np.intp], steps: int) -> None:
+            reference = self.policy.reference(weights, hold_steps=steps)
+            judge = partial(self._judge, skip_hold=full > 0 == steps)
+            sampler.rollouts(samples, models, reference, (trials, columns), bodies=self._bodies, judge=judge)
+
+        samples, columns = Samples.none(self.terms, len(weights), len(models)), np.arange(len(models))
+        result, everyone = replace(nominal, samples=samples), np.arange(len(weights))
+        first = len(models) if race is None or robust.racing is None else robust.racing.first
+        run(samples, everyone, columns[:first], hold_steps)
+        if race is not None and first < len(models):
+            order = np.argsort(self.cost(result, race), kind="stable")
+            run(samples, np.sort(order[: robust.kept(len(weights))]), columns[first:], hold_steps)
+        success = nominal.success & robust.enough(samples.share)
+        verified = 0
+        for trial in np.flatnonzero(success) if hold_steps < full else ():
+            through = Samples.none(self.terms, len(weights), len(models))
+            run(through, np.array([trial]), columns, full)
+            success[trial] = robust.enough(through.share)[trial]
+            verified += len(models)
+        return replace(result, success=success, verified=verified)
 
     def _judge(self, trajectories: Trajectories, *, skip_hold: bool = False) -> Evaluation:
         terms, criteria, n = self.terms, self.task.success, trajectories.n
@@ -193,30 +258,44 @@ class Record:
     """What the simulations of one generation said: enough to run through it again without them.
 
     checksum: of the candidates that the optimizer asked for. The rest as in `Evaluation`.
+    validated: of the generation's best alone, on the models that stay the same, where others are drawn for each generation.
     """
 
     generation: int
     checksum: int
     evaluation: Evaluation
+    validated: Evaluation | None = None
 
     def to_json(self) -> dict[str, Any]:
         """Plain lists; floats survive JSON to the bit."""
-        numbers = {
-            key: {name: [None if np.isnan(v) else v for v in values.tolist()] for name, values in table.items()}
-            for key, table in (("terms", self.evaluation.terms), ("errors", self.evaluation.errors))
-        }
-        flags = {"success": self.evaluation.success.tolist(), "diverged": self.evaluation.diverged.tolist()}
-        return {"generation": self.generation, "checksum": self.checksum, **numbers, **flags}
+        content = {"generation": self.generation, "checksum": self.checksum, **_to_json(self.evaluation)}
+        return content if self.validated is None else {**content, "validated": _to_json(self.validated)}
 
     @classmethod
     def from_json(cls, content: Mapping[str, Any]) -> Record:
         """The record that `to_json` wrote."""
-        terms, off = (
-            {name: np.array(values, dtype=float) for name, values in content[key].items()}
-            for key in ("terms", "errors")
-        )
-        success, diverged = (np.array(content[key], dtype=bool) for key in ("success", "diverged"))
-        return cls(content["generation"], content["checksum"], Evaluation(terms, off, success, diverged))
+        validated = _from_json(content["validated"]) if "validated" in content else None
+        return cls(content["generation"], content["checksum"], _from_json(content), validated)
+
+
+def _to_json(evaluation: Evaluation) -> dict[str, Any]:
+    numbers = {
+        key: {name: [None if np.isnan(v) else v for v in values.tolist()] for name, values in table.items()}
+        for key, table in (("terms", evaluation.terms), ("errors", evaluation.errors))
+    }
+    content = {**numbers, "success": evaluation.success.tolist(), "diverged": evaluation.diverged.tolist()}
+    if evaluation.samples is not None:
+        content |= {"samples": evaluation.samples.to_json(), "verified": evaluation.verified}
+    return content
+
+
+def _from_json(content: Mapping[str, Any]) -> Evaluation:
+    terms, off = (
+        {name: np.array(values, dtype=float) for name, values in content[key].items()} for key in ("terms", "errors")
+    )
+    success, diverged = (np.array(content[key], dtype=bool) for key in ("success", "diverged"))
+    samples = Samples.from_json(content["samples"]) if "samples" in content else None
+    return Evaluation(terms, off, success, diverged, samples, content.get("verified", 0))
 
 
 @dataclass(frozen=True)
@@ -289,6 +368,8 @@ class _Search:
     diverged: int = 0
     trials_to_success: int | None = None
     hold_steps: int = 0
+    seed: int = 0
+    robust: bool = False
 
 
 def solve(
@@ -313,7 +394,7 @@ def solve(
     """
     objective = task if isinstance(task, Objective) else Objective(task, threads=threads)
     task = objective.task
-    stages, search = task.stages, _Search()
+    stages, search = task.stages, _Search(seed=seed)
     optimizer = make_optimizer(objective, seed)
     injectable = optimizer if isinstance(optimizer, Injectable) else None
     aim = Aim() if task.search.aim and task.success and injectable is not None else None
@@ -322,7 +403,7 @@ def solve(
     stopped = "budget"
     _enter(search, objective, stages[0], optimizer)
     try:
-        while search.trials + optimizer.population <= max(task.search.trials, optimizer.population):
+        while search.trials + (most := _most(search, task, optimizer)) <= max(task.search.trials, most):
             stage, number = stages[search.stage], search.generations + 1
             if steer is not None and not earlier:
                 factors = steer(number)
@@ -333,8 +414,9 @@ def solve(
                 if aim is not None:
                     aim.forget()
             candidates = optimizer.ask()
-            record, replayed = _evaluate(objective, candidates, search, earlier)
-            cost = objective.cost(record.evaluation, {**weights, **_stage_weights(task, stage, number)})
+            stage_weights = {**weights, **_stage_weights(task, stage, number)}
+            record, replayed = _evaluate(objective, candidates, search, stage_weights, earlier)
+            cost = objective.cost(record.evaluation, stage_weights)
             optimizer.tell(cost)
             if aim is not None:
                 aim.tell(candidates, _missed(task, record.evaluation), cost)
@@ -343,13 +425,17 @@ def solve(
                     injectable.inject(proposal)
 
             search.generations += 1
-            search.trials += len(candidates)
-            search.stage_trials += len(candidates)
-            search.attempt_trials += len(candidates)
+            spent = record.evaluation.trials + (0 if record.validated is None else record.validated.trials)
+            search.trials += spent
+            search.stage_trials += spent
+            search.attempt_trials += spent
             search.diverged += int(record.evaluation.diverged.sum())
-            if search.trials_to_success is None and record.evaluation.success.any():
+            contenders, judged = candidates, record.evaluation
+            if record.validated is not None:
+                contenders, judged = candidates[np.argmin(cost)][None], record.validated
+            if search.trials_to_success is None and judged.success.any():
                 search.trials_to_success = search.trials
-            _keep_best(search, objective, candidates, record.evaluation, weights)
+            _keep_best(search, objective, contenders, judged, weights)
             assert search.best is not None
             if observe is not None:
                 observe(
@@ -383,17 +469,18 @@ def solve(
                 following = search.stage + 1
             else:
                 continue
-            search.stage, before = following, search.hold_steps
+            search.stage, before = following, (search.hold_steps, search.robust)
             if aim is not None:
                 aim.forget()
             _enter(search, objective, stages[search.stage], optimizer)
-            if search.hold_steps != before:
+            if (search.hold_steps, search.robust) != before:
                 _reconsider(search, objective, weights, search.hold_steps)
     except KeyboardInterrupt:
         stopped = "interrupted"
     if search.best is None:
         _keep_best(search, objective, objective.initial_weights[None], None, weights)
-    if search.hold_steps != task.hold_steps:
+    if search.hold_steps != task.hold_steps or search.robust != (task.robust is not None):
+        search.robust = task.robust is not None
         _reconsider(search, objective, weights, task.hold_steps)
     assert search.best is not None
     return Solution(
@@ -454,6 +541,7 @@ def _enter(search: _Search, objective: Objective, stage: Stage, optimizer: Optim
     task = objective.task
     share = stage.hold * task.hold_steps if isinstance(stage.hold, bool) else stage.hold / task.physics.timestep
     search.hold_steps = min(round(share), task.hold_steps)
+    search.robust = task.robust is not None and stage.robust
     if stage.step != 1.0:
         optimizer.scale_step(stage.step)
 
@@ -475,12 +563,45 @@ def _ends(stage: Stage, search: _Search, evaluation: Evaluation) -> bool:
     return bool(within.any())
 
 
-def _evaluate(objective: Objective, candidates: Array, search: _Search, earlier: deque[Record]) -> tuple[Record, bool]:
-    """The record of a generation: an earlier one while there are any, else from simulation."""
+def _most(search: _Search, task: Task, optimizer: Optimizer) -> int:
+    """Trials that a generation may take; one that has to be looked at more closely takes a few more."""
+    if task.robust is None or not search.robust:
+        return optimizer.population
+    validated = 1 + task.robust.samples if task.robust.redraw == "generation" else 0
+    return task.robust.rollouts(optimizer.population) + validated
+
+
+def _try(
+    search: _Search,
+    objective: Objective,
+    candidates: Array,
+    *,
+    generation: int = 0,
+    hold_steps: int | None = None,
+    race: Mapping[str, float] | None = None,
+) -> Evaluation:
+    """Evaluate candidates as the stage says. generation: whose perturbed models; 0 for those that stay the same."""
+    hold_steps = search.hold_steps if hold_steps is None else hold_steps
+    if objective.sampler is not None and search.robust:
+        models = objective.sampler.models(search.seed, generation)
+        return objective.evaluate(candidates, hold_steps=hold_steps, models=models, race=race)
+    evaluation = objective.evaluate(candidates, hold_steps=hold_steps)
+    if objective.sampler is not None:  # what is yet to be tried on other models has not succeeded
+        evaluation.success[:] = False
+    return evaluation
+
+
+def _evaluate(
+    objective: Objective, candidates: Array, search: _Search, weights: Mapping[str, float], earlier: deque[Record]
+) -> tuple[Record, bool]:
+    """The record of a generation: an earlier one while there are any, else from simulation. weights: of the costs."""
     checksum = zlib.crc32(np.ascontiguousarray(candidates).tobytes())
     number = search.generations + 1
     if not earlier:
-        return Record(number, checksum, objective.evaluate(candidates, hold_steps=search.hold_steps)), False
+        evaluation, validated = _try(search, objective, candidates, generation=number, race=weights), None
+        if search.robust and objective.task.robust and objective.task.robust.redraw == "generation":
+            validated = _try(search, objective, candidates[np.argmin(objective.cost(evaluation, weights))][None])
+        return Record(number, checksum, evaluation, validated), False
     record = earlier.popleft()
     if (record.generation, record.checksum) != (number, checksum):
         raise LevadeError(
@@ -499,7 +620,7 @@ def _keep_best(
 ) -> None:
     """Keep the best trial of all: success first, then the task's cost."""
     if evaluation is None:
-        evaluation = objective.evaluate(candidates, hold_steps=search.hold_steps)
+        evaluation = _try(search, objective, candidates)
     cost = objective.cost(evaluation, weights)
     first = np.lexsort((cost, ~evaluation.success))[0]
     best = search.best
@@ -529,6 +650,6 @@ def _reconsider(search: _Search, objective: Objective, weights: Mapping[str, flo
     best = search.best
     assert best is not None
     candidate = best.weights[None]
-    evaluation = objective.evaluate(candidate, hold_steps=hold_steps)
+    evaluation = _try(search, objective, candidate, hold_steps=hold_steps)
     search.best = None  # only now: whoever interrupts the simulation keeps the best
     _keep_best(search, objective, candidate, evaluation, weights)

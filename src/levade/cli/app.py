@@ -237,6 +237,49 @@ def bench(
 
 
 @app.command()
+def check(
+    motion: Annotated[Path, typer.Argument(metavar="MOTION", help="A motion.npz.")],
+    runs: Annotated[int, typer.Option(help="Perturbed runs.")] = 500,
+    seed: Annotated[int, typer.Option(min=0, help="Of the perturbations; the same seed gives the same runs.")] = 0,
+    divide: Annotated[int, typer.Option(help="Divide the time step of the perturbed runs by this.")] = 1,
+    perturb: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="FILE|NAME=RANGE", help="Ranges instead of the defaults, as friction=[0.5,1.5]. Repeatable."
+        ),
+    ] = None,
+    demand: Annotated[
+        list[str] | None,
+        typer.Option(metavar="FILE|NAME=VALUE", help="What to demand instead, as share=0.9. Repeatable."),
+    ] = None,
+    criteria: Annotated[
+        str | None, typer.Option(metavar="TASK", help="Judge by this task's success criteria, not the motion's own.")
+    ] = None,
+    out: Annotated[Path | None, typer.Option(metavar="FILE", help="Write the certificate, as JSON, to FILE.")] = None,
+    threads: Annotated[int, typer.Option(min=0, help="0 for one per core; no effect on the result.")] = 0,
+    as_json: Json = False,
+) -> int:
+    """Say whether a motion can be trusted: perturbed, in other numbers, in another engine, against the hardware.
+
+    Exit status: 0 it meets every demand, 1 it does not, 2 the input is wrong.
+    """
+    from levade.cli.checking import check_motion
+
+    return check_motion(
+        motion,
+        runs=runs,
+        seed=seed,
+        divide=divide,
+        perturb=perturb or [],
+        demand=demand or [],
+        criteria=criteria,
+        out=out,
+        threads=threads,
+        as_json=as_json,
+    )
+
+
+@app.command()
 def view(
     what: Annotated[
         str,

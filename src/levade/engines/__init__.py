@@ -6,13 +6,29 @@ trajectories = engine.rollout(state, policy.reference(weights))
 """
 
 from levade.engines.engine import Engine
+from levade.engines.ensemble import Ensemble, Variations
 from levade.engines.mujoco import MujocoEngine
+from levade.engines.perturbation import Perturbation, Sample
 from levade.engines.physics import Ode, Physics
 from levade.engines.start import Fall, Settled, Start, State
 from levade.robots import Robot
 from levade.scenes import Scene
 
-__all__ = ["Engine", "Fall", "MujocoEngine", "Ode", "Physics", "Settled", "Start", "State", "make_engine"]
+__all__ = [
+    "Engine",
+    "Ensemble",
+    "Fall",
+    "MujocoEngine",
+    "Ode",
+    "Perturbation",
+    "Physics",
+    "Sample",
+    "Settled",
+    "Start",
+    "State",
+    "Variations",
+    "make_engine",
+]
 
 
 def make_engine(robot: Robot, scene: Scene, physics: Physics, *, threads: int = 0) -> Engine:

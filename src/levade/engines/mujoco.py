@@ -3,24 +3,21 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 
 import mujoco
 import numpy as np
-from mujoco.batch import Batch, SimulationError
+from mujoco.batch import Batch
 
 from levade.engines.engine import Engine
+from levade.engines.ensemble import Ensemble
 from levade.engines.physics import Physics
+from levade.engines.simulating import RESET_OFF, SENSORS_OFF, STATE, quiet, simulate
 from levade.engines.start import State
 from levade.errors import LevadeError
 from levade.robots import Robot
 from levade.scenes import Scene
 from levade.trajectory import Array, JointReference, Trajectories
-
-_STATE = mujoco.mjtState.mjSTATE_INTEGRATION
-_SENSORS_OFF = int(mujoco.mjtDisableBit.mjDSBL_SENSOR)
-_RESET_OFF = int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
 
 
 class MujocoEngine(Engine):
@@ -33,36 +30,13 @@ class MujocoEngine(Engine):
     def rollout(
         self, state: State, reference: JointReference, *, feet: bool = False, bodies: Sequence[str] = ()
     ) -> Trajectories:
-        model = self.model
-        n, steps = reference.position.shape[:2]
-        self.steps += n * steps
+        n = reference.position.shape[0]
+        self.steps += n * reference.steps
         recorded = ["qpos", "qvel", "actuator_force"]
         if feet or bodies:
             recorded.append("sensordata")
         batch = self._batch_for(n, sensors=feet or bool(bodies))
-        batch.state[:n] = self._row(state)
-        before = batch.warning[:n].copy()
-        failed: list[int] = []
-        ids = None if n == batch.nsim else np.arange(n)
-        try:
-            with _quiet():
-                out = batch.rollout(steps, self.ctrl(reference), record=recorded, ids=ids)
-        except SimulationError as error:
-            failed = [int(i) for i in error.ids]
-            ok = [i for i in range(n) if i not in failed]
-            out = {}
-            for name in recorded:
-                out[name] = np.zeros((n, steps, *getattr(mujoco.MjData(model), name).shape))
-            if ok:
-                batch.state[ok] = self._row(state)
-                with _quiet():
-                    part = batch.rollout(steps, self.ctrl(reference[ok]), record=recorded, ids=np.array(ok))
-                for name in recorded:
-                    out[name][ok] = part[name]
-            out["qpos"][failed], out["qvel"][failed] = state.qpos, state.qvel
-        diverged = (batch.warning[:n] != before).reshape(n, -1).any(axis=1)
-        diverged[failed] = True
-
+        out, diverged = simulate(batch, self._row(state), self.ctrl(reference), recorded)
         return self.layout.trajectories(
             out,
             reference,
@@ -74,6 +48,18 @@ class MujocoEngine(Engine):
             bodies=bodies,
         )
 
+    def ensemble(self, *, threads: int | None = None) -> Ensemble:
+        """For simulating versions of the model: robots that differ from the nominal one."""
+        return Ensemble(
+            self.model,
+            self.layout,
+            trunk=self.robot.trunk,
+            joint_names=self.robot.joint_names,
+            limits=self.robot.limits,
+            trunk_com_offset=self.robot.trunk_com_offset,
+            threads=self.threads if threads is None else threads,
+        )
+
     def _batch_for(self, n: int, *, sensors: bool) -> Batch:
         """A batch of at least n simulations. A batch takes its options when it is made, so there are two.
 
@@ -82,8 +68,7 @@ class MujocoEngine(Engine):
         batch = self._batches.get(sensors)
         if batch is None or batch.nsim < n:
             model = copy.deepcopy(self.model)
-            # a state that has gone bad stops the simulation; it must not start over unnoticed
-            model.opt.disableflags |= _RESET_OFF | (0 if sensors else _SENSORS_OFF)
+            model.opt.disableflags |= RESET_OFF | (0 if sensors else SENSORS_OFF)
             batch = self._batches[sensors] = Batch(model, n, self.threads)
         return batch
 
@@ -91,8 +76,8 @@ class MujocoEngine(Engine):
         """The state as a batch takes it: as after ``mj_resetData`` and setting qpos, qvel and act."""
         data = mujoco.MjData(self.model)
         data.qpos[:], data.qvel[:], data.act[:] = state.qpos, state.qvel, state.act
-        row = np.empty(mujoco.mj_stateSize(self.model, _STATE))
-        mujoco.mj_getState(self.model, data, row, _STATE)
+        row = np.empty(mujoco.mj_stateSize(self.model, STATE))
+        mujoco.mj_getState(self.model, data, row, STATE)
         return row
 
     def _settle(self, model: mujoco.MjModel, data: mujoco.MjData, posture: Array, time: float) -> State:
@@ -101,7 +86,7 @@ class MujocoEngine(Engine):
         ctrl[self.layout.ctrl_position] = posture
         data.ctrl[:] = ctrl
         if steps:
-            with _quiet():
+            with quiet():
                 mujoco.mj_step(model, data, nstep=steps)
         if any(warning.number for warning in data.warning):
             raise LevadeError(
@@ -114,18 +99,3 @@ class MujocoEngine(Engine):
             joint_position=data.qpos[self.layout.joint_qpos].copy(),
             joint_reference=posture.copy(),
         )
-
-
-@contextmanager
-def _quiet() -> Iterator[None]:
-    """Simulations that break down are told to the caller, not to standard error and a MUJOCO_LOG.TXT."""
-    before = mujoco.get_mju_user_warning()
-    mujoco.set_mju_user_warning(_ignore)
-    try:
-        yield
-    finally:
-        mujoco.set_mju_user_warning(before)
-
-
-def _ignore(message: str) -> None:
-    pass

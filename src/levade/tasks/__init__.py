@@ -5,6 +5,7 @@ task = load_task("my-task.yaml", robot="my/robot.yaml")
 """
 
 from levade.tasks.document import TERMS, builtin_tasks, load_task, task_from_dict, task_text, task_to_dict, task_to_yaml
+from levade.tasks.robust import Racing, Robust
 from levade.tasks.task import (
     Change,
     Cost,
@@ -22,7 +23,9 @@ __all__ = [
     "Change",
     "Cost",
     "PolicyChoice",
+    "Racing",
     "RobotChoice",
+    "Robust",
     "Search",
     "Stage",
     "StartChoice",

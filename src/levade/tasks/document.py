@@ -51,7 +51,7 @@ TERMS = {
 
 _ORDER = (
     *("name", "description", "robot", "scene", "physics", "start", "horizon", "hold"),
-    *("policy", "costs", "stages", "success", "search"),
+    *("policy", "costs", "stages", "success", "search", "robust"),
 )
 _SEQUENCE = "tag:yaml.org,2002:seq"
 _BUILT_IN = Path(__file__).parent / "data"

@@ -12,6 +12,7 @@ from levade.engines import Fall, Physics, Settled
 from levade.errors import LevadeError, did_you_mean
 from levade.optimizers import OPTIMIZERS, settings
 from levade.scenes import Scene
+from levade.tasks.robust import Robust
 
 
 @dataclass(frozen=True)
@@ -90,6 +91,7 @@ class Stage:
         only trials that meet every criterion so far are simulated through the rest, to see whether they succeed; with
         none, costs that look at the hold are left out.
     step: factor on the optimizer's step size when the stage begins; the rest of the search distribution is kept.
+    robust: whether candidates are tried on perturbed models, where the task asks for it at all. Without, nothing succeeds yet.
     """
 
     name: str = "full"
@@ -98,6 +100,7 @@ class Stage:
     weights: Mapping[str, float] = field(default_factory=dict)
     hold: bool | float = True
     step: float = 1.0
+    robust: bool = True
 
 
 @dataclass(frozen=True)
@@ -155,6 +158,7 @@ class Task:
     horizon: T [s]. hold: [s] after T in which the reference stays at its last value.
     costs: name -> term and weight. success: name -> criterion; a motion succeeds when all hold.
     stages: in order; each changes the weights of the task's costs, and the last one should leave them as they are.
+    robust: None looks for a motion of the nominal model alone.
     """
 
     name: str
@@ -170,6 +174,7 @@ class Task:
     policy: PolicyChoice = PolicyChoice()
     stages: tuple[Stage, ...] = (Stage(),)
     search: Search = Search()
+    robust: Robust | None = None
 
     def __post_init__(self) -> None:
         if not self.name.strip(". ") or "/" in self.name or "\\" in self.name or not self.name.isprintable():

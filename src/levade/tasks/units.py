@@ -51,6 +51,12 @@ _KEYS: dict[str, str] = {
     **dict.fromkeys(("roll", "pitch", "yaw", "slope", "spread"), "an angle"),
     **dict.fromkeys(("x", "y", "z", "height", "heights", "position", "size", "width", "depth"), "a length"),
     **dict.fromkeys(("horizon", "hold", "timestep", "time"), "a duration"),
+    # of perturbations
+    **dict.fromkeys(("start_joint", "start_attitude", "ground_slope"), "an angle"),
+    **dict.fromkeys(("com", "ground_height", "obstacle"), "a length"),
+    **dict.fromkeys(("start_rate", "start_joint_velocity"), "an angular speed"),
+    "latency": "a duration",
+    "start_velocity": "a speed",
 }
 _BOUNDS = ("target", "tolerance", "minimum", "maximum", "scale")
 _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-z°][\w°/²^]*)\s*")

@@ -1,0 +1,79 @@
+"""Checks: whether a motion can be trusted.
+
+    certificate = check(Motion.load("motion.npz"), runs=500, seed=0)
+    certificate.passed
+    certificate.perturbed.share, certificate.perturbed.low      # of 500 perturbed runs, and its 95 % interval
+    certificate.margins["torque"].failed                        # joints that go beyond their limits
+
+What each part does is in docs/check.md.
+"""
+
+from __future__ import annotations
+
+from levade.check.certificate import Certificate
+from levade.check.demands import Demands, Verdict
+from levade.check.engines import Replayed, other_engines
+from levade.check.margins import Margin, margins
+from levade.check.numerics import Numeric, numerics
+from levade.check.perturbed import Perturbed, Sensitivity, perturbed
+from levade.check.subject import Subject
+from levade.engines import Perturbation
+from levade.errors import LevadeError
+from levade.motion import Motion
+from levade.tasks import Task
+
+__all__ = [
+    "Certificate",
+    "Demands",
+    "Margin",
+    "Numeric",
+    "Perturbed",
+    "Replayed",
+    "Sensitivity",
+    "Subject",
+    "Verdict",
+    "check",
+    "margins",
+    "numerics",
+    "other_engines",
+    "perturbed",
+]
+
+
+def check(
+    motion: Motion,
+    *,
+    runs: int = 500,
+    seed: int = 0,
+    divide: int = 1,
+    perturbation: Perturbation | None = None,
+    demands: Demands | None = None,
+    criteria: Task | None = None,
+    threads: int = 0,
+) -> Certificate:
+    """Check a motion against its model's uncertainty, its numbers, other engines and its hardware.
+
+    divide: the time step of the perturbed runs by so much. perturbation, demands: the defaults if None. criteria: a task
+    whose success criteria are used instead of the motion's own. threads: results do not depend on it.
+    Raises LevadeError if there is nothing to judge by, or no runs.
+    """
+    subject = Subject(motion, criteria=None if criteria is None else criteria.success, threads=threads)
+    if not subject.criteria:
+        raise LevadeError(
+            f"check: the task {subject.task.name} has no success criteria to judge by; give a task that has: --criteria TASK"
+        )
+    if not 1 <= runs <= 1_000_000:
+        raise LevadeError(f"check: {runs} runs; 1 or more, 500 is usual")
+    if not 1 <= divide <= 64:
+        raise LevadeError(f"check: the time step divided by {divide}; 1 to 64, 2 is usual")
+    demands = demands or Demands()
+    return Certificate(
+        task=subject.task.name,
+        robot=str(motion.meta["robot"]),
+        criteria=subject.task.name if criteria is None else criteria.name,
+        demands=demands,
+        perturbed=perturbed(subject, perturbation or Perturbation(), runs=runs, seed=seed, divide=divide),
+        numerics=numerics(subject),
+        engines=other_engines(subject),
+        margins=margins(subject, demands),
+    )

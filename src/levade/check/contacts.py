@@ -1,0 +1,96 @@
+"""What a motion does with its feet, and with parts of the robot that meet each other: from poses, by geometry alone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from levade.check.subject import Subject
+from levade.trajectory import Array
+
+
+@dataclass(frozen=True)
+class Collision:
+    """Two bodies of the robot in each other. depth: [m], the deepest. time: [s], when. share: of the motion's rows."""
+
+    bodies: tuple[str, str]
+    depth: float
+    time: float
+    share: float
+
+
+@dataclass(frozen=True)
+class Landing:
+    """A foot that meets the scene. time: [s]. speed: [m/s], of the foot's centre towards what it meets, just before."""
+
+    foot: str
+    time: float
+    speed: float
+
+
+def poses(subject: Subject) -> tuple[Array, list[Collision], Array]:
+    """The motion's poses in the model.
+
+    Returns (steps, feet, 3) [m], centres of the feet; what collides with what; and (steps, feet, 3), unit normals of the
+    contacts on the feet, out of the scene, NaN where there is none. A row at a time: a motion is checked once.
+    """
+    motion, model, names = subject.motion, subject.model, subject.names
+    data = mujoco.MjData(model)
+    feet = [model.geom(foot).id for foot in names.feet]
+    steps = len(motion["time"])
+    centres = np.empty((steps, len(feet), 3))
+    normals = np.full((steps, len(feet), 3), np.nan)
+    found: dict[tuple[str, str], list[tuple[float, int]]] = {}
+    data.qpos[:] = motion["qpos0"]
+    layout, root = subject.layout, subject.layout.root_qpos
+    for row in range(steps):
+        data.qpos[root : root + 3] = motion["trunk_position"][row]
+        data.qpos[root + 3 : root + 7] = motion["trunk_quaternion"][row]
+        data.qpos[layout.joint_qpos] = motion["joint_position"][row]
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        mujoco.mj_collision(model, data)
+        centres[row] = data.geom_xpos[feet]
+        for contact in data.contact:
+            pair = [int(geom) for geom in contact.geom]
+            one, other = (int(model.geom_bodyid[geom]) for geom in pair)
+            if one and other:
+                if one != other and contact.dist < 0 and not contact.exclude:
+                    bodies = sorted((model.body(one).name, model.body(other).name))
+                    found.setdefault((bodies[0], bodies[1]), []).append((-float(contact.dist), row))
+                continue
+            part = pair[1] if one == 0 else pair[0]
+            if part in feet:
+                normals[row, feet.index(part)] = contact.frame[:3] if one == 0 else -contact.frame[:3]
+    collisions = [
+        Collision(bodies, *_deepest(depths, motion["time"]), share=len({row for _, row in depths}) / steps)
+        for bodies, depths in found.items()
+    ]
+    return centres, sorted(collisions, key=lambda one: -one.depth), normals
+
+
+def landings(subject: Subject, centres: Array, normals: Array) -> list[Landing]:
+    """Every time that a foot without force comes to bear some, by the file's forces; nothing at the start."""
+    motion, step = subject.motion, subject.timestep
+    loaded = np.linalg.norm(motion["foot_contact_force"], axis=-1) > 0
+    first = loaded[1:] & ~loaded[:-1]
+    found = []
+    for row, foot in zip(*np.nonzero(first), strict=True):
+        # forces of a row act during its step, positions are those at its end: the foot was free until the row before
+        before = int(row)
+        if before == 0:
+            continue
+        velocity = (centres[before, foot] - centres[before - 1, foot]) / step
+        out = normals[before : before + 2, foot]
+        known = out[np.isfinite(out).all(axis=-1)]
+        normal = known[-1] if len(known) else np.array([0.0, 0.0, 1.0])
+        speed = max(0.0, -float(velocity @ normal))
+        found.append(Landing(subject.names.feet[foot], float(motion["time"][row]), speed))
+    return found
+
+
+def _deepest(depths: list[tuple[float, int]], time: Array) -> tuple[float, float]:
+    depth, row = max(depths)
+    return depth, float(time[row])

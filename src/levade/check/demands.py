@@ -1,0 +1,55 @@
+"""What a motion has to show to pass: thresholds, as data."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+
+from levade.errors import LevadeError
+
+
+@dataclass(frozen=True)
+class Demands:
+    """Thresholds; None for what is measured but not judged.
+
+    share: of the perturbed runs, that has to succeed. numerics, engines: whether the motion has to succeed in every numerical
+    variant, and in every other engine that is there.
+    position: [rad], the least distance from the end of a joint's range. speed, torque, torque_speed, linkage: the least that
+    is left of each limit, as a share of it.
+    power: [W], the most of one joint. foot_force: the most on one foot, in weights of the robot. impact_speed: [m/s], the most
+    with which a foot meets the scene. self_collision: [m], how deep parts of the robot may enter each other.
+
+    Robots' descriptions say nothing of power, forces and impacts yet, so nothing is demanded of them unless asked for.
+    """
+
+    share: float | None = 0.95
+    numerics: bool = True
+    engines: bool = True
+    position: float | None = 0.0
+    speed: float | None = 0.0
+    torque: float | None = 0.0
+    torque_speed: float | None = 0.0
+    linkage: float | None = 0.0
+    power: float | None = None
+    foot_force: float | None = None
+    impact_speed: float | None = None
+    self_collision: float | None = 0.0
+
+    def __post_init__(self) -> None:
+        for one in fields(self):
+            value = getattr(self, one.name)
+            if value is not None and not math.isfinite(value):
+                raise LevadeError(f"demand.{one.name}: {value} is not a number; null measures without judging")
+        if self.share is not None and not 0 <= self.share <= 1:
+            raise LevadeError(f"demand.share: {self.share} should be a share, 0 to 1; 0.95 is usual")
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """One criterion. passed: None if it is not judged, and then reason says why. value, required: with their unit."""
+
+    name: str
+    passed: bool | None
+    value: str
+    required: str = ""
+    reason: str = ""

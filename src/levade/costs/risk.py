@@ -1,0 +1,49 @@
+"""One number for the costs of a candidate on many robots: their mean, the mean of the worst of them, or the worst."""
+
+from __future__ import annotations
+
+import math
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from levade.trajectory import Array
+
+Measure = Literal["mean", "cvar", "worst"]
+
+
+def risk(cost: Array, known: NDArray[np.bool_], *, measure: Measure, tail: float = 0.5) -> Array:
+    """(n,) of whole roll-outs' costs (n, m), each candidate over those that are known, at least one.
+
+    measure: "mean"; "worst"; or "cvar", the mean of the worst share ``tail`` (at least one) of them: the conditional value at
+    risk of Rockafellar and Uryasev, Journal of Risk 2 (2000), of the sample.
+    """
+    descending = np.sort(np.where(known, -cost, np.inf), axis=1)  # the worst first, what is not known last
+    count = known.sum(axis=1)
+    if measure == "worst":
+        return -descending[:, 0]
+    taken = count if measure == "mean" else np.maximum(1, np.ceil(tail * count - 1e-9)).astype(int)
+    # summed one by one: the same bits whatever the batch
+    total = np.zeros(len(cost))
+    for column in range(cost.shape[1]):
+        total += np.where(
+            column < taken, -np.where(np.isfinite(descending[:, column]), descending[:, column], 0.0), 0.0
+        )
+    return total / taken
+
+
+def ranked_behind(cost: Array, kept: NDArray[np.bool_]) -> Array:
+    """(n,) costs in which every candidate that was not kept costs more than all that were, their own order unchanged.
+
+    For races: who was left behind after a few roll-outs is not compared by these with who ran them all.
+    """
+    if kept.all() or not kept.any():
+        return cost
+    lift = float(cost[kept].max() - cost[~kept].min())
+    if lift < 0:
+        return cost
+    behind = cost[~kept] + lift
+    raised = cost.copy()
+    raised[~kept] = np.maximum(behind, np.nextafter(cost[kept].max(), math.inf))
+    return raised

@@ -1,0 +1,266 @@
+"""What may differ between the model and the robot: ranges, as data, and samples drawn from them.
+
+    perturbation = Perturbation(friction=(0.5, 1.5), latency=None)      # others as by default
+    sample = perturbation.draw(model, joints, n=500, seed=0)        # joints: how many
+    sample.values["kp"]                                                 # (500, joints), factors
+    variations = ensemble.vary(start, sample)                       # see `levade.engines.ensemble`
+
+Every number is drawn uniformly within its range, independently of all others. Run i of a sample does not depend on how many
+runs there are, nor on which other parameters are switched off.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+import mujoco
+import numpy as np
+
+from levade.errors import LevadeError
+from levade.scenes import GROUND
+from levade.trajectory import Array
+
+Range = tuple[float, float] | None
+"""Lowest and highest value; None keeps the model's own."""
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """What one perturbed quantity is.
+
+    unit: "x" for a factor on what the model says, else the SI unit of what is added to it. per: what has a number of its own:
+    the model (one number), the axes, turns about them, tilts about x and y, the joints, the obstacles' axes.
+    what: in a sentence. why: the default range is as wide as it is.
+    """
+
+    unit: str
+    per: Literal["model", "axis", "turn", "tilt", "joint", "obstacle"]
+    what: str
+    why: str
+
+    @property
+    def nominal(self) -> float:
+        return 1.0 if self.unit == "x" else 0.0
+
+
+PARAMETERS: dict[str, Parameter] = {
+    "friction": Parameter(
+        *("x", "model"),
+        "friction coefficient of every contact",
+        "rubber on lab floors, dust and wear: 0.5 to 0.9 where 0.7 is assumed",
+    ),
+    "mass": Parameter(
+        *("x", "model"),
+        "mass (and with it the inertia) of all bodies",
+        "oil, hoses, cables and batteries are not in CAD; a data sheet rounds",
+    ),
+    "com": Parameter(
+        *("m", "axis"),
+        "the trunk's centre of mass, along its x, y and z",
+        "what is mounted on the trunk changes from day to day",
+    ),
+    "inertia": Parameter(
+        *("x", "model"),
+        "rotational inertia of all bodies, beside that of mass",
+        "seldom measured; CAD leaves out what mass leaves out, and further from the centre",
+    ),
+    "kp": Parameter(
+        *("x", "joint"),
+        "position gain of each joint",
+        "the inner torque loop delivers 10 to 20 % more or less than it is told",
+    ),
+    "kd": Parameter(
+        *("x", "joint"),
+        "velocity gain of each joint",
+        "as for kp; damping of seals and gears comes on top of it",
+    ),
+    "torque_lag": Parameter(
+        *("x", "model"),
+        "time constant from commanded to delivered torque",
+        "bandwidth depends on load, supply pressure and temperature, and is rarely known to better than a factor 2",
+    ),
+    "torque_limit": Parameter(
+        *("x", "model"),
+        "largest torque and stall torque",
+        "supply pressure or battery voltage sags under load; it does not rise",
+    ),
+    "latency": Parameter(
+        *("s", "model"),
+        "delay from a reference to its servo",
+        "up to two cycles of a 500 Hz controller or field bus",
+    ),
+    "start_joint": Parameter(
+        *("rad", "joint"),
+        "joint angles at the start",
+        "encoder offsets after homing, and how the robot happened to be put down",
+    ),
+    "start_attitude": Parameter(
+        *("rad", "turn"),
+        "the trunk's attitude at the start, about x, y and z",
+        "the floor under one foot is 1 cm higher; error of the attitude estimate",
+    ),
+    "start_velocity": Parameter(
+        *("m/s", "axis"),
+        "the trunk's velocity at the start",
+        "the robot still sways when the motion begins",
+    ),
+    "start_rate": Parameter(
+        *("rad/s", "axis"),
+        "the trunk's angular velocity at the start",
+        "as for start_velocity",
+    ),
+    "start_joint_velocity": Parameter(
+        *("rad/s", "joint"),
+        "joint velocities at the start",
+        "as for start_velocity, seen by the joints",
+    ),
+    "ground_height": Parameter(
+        *("m", "model"),
+        "height of the ground, against obstacles and the height that is asked for",
+        "carpets, mats, and the zero of the height estimate",
+    ),
+    "ground_slope": Parameter(
+        *("rad", "tilt"),
+        "tilt of ground and obstacles about x and y, the robot standing on them",
+        "floors slope by up to 2 %",
+    ),
+    "obstacle": Parameter(
+        *("m", "obstacle"),
+        "position of each obstacle, along x, y and z",
+        "a range finder sees it to a centimetre",
+    ),
+}
+"""Name -> what it is, in the order of `Perturbation`."""
+
+
+@dataclass(frozen=True)
+class Perturbation:
+    """Ranges of what may differ. Factors (unit "x") are around 1, everything else is an offset around 0, in SI units.
+
+    What each is, how many numbers it takes, and why the default is what it is: `PARAMETERS`, and docs/check.md. A robot or
+    scene without a thing (a lag, an obstacle) is not perturbed in it. Raises LevadeError for ranges that make no sense.
+    """
+
+    friction: Range = (0.7, 1.3)
+    mass: Range = (0.9, 1.1)
+    com: Range = (-0.02, 0.02)
+    inertia: Range = (0.8, 1.2)
+    kp: Range = (0.8, 1.2)
+    kd: Range = (0.8, 1.2)
+    torque_lag: Range = (0.5, 2.0)
+    torque_limit: Range = (0.9, 1.0)
+    latency: Range = (0.0, 0.004)
+    start_joint: Range = (-0.03, 0.03)
+    start_attitude: Range = (-0.02, 0.02)
+    start_velocity: Range = (-0.03, 0.03)
+    start_rate: Range = (-0.05, 0.05)
+    start_joint_velocity: Range = (-0.1, 0.1)
+    ground_height: Range = (-0.005, 0.005)
+    ground_slope: Range = (-0.02, 0.02)
+    obstacle: Range = (-0.01, 0.01)
+
+    def __post_init__(self) -> None:
+        for name, about in PARAMETERS.items():
+            ends = getattr(self, name)
+            if ends is None:
+                continue
+            low, high = ends
+            if not (math.isfinite(low) and math.isfinite(high) and low <= high):
+                raise LevadeError(f"perturb.{name}: {list(ends)} should be [lowest, highest], two finite numbers")
+            least = {"x": 0.01, "s": 0.0}.get(about.unit)
+            if least is not None and low < least:
+                raise LevadeError(f"perturb.{name}: {low} is too low; {least} or more, {about.nominal:g} is nominal")
+
+    def spread(self, model: mujoco.MjModel, joints: int, *, n: int, seed: int | tuple[int, ...]) -> Sample:
+        """n runs that together cover every range evenly: a Latin hypercube, for few runs that have to stand for many.
+
+        Each number's range is cut into n parts, and each run has it in another one (McKay, Beckman and Conover, Technometrics
+        21, 1979).
+        """
+        shapes = _sizes(model, joints)
+        generator = np.random.default_rng(seed)
+        part = np.argsort(generator.random((n, sum(shapes.values()))), axis=0, kind="stable")
+        return self._sample((part + generator.random(part.shape)) / n, shapes)
+
+    def draw(self, model: mujoco.MjModel, joints: int, *, n: int, seed: int | tuple[int, ...]) -> Sample:
+        """n runs, drawn at random. seed: one number, or several that together make one."""
+        shapes = _sizes(model, joints)
+        generator = np.random.default_rng(seed)
+        unit = generator.random((n, sum(shapes.values())))  # row by row: run i does not depend on n
+        return self._sample(unit, shapes)
+
+    def nominal(self, model: mujoco.MjModel, joints: int, *, n: int = 1) -> Sample:
+        """n runs in which nothing is perturbed."""
+        sizes = _sizes(model, joints)
+        return Sample({name: np.full((n, size), PARAMETERS[name].nominal) for name, size in sizes.items()})
+
+    def corners(self, model: mujoco.MjModel, joints: int, name: str, *, n: int, seed: int) -> Sample:
+        """Runs in which one parameter alone is perturbed, each of its numbers at one end of the range or the other.
+
+        A single number takes both ends, one run each; several take n random combinations and their opposites.
+        """
+        size = _sizes(model, joints)[name]
+        if size <= 1:
+            ends = np.array([[0.0], [1.0]][: 2 * size]).reshape(2 * size, size)
+        else:
+            half = np.random.default_rng(seed).integers(0, 2, (n // 2, size)).astype(float)
+            ends = np.concatenate([half, 1.0 - half])
+        values: dict[str, Array] = dict(self.nominal(model, joints, n=len(ends)).values)
+        values[name] = self._scaled(name, ends)
+        return Sample(values)
+
+    def _sample(self, unit: Array, shapes: Mapping[str, int]) -> Sample:
+        values: dict[str, Array] = {}
+        column = 0
+        for name, size in shapes.items():
+            values[name] = self._scaled(name, unit[:, column : column + size])
+            column += size
+        return Sample(values)
+
+    def _scaled(self, name: str, unit: Array) -> Array:
+        """Numbers in [0, 1] to the range."""
+        ends = getattr(self, name)
+        if ends is None:
+            return np.full(unit.shape, PARAMETERS[name].nominal)
+        return ends[0] + (ends[1] - ends[0]) * unit
+
+
+@dataclass(frozen=True, eq=False)
+class Sample:
+    """Values of every parameter in n runs: name -> (n, numbers); factors, or offsets in SI units."""
+
+    values: Mapping[str, Array]
+
+    def __len__(self) -> int:
+        return len(next(iter(self.values.values())))
+
+
+def joined(samples: list[Sample]) -> Sample:
+    """The runs of several samples, one after another."""
+    return Sample({name: np.concatenate([s.values[name] for s in samples]) for name in samples[0].values})
+
+
+def obstacles(model: mujoco.MjModel) -> list[int]:
+    """Geoms of the scene that are not the ground."""
+    return [i for i in range(model.ngeom) if model.geom_bodyid[i] == 0 and model.geom(i).name != GROUND]
+
+
+def labels(model: mujoco.MjModel, joint_names: tuple[str, ...], name: str) -> list[str]:
+    """What each number of a parameter is about: joint names, axes, obstacles; one empty text where there is one number."""
+    return {
+        "model": [""],
+        "axis": ["x", "y", "z"],
+        "turn": ["about x", "about y", "about z"],
+        "tilt": ["about x", "about y"],
+        "joint": list(joint_names),
+        "obstacle": [f"{model.geom(i).name} {axis}" for i in obstacles(model) for axis in "xyz"],
+    }[PARAMETERS[name].per]
+
+
+def _sizes(model: mujoco.MjModel, joints: int) -> dict[str, int]:
+    """How many numbers each parameter takes."""
+    count = {"model": 1, "axis": 3, "turn": 3, "tilt": 2, "joint": joints, "obstacle": 3 * len(obstacles(model))}
+    return {name: count[about.per] for name, about in PARAMETERS.items()}

@@ -1,0 +1,152 @@
+"""How the robot touches the scene when a motion starts, and how it does when it starts a little differently.
+
+A joint that is off by 0.03 rad moves a foot by 2 cm. A robot that stands on its feet does not hang in the air by that, nor is
+it in the ground: it stands differently. So the trunk moves along (in height, roll and pitch) such that what touched the scene
+touches it again as well as a rigid robot can, before anything else is perturbed.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Mapping
+
+import mujoco
+import numpy as np
+from mujoco.batch import Batch
+
+from levade.engines.engine import Layout
+from levade.scenes import GROUND
+from levade.trajectory import Array, rotate
+
+_TOUCHING = 0.003
+"""[m], gap up to which a part counts as touching."""
+_RIDGE = 1e-3
+"""[m2], keeps the trunk from turning about an axis that nothing holds; feet are some 0.5 m apart."""
+_STEEP = 0.3
+"""Least vertical share of a contact's normal for which lifting the robot is the way out of it."""
+
+
+class Stance:
+    """The contacts of a model with its scene in one state. start: qpos, qvel, act."""
+
+    def __init__(
+        self, model: mujoco.MjModel, layout: Layout, start: tuple[Array, Array, Array], *, threads: int = 0
+    ) -> None:
+        self._model, self._layout, self._threads = model, layout, threads
+        data = mujoco.MjData(model)
+        data.qpos[:] = start[0]
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        mujoco.mj_collision(model, data)
+        bodies, local, normals, geoms = [], [], [], []
+        for contact in data.contact:
+            one, other = (int(geom) for geom in contact.geom)
+            on_scene = [model.geom_bodyid[geom] == 0 for geom in (one, other)]
+            if contact.dist > _TOUCHING or on_scene[0] == on_scene[1]:
+                continue
+            scene, part = (one, other) if on_scene[0] else (other, one)
+            body = int(model.geom_bodyid[part])
+            bodies.append(body)
+            local.append(data.xmat[body].reshape(3, 3).T @ (contact.pos - data.xpos[body]))
+            normals.append(contact.frame[:3] if on_scene[0] else -contact.frame[:3])
+            geoms.append(scene)
+        self._bodies = np.array(bodies, dtype=int)
+        self._local = np.array(local).reshape(-1, 3)
+        self._normals = np.array(normals).reshape(-1, 3)
+        self._points = np.array(
+            [data.xpos[b] + data.xmat[b].reshape(3, 3) @ p for b, p in zip(bodies, local, strict=True)]
+        )
+        self._points = self._points.reshape(-1, 3)
+        self._geoms = np.array(geoms, dtype=int)
+        self._batch: Batch | None = None
+
+    def perturb(self, qpos: Array, qvel: Array, values: Mapping[str, Array]) -> None:
+        """Change states (n, nq) and (n, nv), all of them those of the start, by a sample's values; in place."""
+        layout = self._layout
+        position = slice(layout.root_qpos, layout.root_qpos + 3)
+        attitude = slice(layout.root_qpos + 3, layout.root_qpos + 7)
+        qpos[:, layout.joint_qpos] += values["start_joint"]
+        moved = self._scene_moved(values)
+        if self._bodies.size:
+            points = self._where(qpos)
+            gap = self._gap(points, moved)
+            lift, turn = self._fit(points - qpos[:, None, position], gap)
+            _move(qpos, position, attitude, lift, turn)
+            points = _moved(points, qpos[:, position] - lift, lift, turn)
+        else:
+            points = np.empty((len(qpos), 0, 3))
+        turn = values["start_attitude"]
+        origin = qpos[:, position].copy()
+        _move(qpos, position, attitude, np.zeros_like(origin), turn)
+        points = _moved(points, origin, np.zeros_like(origin), turn)
+        below = self._normals[:, 2] > _STEEP
+        if below.any():  # no part deeper in what is below it than at the start, and one as deep
+            gap = self._gap(points, moved)[:, below] / self._normals[below, 2]
+            qpos[:, layout.root_qpos + 2] -= gap.min(axis=1)
+        rate = layout.root_qvel
+        qvel[:, rate : rate + 3] += values["start_velocity"]
+        qvel[:, rate + 3 : rate + 6] += values["start_rate"]
+        qvel[:, layout.joint_qvel] += values["start_joint_velocity"]
+
+    def _scene_moved(self, values: Mapping[str, Array]) -> Array:
+        """(n, contacts, 3) [m], how far the scene's part in each contact has moved."""
+        model = self._model
+        moved = np.zeros((len(values["mass"]), model.ngeom, 3))
+        scene = [i for i in range(model.ngeom) if model.geom_bodyid[i] == 0]
+        ground = [i for i in scene if model.geom(i).name == GROUND]
+        moved[:, ground, 2] = values["ground_height"]
+        for i, geom in enumerate(geom for geom in scene if geom not in ground):
+            moved[:, geom] = values["obstacle"][:, 3 * i : 3 * i + 3]
+        return moved[:, self._geoms]
+
+    def _where(self, qpos: Array) -> Array:
+        """(n, contacts, 3) [m], where the robot's touching points are."""
+        n = len(qpos)
+        if self._batch is None or self._batch.nsim < n:
+            self._batch = Batch(copy.deepcopy(self._model), n, self._threads)
+        batch: Batch = self._batch
+        position, matrix = batch.bind("xpos"), batch.bind("xmat")
+        batch.bind("qpos")[:n] = qpos
+        batch.forward(np.arange(n), stage=mujoco.mjtStage.mjSTAGE_POS)
+        turned = np.einsum("ncij,cj->nci", matrix[:n, self._bodies].reshape(n, -1, 3, 3), self._local)
+        return position[:n, self._bodies] + turned
+
+    def _gap(self, points: Array, moved: Array) -> Array:
+        """(n, contacts) [m], gaps between robot and scene beyond those at the start; negative if deeper."""
+        return np.einsum("nci,ci->nc", points - self._points - moved, self._normals)
+
+    def _fit(self, lever: Array, gap: Array) -> tuple[Array, Array]:
+        """Lift (n, 3) [m] and small turn (n, 3) [rad] of the trunk that close the gaps best, in the least-squares sense."""
+        normal = self._normals
+        turning = np.cross(lever, normal)  # n . (turn x lever) = turn . (lever x n)
+        rates = np.stack([np.broadcast_to(normal[:, 2], gap.shape), turning[..., 0], turning[..., 1]], axis=-1)
+        square = np.einsum("nci,ncj->nij", rates, rates) + np.diag([1e-9, _RIDGE, _RIDGE])
+        change = -np.linalg.solve(square, np.einsum("nci,nc->ni", rates, gap)[..., None])[..., 0]
+        zero = np.zeros(len(gap))
+        lift = np.stack([zero, zero, change[:, 0]], axis=-1)
+        return lift, np.stack([change[:, 1], change[:, 2], zero], axis=-1)
+
+
+def quaternion(turn: Array) -> Array:
+    """(n, 3) rotation vectors [rad] to (n, 4) unit quaternions, w-x-y-z."""
+    angle = np.linalg.norm(turn, axis=-1, keepdims=True)
+    return np.concatenate([np.cos(angle / 2), 0.5 * np.sinc(angle / (2 * np.pi)) * turn], axis=-1)
+
+
+def product(first: Array, second: Array) -> Array:
+    """Products of quaternions (..., 4), w-x-y-z: the rotation ``second``, then ``first``."""
+    w1, v1, w2, v2 = first[..., :1], first[..., 1:], second[..., :1], second[..., 1:]
+    w = w1 * w2 - (v1 * v2).sum(axis=-1, keepdims=True)
+    return np.concatenate([w, w1 * v2 + w2 * v1 + np.cross(v1, v2)], axis=-1)
+
+
+def _move(qpos: Array, position: slice, attitude: slice, lift: Array, turn: Array) -> None:
+    """Lift the trunk, and turn it about its frame's origin, in world axes."""
+    qpos[:, position] += lift
+    qpos[:, attitude] = product(quaternion(turn), qpos[:, attitude])
+
+
+def _moved(points: Array, origin: Array, lift: Array, turn: Array) -> Array:
+    """The points (n, contacts, 3) after `_move` of a trunk whose origin (n, 3) was there before."""
+    lever = rotate(quaternion(turn)[:, None], points - origin[:, None])
+    return (origin + lift)[:, None] + lever

@@ -1,0 +1,199 @@
+"""Versions of a model side by side: each is what a model compiled with its values does."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import fields
+
+import mujoco
+import numpy as np
+import pytest
+
+from levade.engines import Ensemble, MujocoEngine, Perturbation, Physics, Sample, Settled, State
+from levade.engines.ensemble import Start, delayed
+from levade.engines.perturbation import PARAMETERS
+from levade.errors import LevadeError
+from levade.robots import Robot
+from levade.scenes import Box, Scene
+from levade.trajectory import JointReference
+
+BOXES = (Box(position=(0.0, 0.0, 0.21), size=(0.3, 0.16, 0.42), yaw=0.1),)  # a block below the trunk, 1 cm from it
+
+
+@pytest.fixture(scope="module")
+def boxed(robot: Robot) -> MujocoEngine:
+    return MujocoEngine(robot, Scene(boxes=BOXES), Physics(), threads=1)
+
+
+@pytest.fixture(scope="module")
+def start(boxed: MujocoEngine) -> Start:
+    state = boxed.start(Settled())
+    return state.qpos, state.qvel, state.act
+
+
+def sample(ensemble: Ensemble, n: int, **kept: object) -> Sample:
+    """A draw in which only the parameters named are perturbed."""
+    ranges = {one.name: None for one in fields(Perturbation)} | kept
+    return Perturbation(**ranges).draw(ensemble.model, ensemble.joints, n=n, seed=3)  # type: ignore[arg-type]
+
+
+def test_the_nominal_version_is_the_engines_own(
+    engine: MujocoEngine, state: State, wave: Callable[..., JointReference]
+) -> None:
+    reference = wave(state.joint_position, n=1, steps=60)
+    ensemble = engine.ensemble()
+    nominal = ensemble.vary(
+        (state.qpos, state.qvel, state.act), Perturbation().nominal(ensemble.model, ensemble.joints, n=2)
+    )
+    ours, theirs = ensemble.rollout(nominal, reference, feet=True), engine.rollout(state, reference, feet=True)
+    for run in range(2):
+        assert np.allclose(ours.trunk_position[run], theirs.trunk_position[0], atol=1e-9, rtol=0)
+        assert np.allclose(ours.joint_torque[run], theirs.joint_torque[0], atol=1e-5, rtol=0)
+        assert np.allclose(ours.foot_contact_force[run], theirs.foot_contact_force[0], atol=1e-3, rtol=0)  # type: ignore[index]
+
+
+def test_a_version_is_a_model_compiled_with_its_values(
+    boxed: MujocoEngine, start: Start, wave: Callable[..., JointReference]
+) -> None:
+    ensemble, steps = boxed.ensemble(), 60
+    everything = Perturbation(latency=None).draw(ensemble.model, ensemble.joints, n=3, seed=1)
+    variations = ensemble.vary(start, everything)
+    posture = start[0][ensemble.layout.joint_qpos]
+    reference = wave(posture, n=1, steps=steps, scale=0.1)
+    ours = ensemble.rollout(variations, reference)
+    ctrl = boxed.ctrl(reference)[0]
+    for run in range(3):
+        v = {name: values[run] for name, values in everything.values.items()}
+        spec = mujoco.MjSpec.from_string(boxed.xml)
+        for body in spec.bodies[1:]:
+            body.mass = body.mass * v["mass"][0]
+            body.inertia = body.inertia * v["mass"][0] * v["inertia"][0]
+            body.fullinertia[:] = body.fullinertia * v["mass"][0] * v["inertia"][0]
+        trunk = spec.body("trunk")
+        trunk.ipos = trunk.ipos + v["com"]
+        angle = np.linalg.norm(v["ground_slope"])
+        turn, product, turned = np.empty(4), np.empty(4), np.empty(3)
+        mujoco.mju_axisAngle2Quat(turn, np.array([*(v["ground_slope"] / angle), 0.0]), angle)
+        pivot = np.array([*start[0][:2], 0.0])
+        for geom in spec.geoms:
+            geom.friction[0] *= v["friction"][0]
+        for name, moved in (("ground", [0.0, 0.0, v["ground_height"][0]]), ("box0", v["obstacle"])):
+            geom = spec.geom(name)
+            mujoco.mju_rotVecQuat(turned, geom.pos + moved - pivot, turn)
+            mujoco.mju_mulQuat(product, turn, boxed.model.geom(name).quat)
+            geom.pos, geom.quat = turned + pivot, product.copy()
+        for i, actuator in enumerate(spec.actuators):
+            actuator.forcerange = actuator.forcerange * v["torque_limit"][0]
+            actuator.gainprm[0] /= v["torque_limit"][0]
+            actuator.gainprm[4] *= v["kp"][i]
+            actuator.gainprm[6] *= v["kd"][i]
+            actuator.dynprm[0] *= v["torque_lag"][0]
+        model = spec.compile()
+        assert not np.allclose(model.dof_invweight0, boxed.model.dof_invweight0)
+        data = mujoco.MjData(model)
+        data.qpos[:], data.qvel[:], data.act[:] = variations.qpos[run], variations.qvel[run], variations.act[run]
+        for k in range(steps):
+            data.ctrl[:] = ctrl[k]
+            mujoco.mj_step(model, data)
+        assert data.ncon > 1
+        assert np.allclose(ours.trunk_position[run, -1], data.qpos[:3], atol=1e-7, rtol=0)
+        assert np.allclose(ours.joint_position[run, -1], data.qpos[ensemble.layout.joint_qpos], atol=1e-7, rtol=0)
+
+
+def test_a_run_depends_on_nothing_but_its_own_values(
+    boxed: MujocoEngine, start: Start, wave: Callable[..., JointReference]
+) -> None:
+    one, two = boxed.ensemble(threads=1), boxed.ensemble(threads=3)
+    many, few = (Perturbation().draw(one.model, one.joints, n=n, seed=7) for n in (9, 4))
+    for name in many.values:
+        assert np.array_equal(many.values[name][:4], few.values[name])
+    reference = wave(start[0][one.layout.joint_qpos], n=1, steps=40)
+    varied = one.vary(start, many)
+    whole = one.rollout(varied, reference).trunk_position
+    part = two.rollout(two.vary(start, few), reference).trunk_position
+    assert np.array_equal(whole[:4], part)
+    again = one.rollout(varied[[5, 2]], reference).trunk_position
+    assert np.array_equal(again, whole[[5, 2]])
+
+
+@pytest.mark.parametrize("name", [one.name for one in fields(Perturbation)])
+def test_every_parameter_changes_the_motion_and_its_corners_are_the_ends_of_its_range(
+    name: str, boxed: MujocoEngine, start: Start, wave: Callable[..., JointReference]
+) -> None:
+    ensemble, own = boxed.ensemble(), Perturbation()
+    corners = own.corners(ensemble.model, ensemble.joints, name, n=4, seed=0)
+    ends = getattr(own, name)
+    assert set(np.unique(corners.values[name])) == set(ends)
+    reference = wave(start[0][ensemble.layout.joint_qpos], n=1, steps=80, scale=0.6)
+    nominal = ensemble.rollout(ensemble.vary(start, own.nominal(ensemble.model, ensemble.joints)), reference)
+    moved = ensemble.rollout(ensemble.vary(start, corners), reference)
+    assert not moved.diverged.any()
+    apart = np.abs(moved.trunk_position - nominal.trunk_position).max(axis=(1, 2))
+    assert (apart[~(np.isclose(corners.values[name], nominal_of(name)).all(axis=1))] > 1e-7).all()
+
+
+def nominal_of(name: str) -> float:
+    return PARAMETERS[name].nominal
+
+
+def test_the_robot_starts_on_the_ground_whatever_is_perturbed(boxed: MujocoEngine, start: Start) -> None:
+    ensemble = boxed.ensemble()
+    variations = ensemble.vary(start, Perturbation(obstacle=None).draw(ensemble.model, ensemble.joints, n=40, seed=5))
+    gaps = []
+    for run in range(-1, 40):
+        model, data = mujoco.MjModel.from_xml_string(boxed.xml), mujoco.MjData(boxed.model)
+        if run >= 0:
+            model.geom_sameframe[:] = 0
+            model.geom_pos[:], model.geom_quat[:] = (variations.fields[f"geom_{what}"][run] for what in ("pos", "quat"))
+        data.qpos[:] = variations.qpos[run] if run >= 0 else start[0]
+        mujoco.mj_forward(model, data)
+        ground = model.geom("ground").id
+        feet = [model.geom(foot).id for foot in boxed.robot.feet]
+        gaps.append([mujoco.mj_geomDistance(model, data, foot, ground, 0.2, None) for foot in feet])
+    nominal, perturbed = np.array(gaps[0]), np.array(gaps[1:])
+    lowest = (perturbed - nominal).min(axis=1)
+    assert np.abs(lowest).max() < 2e-4  # one foot as deep in the ground as at the start, none deeper
+    assert (perturbed - nominal).max() < 0.03
+    assert np.mean(perturbed - nominal) < 0.012
+
+
+def test_a_perturbed_joint_alone_leaves_the_feet_on_the_ground(boxed: MujocoEngine, start: Start) -> None:
+    """With one joint off, the trunk can follow in height, roll and pitch: what is left is the twist of four feet."""
+    ensemble = boxed.ensemble()
+    values = dict(Perturbation().nominal(ensemble.model, ensemble.joints).values)
+    for leg in range(4):  # every thigh by the same angle, so that all feet rise by about the same
+        values["start_joint"][0, 3 * leg + 1] = 0.03 * (1 if leg < 2 else -1)
+    variations = ensemble.vary(start, Sample(values))
+    data = mujoco.MjData(boxed.model)
+    data.qpos[:] = variations.qpos[0]
+    mujoco.mj_kinematics(boxed.model, data)
+    moved = np.array([data.geom(foot).xpos[2] for foot in boxed.robot.feet])
+    data.qpos[:] = start[0]
+    mujoco.mj_kinematics(boxed.model, data)
+    before = np.array([data.geom(foot).xpos[2] for foot in boxed.robot.feet])
+    assert np.abs(moved - before).max() < 1e-3
+    assert not np.allclose(variations.qpos[0, :7], start[0][:7], atol=3e-4)
+
+
+def test_a_late_reference_is_the_reference_of_earlier() -> None:
+    timestep, steps = 0.002, 50
+    time = np.arange(1, steps + 1) * timestep
+    line = np.stack([3.0 * time, -time], axis=-1)[None]
+    reference = JointReference(line, np.broadcast_to([3.0, -1.0], line.shape).copy(), timestep, steps)
+    delay = np.array([0.0, 0.002, 0.0033, 0.5])
+    late = delayed(reference, delay)
+    expected = np.maximum(time - delay[:, None], timestep)[..., None] * np.array([3.0, -1.0])
+    assert np.allclose(late.position, expected, atol=1e-12)
+    assert np.array_equal(late.position[1, 1:], line[0, :-1])
+    assert np.array_equal(late.velocity[1, 1:], reference.velocity[0, :-1])
+    assert (late.velocity[3] == 0).all()
+    assert np.allclose(late.velocity[2, 10], [3.0, -1.0])
+
+
+def test_ranges_that_make_no_sense_are_refused() -> None:
+    with pytest.raises(LevadeError, match=r"perturb.friction: -0.1 is too low; 0.01 or more, 1 is nominal"):
+        Perturbation(friction=(-0.1, 1.0))
+    with pytest.raises(LevadeError, match=r"perturb.mass: \[1.2, 0.8\] should be \[lowest, highest\]"):
+        Perturbation(mass=(1.2, 0.8))
+    with pytest.raises(LevadeError, match="latency"):
+        Perturbation(latency=(-0.001, 0.0))
