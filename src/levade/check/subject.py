@@ -52,6 +52,7 @@ class Subject:
             joint_names=self.names.joint_names,
             limits=self.names.limits,
             trunk_com_offset=self.names.trunk_com_offset,
+            legs=self.names.legs,
             threads=self.threads,
         )
 

@@ -25,7 +25,7 @@ from levade.engines.perturbation import Sample, obstacles
 from levade.engines.simulating import RESET_OFF, SENSORS_OFF, STATE, quiet, simulate
 from levade.engines.stance import Stance, product, quaternion
 from levade.scenes import GROUND
-from levade.trajectory import Array, JointLimits, JointReference, Trajectories, rotate
+from levade.trajectory import Array, JointLimits, JointReference, LegGeometry, Trajectories, rotate
 
 Start = tuple[Array, Array, Array]
 """qpos (nq,), qvel (nv,) and act (na,) of the model."""
@@ -82,12 +82,14 @@ class Ensemble:
         joint_names: tuple[str, ...],
         limits: JointLimits,
         trunk_com_offset: Array,
+        legs: tuple[LegGeometry, ...] = (),
         threads: int = 0,
     ) -> None:
         self.model = copy.deepcopy(model)
         self.layout, self.joint_names = layout, joint_names
         self._trunk = self.model.body(trunk).id
         self._limits, self._offset, self._threads = limits, trunk_com_offset, threads
+        self._legs = legs
         # frames that coincide with their body's are not computed: these may not from now on
         self.model.geom_sameframe[self.model.geom_bodyid == 0] = _NONE
         self.model.body_sameframe[self._trunk] = _NONE
@@ -143,6 +145,7 @@ class Ensemble:
             reference,
             limits=self._limits,
             trunk_com_offset=self._offset,
+            legs=self._legs,
             diverged=diverged,
             feet=feet,
             bodies=bodies,

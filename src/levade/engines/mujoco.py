@@ -57,6 +57,7 @@ class MujocoEngine(Engine):
             joint_names=self.robot.joint_names,
             limits=self.robot.limits,
             trunk_com_offset=self.robot.trunk_com_offset,
+            legs=self.robot.leg_geometry,
             threads=self.threads if threads is None else threads,
         )
 
