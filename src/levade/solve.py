@@ -32,6 +32,7 @@ from levade.policies import Ends, Follower, GaussianKernels, Group, Policy, smoo
 from levade.robots import Leg, Robot, load_robot, mirror_signs
 from levade.robust import Sampler, Samples
 from levade.tasks import Change, PolicyChoice, Stage, Task, looks_at_hold
+from levade.tasks.reach import check_reach
 from levade.trajectory import Array, Trajectories
 
 
@@ -74,6 +75,7 @@ class Objective:
             if body not in self.engine.bodies:
                 hint = did_you_mean(body, self.engine.bodies)
                 raise LevadeError(f"costs.{name}.bodies: no body {body!r} in {self.robot.name}; {hint}")
+        check_reach(task, self.robot, self.engine.model)
         self._bodies = tuple(sorted({body for named in bodies.values() for body in named}))
         self.state = self.engine.start(task.start.choice)
         self.policy = make_policy(task, self.robot, start=self.state.joint_reference)

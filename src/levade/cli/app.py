@@ -88,7 +88,9 @@ def _levade(
 @app.command()
 def solve(
     task: Annotated[str | None, typer.Argument(help="Name of a built-in task, or a YAML file.")] = None,
-    robot: Annotated[str | None, typer.Option(help="Another robot: a name, or its robot.yaml.")] = None,
+    robot: Annotated[
+        str | None, typer.Option(help="Another robot: a name, or a file: URDF, MJCF or robot.yaml.")
+    ] = None,
     seed: Annotated[int, typer.Option(min=0, help="Of the search; the same seed gives the same motion.")] = 0,
     trials: Annotated[int | None, typer.Option(help="Budget, instead of the task's.")] = None,
     optimizer: Annotated[
@@ -363,16 +365,33 @@ def _schema() -> None:
     print(json.dumps(task_schema(), indent=2, ensure_ascii=False))
 
 
-@app.command()
-def robots(as_json: Json = False) -> None:
-    """List the built-in robots."""
-    from levade.robots import builtin_robots
+_robots = typer.Typer(help="List the robots; inspect one: a built-in name or your own file.", rich_markup_mode=None)
+app.add_typer(_robots, name="robots")
 
-    listed = builtin_robots()
-    if as_json:
-        _print_json({"robots": [{"name": name, "description": description} for name, description in listed]})
-    else:
-        _print_rows(listed)
+
+@_robots.callback(invoke_without_command=True)
+def _list_robots(context: typer.Context, as_json: Json = False) -> None:
+    from levade.cli.inspecting import list_robots
+
+    if context.invoked_subcommand is None:
+        list_robots(as_json=as_json)
+
+
+@_robots.command("inspect")
+def _inspect_robot(
+    robot: Annotated[str, typer.Argument(metavar="NAME|FILE", help="A name, or a file: URDF, MJCF or robot.yaml.")],
+    picture: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Draw it standing, with the names of joints and feet, as .png.")
+    ] = None,
+    as_json: Json = False,
+) -> None:
+    """Say what is understood of a robot (legs, limits, posture, actuators) and what is suspicious, with remedies.
+
+    Exit status: 0 it can be used, 2 it cannot: one line says why.
+    """
+    from levade.cli.inspecting import inspect_robot
+
+    inspect_robot(robot, picture=picture, as_json=as_json)
 
 
 def _print_json(content: dict[str, Any]) -> None:

@@ -15,6 +15,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from levade.cli.display import Display
+from levade.cli.inspecting import tell_warnings
 from levade.cli.tables import make_console, motion_summary
 from levade.cli.watching import Watching, watched
 from levade.run import Outcome, read_run, resume, run, unfinished
@@ -53,6 +54,7 @@ def solve_and_report(
             unfinished(out)
         objective = Objective(chosen, threads=threads)
         go = functools.partial(run, objective, seed=seed, directory=out)
+    tell_warnings(console, objective.robot, objective.task.robot.name)
     with ExitStack() as stack:
         stopping = stack.enter_context(_stop_between_generations())
         watch = None

@@ -121,15 +121,16 @@ class Camera:
 
 
 class Renderer:
-    """Draws configurations of a motion's model: what of the robot is for looking at, the scene, soft shadows.
+    """Draws configurations of a model: what of the robot is for looking at, the scene, soft shadows.
 
-    size: width and height [pixels]. shadows: lights that the sun is made of; more are softer, and slower.
+    what: a motion, whose model is taken; or a model, which is changed. size: width and height [pixels].
+    shadows: lights that the sun is made of; more are softer, and slower.
     A context manager. Raises LevadeError where there is no OpenGL.
     """
 
-    def __init__(self, motion: Motion, size: tuple[int, int], *, shadows: int = 6) -> None:
+    def __init__(self, what: Motion | Any, size: tuple[int, int], *, shadows: int = 6) -> None:
         self._size, self._shadows = size, max(1, shadows)
-        self.model = load_model(motion)
+        self.model: Any = load_model(what) if isinstance(what, Motion) else what
         _furnish(self.model, size)
         self._data = mujoco.MjData(self.model)
         self._option = mujoco.MjvOption()

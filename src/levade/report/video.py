@@ -63,7 +63,7 @@ def video(
     if not (16 <= width <= 7680 and 16 <= height <= 4320 and (width % 2 == height % 2 == 0 or not moving)):
         raise LevadeError(f"size {width}x{height}: should be even numbers from 16 to 7680 and 4320")
     ffmpeg = _ffmpeg() if moving else None
-    pillow = _pillow()
+    pillow = load_pillow()
     with writing(path) as partial:
         poses = replay(motion)
         times = frame_times(motion, slow=slow, fps=fps)
@@ -99,7 +99,7 @@ def strip(
         raise LevadeError(f"poses {n}: should be between 1 and 60")
     if not 32 <= height <= 4320:
         raise LevadeError(f"height {height}: should be between 32 and 4320 pixels")
-    pillow, camera = _pillow(), camera or Camera(elevation=-8.0)
+    pillow, camera = load_pillow(), camera or Camera(elevation=-8.0)
     with writing(path) as partial:
         replays = [replay(each) for each in motions]
         clouds = [outline(poses.model, _sample(poses)) for poses in replays]
@@ -298,7 +298,8 @@ def _strip_row(pillow: Any, images: Sequence[tuple[float, Any]], label: str) -> 
     return row
 
 
-def _pillow() -> Any:
+def load_pillow() -> Any:
+    """The parts of pillow that pictures need. Raises LevadeError if it is not installed."""
     try:
         from PIL import Image, ImageDraw, ImageFont
     except ImportError:

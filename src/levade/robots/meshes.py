@@ -10,6 +10,7 @@ from pathlib import Path, PurePosixPath
 import numpy as np
 
 from levade.errors import LevadeError
+from levade.trajectory import Array
 
 READABLE = (".stl", ".obj", ".msh")
 """Suffixes that MuJoCo reads."""
@@ -19,6 +20,10 @@ CONVERTIBLE = (".dae", ".ply", ".glb", ".gltf", ".off", ".3mf")
 
 _LARGEST = 200_000
 """Faces that MuJoCo takes of an STL file."""
+
+_RECORD = [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")]
+_CELLS = 40
+"""Along the longest edge of a mesh; vertices in one cell of the grid become one."""
 
 
 def find_mesh(reference: str, beside: Path) -> Path | None:
@@ -111,6 +116,29 @@ def _binary_stl(path: Path) -> bytes:
 
 def stl(triangles: np.ndarray) -> bytes:
     """A binary STL file of triangles (n, 3, 3) [m]."""
-    record = np.zeros(len(triangles), dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+    record = np.zeros(len(triangles), dtype=_RECORD)
     record["corners"] = triangles
     return bytes(80) + len(triangles).to_bytes(4, "little") + record.tobytes()
+
+
+def coarse(content: bytes) -> bytes:
+    """A binary STL file of the same shape in few triangles."""
+    record = np.frombuffer(content, dtype=_RECORD, offset=84, count=int.from_bytes(content[80:84], "little"))
+    return stl(cluster(record["corners"].astype(float)))
+
+
+def cluster(triangles: Array) -> Array:
+    """Fewer triangles (m, 3, 3) of the same shape: vertices that share a cell of a grid become their mean."""
+    vertices = triangles.reshape(-1, 3)
+    low = vertices.min(axis=0)
+    cell = max(float((vertices.max(axis=0) - low).max()) / _CELLS, 1e-9)
+    keys = np.floor((vertices - low) / cell).astype(np.int64) @ np.array([1, 1 << 20, 1 << 40])
+    _, inverse = np.unique(keys, return_inverse=True)
+    counts = np.bincount(inverse)
+    means = np.stack([np.bincount(inverse, vertices[:, k]) / counts for k in range(3)], axis=1)
+    corners = inverse.reshape(-1, 3)
+    distinct = (corners[:, 0] != corners[:, 1]) & (corners[:, 1] != corners[:, 2]) & (corners[:, 2] != corners[:, 0])
+    corners = corners[distinct]
+    _, first = np.unique(np.sort(corners, axis=1), axis=0, return_index=True)
+    kept = means[corners[np.sort(first)]]
+    return kept if len(kept) >= 4 else triangles

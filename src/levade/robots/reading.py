@@ -117,6 +117,11 @@ def _read_urdf(path: Path, root: ET.Element) -> Draft:
         mesh.inertia = (
             mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
         )  # flat ones have no volume; links have their own inertia
+    for body in spec.bodies:
+        if any(not (geom.contype or geom.conaffinity) for geom in body.geoms):
+            for geom in body.geoms:
+                if geom.contype or geom.conaffinity:
+                    geom.group = 3  # where there is something to look at, what collides need not be drawn
     return Draft(path, spec, source.assets, True, source.effort, source.velocity, findings=source.findings)
 
 

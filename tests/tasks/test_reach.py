@@ -1,0 +1,86 @@
+"""Goals above what the legs reach are refused, with the numbers that say so."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from levade.costs import Criterion, Position
+from levade.errors import LevadeError
+from levade.scenes import Box, Scene
+from levade.solve import Objective
+from levade.tasks import Cost, Stage, Task, load_task
+from levade.tasks.task import RobotChoice
+
+# of the robot in conftest.py: hips 0.2 m ahead and 0.08 m aside, 0.05 m further out to the legs of 2 x 0.2 m, feet of 0.02 m
+LEG, HIP = 0.05 + 0.4 + 0.02, (0.2**2 + 0.08**2) ** 0.5
+HIGHEST = LEG + HIP
+
+
+@pytest.fixture
+def task(tmp_path: Path, quadruped: type) -> Task:
+    (tmp_path / "toy.urdf").write_text(quadruped().urdf())
+    plain = load_task("rearing", changes=["search.population=8", "horizon=0.02", "start.settled.time=0"])
+    robot = RobotChoice(str(tmp_path / "toy.urdf"))
+    return replace(plain, robot=robot, success={}, stages=(Stage(),), costs={"z": Cost(Position(z=0.3), 1.0)})
+
+
+def asking(task: Task, criterion: Criterion, **other) -> Task:
+    return replace(task, success={"goal": criterion}, **other)
+
+
+@pytest.mark.parametrize(
+    ("criterion", "key"),
+    [
+        (Criterion("height", target=HIGHEST + 0.05, tolerance=0.01), "target"),
+        (Criterion("height", minimum=HIGHEST + 0.03), "minimum"),
+        (Criterion("height", minimum=HIGHEST + 0.03, at="min"), "minimum"),
+        (Criterion("height", target=HIGHEST + 0.05, tolerance=0.01, at="end"), "target"),
+    ],
+)
+def test_a_height_above_leg_and_trunk_in_one_line_is_refused(task: Task, criterion: Criterion, key: str) -> None:
+    least = criterion.minimum or criterion.target - criterion.tolerance
+    message = (
+        f"success.goal.{key}: asks for {least:.2f} m, but the trunk's centre of mass of toy is at {HIGHEST:.2f} m at most"
+        f" with a foot on the ground (leg {LEG:.2f} m, hip to centre of mass {HIP:.2f} m); ask for less"
+    )
+    with pytest.raises(LevadeError, match=f"^{re.escape(message)}"):
+        Objective(asking(task, criterion))
+
+
+@pytest.mark.parametrize(
+    "criterion",
+    [
+        Criterion("height", target=HIGHEST + 0.05, tolerance=0.06),
+        Criterion("height", maximum=9.0),
+        Criterion("height", minimum=HIGHEST + 0.5, at="max"),  # the apex of a jump
+        Criterion("x", minimum=9.0),
+    ],
+)
+def test_what_can_be_reached_or_is_jumped_is_not(task: Task, criterion: Criterion) -> None:
+    Objective(asking(task, criterion))
+
+
+def test_costs_ask_too_unless_they_weigh_nothing_or_the_task_is_a_jump(task: Task) -> None:
+    high = {"z": Cost(Position(z=HIGHEST + 0.1), 1.0)}
+    with pytest.raises(LevadeError, match=r"^costs\.z\.z: asks for 0\.79 m, but"):
+        Objective(replace(task, costs=high))
+    idle = {"z": Cost(Position(z=HIGHEST + 0.1), 0.0), "low": Cost(Position(z=0.3), 1.0)}
+    Objective(replace(task, costs=idle))
+    with pytest.raises(LevadeError, match=r"^costs\.z\.z: "):
+        Objective(replace(task, costs=idle, stages=(Stage(weights={"z": 1.0}),)))
+    Objective(asking(task, Criterion("height", minimum=1.0, at="max"), costs=high))
+
+
+def test_the_scene_counts(task: Task) -> None:
+    """A step of 0.3 m raises what can be reached; a slope has no highest place."""
+    high = asking(task, Criterion("height", minimum=HIGHEST + 0.25))
+    with pytest.raises(LevadeError, match=r"^success\.goal"):
+        Objective(high)
+    Objective(replace(high, scene=Scene(boxes=(Box((1.5, 0.0, 0.15), (1.0, 1.0, 0.3)),))))
+    Objective(replace(high, scene=Scene(slope=0.1)))
+    with pytest.raises(LevadeError, match=r"hip to centre of mass 0\.22 m, 0\.10 m of the scene\)"):
+        Objective(replace(high, scene=Scene(boxes=(Box((1.5, 0.0, 0.05), (1.0, 1.0, 0.1)),))))
