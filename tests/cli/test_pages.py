@@ -89,7 +89,7 @@ def test_view_serves_until_ctrl_c() -> None:
     found = re.fullmatch(r"Look at it at (http://127\.0\.0\.1:\d+/)\n", process.stdout.readline())
     assert found
     assert process.stdout.readline() == "Ctrl-C ends it.\n"
-    assert b"<title>hyq2max</title>" in urllib.request.urlopen(found[1], timeout=10).read()
+    assert b"<title>hyq2max</title>" in urllib.request.urlopen(found[1], timeout=100).read()
     process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=30)
+    out, err = process.communicate(timeout=300)
     assert (process.returncode, out.strip(), err) == (0, "", "")

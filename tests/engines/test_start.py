@@ -67,7 +67,7 @@ def test_falls_are_deterministic_and_spread_by_their_seed(engine: MujocoEngine) 
     np.testing.assert_allclose(samples.mean(axis=0), one.joint_reference, atol=0.03)
 
 
-@pytest.mark.parametrize("name", [name for name in builtin_tasks() if "recovery" in name])
+@pytest.mark.parametrize("name", [name for name in builtin_tasks() if name.startswith("posture-recovery")])
 def test_recovery_starts_lying_partly_on_the_obstacle(robot: Robot, name: str) -> None:
     task = load_task(name)
     engine = MujocoEngine(robot, task.scene, task.physics)
