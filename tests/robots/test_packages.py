@@ -180,6 +180,7 @@ def test_names_that_are_not_there(monkeypatch: pytest.MonkeyPatch) -> None:
     ):
         load_robot("example-robot-data:hyk")
     monkeypatch.setattr("levade.robots.packages.files", lambda package: [])
-    message = "robot example-robot-data:hyq: example-robot-data is not installed; pip install levade"
-    with pytest.raises(LevadeError, match=message):
-        load_robot("example-robot-data:hyq")
+    for name, how in (("example-robot-data:hyq", "levade[robots]"), ("mjlab:unitree_go1", "--no-deps mjlab")):
+        with pytest.raises(LevadeError) as caught:
+            load_robot(name)
+        assert str(caught.value) == f"robot {name}: {name.partition(':')[0]} is not installed; pip install {how}"

