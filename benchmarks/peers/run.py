@@ -13,6 +13,7 @@ from __future__ import annotations
 import argparse
 import multiprocessing
 import os
+import signal
 import subprocess
 import sys
 from concurrent.futures import ProcessPoolExecutor, as_completed
@@ -77,11 +78,16 @@ def main() -> None:
             jobs += [job_of(task, arguments.robot, peer, seed, arguments, python) for seed in seeds_of(arguments.seeds)]
     left = [job for job in jobs if not checked(job, done)]
     print(f"{len(jobs) - len(left)} of {len(jobs)} runs", flush=True)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C: the runs under way end, no others begin
     with ProcessPoolExecutor(arguments.processes, multiprocessing.get_context("spawn")) as pool:
-        for future in as_completed([pool.submit(run_job, job) for job in left]):
-            result = future.result()
-            append(path, result)
-            print(result.task, result.optimizer, result.seed, result.trials_to_success, result.cost, flush=True)
+        try:
+            for future in as_completed([pool.submit(run_job, job) for job in left]):
+                result = future.result()
+                append(path, result)
+                print(result.task, result.optimizer, result.seed, result.trials_to_success, result.cost, flush=True)
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
     written, missing = report(read(path), arguments.out, format="png")
     print((arguments.out / "table.md").read_text())
     print("written:", path, *written, *missing)
