@@ -235,6 +235,7 @@ def test_show(run, extra: list[str]) -> None:
 
 def test_listings(run) -> None:
     from levade.robots import builtin_robots
+    from levade.robots.packages import package_robots
     from levade.tasks import builtin_tasks
 
     status, out, err = run("tasks")
@@ -246,7 +247,9 @@ def test_listings(run) -> None:
     assert out.splitlines()[0].startswith("hyq2max  ")
     status, out, _ = run("robots", "--json")
     assert (status, out.count("\n")) == (0, 1)
-    assert [(r["name"], r["description"]) for r in json.loads(out)["robots"]] == builtin_robots()
+    robots = [(r["name"], r["description"]) for r in json.loads(out)["robots"]]
+    packaged = [(name, path.name) for name, path in package_robots().items()]  # whatever is installed
+    assert robots == [*builtin_robots(), *packaged]
 
 
 def test_a_task_to_start_from(run, tmp_path: Path) -> None:
