@@ -125,12 +125,41 @@ class Ensemble:
 
         feedback: corrects the reference from what each run senses. sensor_errors: (n, ticks, sensed), added to that.
         """
-        n, layout = len(variations), self.layout
         recorded = ["qpos", "qvel", "actuator_force"]
-        sensors = feet or bool(bodies)
-        if sensors:
+        if feet or bodies:
             recorded.append("sensordata")
-        batch = self._batch_for(n, sensors=sensors)
+        out, diverged = self.record(variations, reference, recorded, feedback=feedback, sensor_errors=sensor_errors)
+        if len(reference.position) == 1 < len(variations):
+            shape = (len(variations), *reference.position.shape[1:])
+            reference = JointReference(
+                np.broadcast_to(reference.position, shape),
+                np.broadcast_to(reference.velocity, shape),
+                reference.timestep,
+                reference.horizon_steps,
+            )
+        return self.layout.trajectories(
+            out,
+            reference,
+            limits=self._limits,
+            trunk_com_offset=self._offset,
+            legs=self._legs,
+            diverged=diverged,
+            feet=feet,
+            bodies=bodies,
+        )
+
+    def record(
+        self,
+        variations: Variations,
+        reference: JointReference,
+        recorded: Sequence[str],
+        *,
+        feedback: Feedback | None = None,
+        sensor_errors: Array | None = None,
+    ) -> tuple[dict[str, Array], NDArray[np.bool_]]:
+        """As `rollout`, but fields of `mujoco.MjData`, name -> (n, steps, ...), and which runs broke down."""
+        n, layout = len(variations), self.layout
+        batch = self._batch_for(n, sensors="sensordata" in recorded)
         self._set_fields(batch, variations.fields, n)
         data = mujoco.MjData(self.model)
         row = np.empty(mujoco.mj_stateSize(self.model, STATE))
@@ -145,35 +174,17 @@ class Ensemble:
         ctrl[..., layout.ctrl_velocity] = told.velocity
         rows = batch.state[:n].copy()
         if feedback is None:
-            out, diverged = simulate(batch, rows, ctrl, recorded)
-        else:
-            correcting = Correcting(
-                feedback,
-                steps=reference.steps,
-                timestep=reference.timestep,
-                delay=variations.delay,
-                lower=self._limits.lower,
-                upper=self._limits.upper,
-                errors=sensor_errors,
-            )
-            out, diverged = self._corrected(batch, rows, ctrl, recorded, correcting)
-        if reference.position.shape[0] == 1 < n:
-            reference = JointReference(
-                np.broadcast_to(reference.position, told.position.shape),
-                np.broadcast_to(reference.velocity, told.velocity.shape),
-                reference.timestep,
-                reference.horizon_steps,
-            )
-        return layout.trajectories(
-            out,
-            reference,
-            limits=self._limits,
-            trunk_com_offset=self._offset,
-            legs=self._legs,
-            diverged=diverged,
-            feet=feet,
-            bodies=bodies,
+            return simulate(batch, rows, ctrl, recorded)
+        correcting = Correcting(
+            feedback,
+            steps=reference.steps,
+            timestep=reference.timestep,
+            delay=variations.delay,
+            lower=self._limits.lower,
+            upper=self._limits.upper,
+            errors=sensor_errors,
         )
+        return self._corrected(batch, rows, ctrl, recorded, correcting)
 
     def _corrected(
         self, batch: Batch, rows: Array, ctrl: Array, recorded: Sequence[str], correcting: Correcting

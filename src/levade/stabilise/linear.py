@@ -83,12 +83,6 @@ class Linear:
     drives: Array
 
 
-def unsensed(height: Array, quaternion: Array, velocity: Array) -> Array:
-    """(..., 4): height [m], and velocity [m/s] in trunk axes of one in world axes."""
-    inverse = quaternion * np.array([1.0, -1.0, -1.0, -1.0])
-    return np.concatenate([height[..., None], rotate(inverse, velocity)], axis=-1)
-
-
 def linearise(
     model: mujoco.MjModel,
     layout: Layout,
@@ -143,17 +137,22 @@ def _rows(model: mujoco.MjModel, start: tuple[Array, Array, Array], ctrl: Array,
     return np.concatenate([first[None], after])[: ctrl.shape[1] : period]
 
 
+def state_of(layout: Layout, qpos: Array, qvel: Array, act: Array | None = None) -> Array:
+    """(..., states) of MuJoCo's (..., nq), (..., nv) and (..., na)."""
+    root, rate = layout.root_qpos, layout.root_qvel
+    quaternion = qpos[..., root + 3 : root + 7]
+    inverse = quaternion * np.array([1.0, -1.0, -1.0, -1.0])
+    seen = sensed(
+        quaternion, qvel[..., rate + 3 : rate + 6], qpos[..., layout.joint_qpos], qvel[..., layout.joint_qvel]
+    )
+    parts = [seen, qpos[..., root + 2 : root + 3], rotate(inverse, qvel[..., rate : rate + 3])]
+    return np.concatenate(parts if act is None else [*parts, act], axis=-1)
+
+
 def _state(batch: Batch, layout: Layout) -> Array:
     """(n, states) of the simulations as they are."""
-    qpos, qvel = batch.bind("qpos"), batch.bind("qvel")
-    root, rate = layout.root_qpos, layout.root_qvel
-    quaternion = qpos[:, root + 3 : root + 7]
-    seen = sensed(quaternion, qvel[:, rate + 3 : rate + 6], qpos[:, layout.joint_qpos], qvel[:, layout.joint_qvel])
-    hidden = unsensed(qpos[:, root + 2], quaternion, qvel[:, rate : rate + 3])
-    parts = [seen, hidden]
-    if batch.model.na:
-        parts.append(batch.bind("act"))
-    return np.concatenate(parts, axis=-1)
+    fields = ["qpos", "qvel", *(["act"] if batch.model.na else [])]
+    return state_of(layout, *(batch.bind(name) for name in fields))
 
 
 class _Sides:

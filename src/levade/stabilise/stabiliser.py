@@ -13,9 +13,9 @@ from levade.check.perturbed import Judged, judge
 from levade.engines import Perturbation
 from levade.engines.perturbation import Sample
 from levade.errors import LevadeError
-from levade.feedback import Feedback, SensorErrors, sensed
+from levade.feedback import Feedback, SensorErrors
 from levade.motion import Motion
-from levade.stabilise.linear import Linear, Scales, linearise, unsensed
+from levade.stabilise.linear import Linear, Scales, linearise, state_of
 from levade.stabilise.regulator import expectation, project, steady, sweep
 from levade.trajectory import Array
 
@@ -27,6 +27,9 @@ _CAP = Scales(attitude=1 / 6, height=math.inf, speed=math.inf, rate=2.0, joint=1
 
 _LAST = 0.5
 """Largest gain of the correction in force."""
+
+_NEAR = 0.2
+"""[rad], in attitude: runs that are further off are not learned from."""
 
 _TRAINING = 7919
 """Added to the seed: the runs that choose are none of those of a check with the same seed."""
@@ -145,12 +148,12 @@ def _check(subject: Subject, rate: float, bound: float, runs: int) -> None:
 
 
 def _size(subject: Subject) -> float:
-    """[m]: the longest leg, stretched."""
+    """[m]: how high the robot stands, about: 0.7 of its longest leg."""
     lengths = [
         float(np.linalg.norm(np.diff(np.concatenate([leg.anchors, leg.foot[None]]), axis=0), axis=1).sum())
         for leg in subject.names.legs
     ]
-    return max(lengths, default=0.6) or 0.6
+    return 0.7 * max(lengths, default=0.0) or 0.6
 
 
 def _designs(bound: float, *, hold: bool) -> Iterator[dict[str, float]]:
@@ -178,19 +181,14 @@ def _score(found: Judged) -> tuple[float, float]:
 def _expectations(subject: Subject, linear: Linear, sample: Sample, period: int) -> Array:
     """(ticks of the linear model, states - sensed, sensed): what is not sensed, as far as what is sensed tells.
 
-    From perturbed runs without feedback. The actuators' states are taken to be the motion's.
+    From perturbed runs without feedback.
     """
     ensemble, joints = subject.ensemble(), subject.joints
     ticks = len(linear.a)
-    found = ensemble.rollout(ensemble.vary(subject.start, sample), subject.reference)
+    fields = ["qpos", "qvel", *(["act"] if subject.model.na else [])]
+    found, _ = ensemble.record(ensemble.vary(subject.start, sample), subject.reference, fields)
     every = slice(period - 1, None, period)  # the end of the last step before each tick but the first
-    seen = sensed(
-        *(found.trunk_quaternion[:, every], found.trunk_angular_velocity[:, every]),
-        *(found.joint_position[:, every], found.joint_velocity[:, every]),
-    )
-    hidden = unsensed(
-        found.trunk_position[:, every, 2], found.trunk_quaternion[:, every], found.trunk_linear_velocity[:, every]
-    )
+    state = state_of(subject.layout, *(found[name][:, every] for name in fields))
     errors = SensorErrors()
     noise = np.concatenate(
         [
@@ -200,16 +198,19 @@ def _expectations(subject: Subject, linear: Linear, sample: Sample, period: int)
             np.full(joints, errors.joint_noise),
         ]
     )
-    states, width = linear.a.shape[1], seen.shape[2]
+    states, width = linear.a.shape[1], 6 + 2 * joints
     expected = np.zeros((ticks, states - width, width))
     hold = subject.reference.steps > subject.reference.horizon_steps
-    sound = ~found.diverged
+    count = min(state.shape[1], len(linear.state) - 1)
+    off = state[:, :count] - linear.state[1 : count + 1]
+    # those that are far off say nothing about those that are near
+    near = np.abs(off[..., :3]).max(axis=2) < _NEAR
     for k in range(1, ticks):
-        tick = len(linear.state) - 1 if hold and k == ticks - 1 else k
-        row = min(tick - 1, seen.shape[1] - 1)
-        off = seen[sound, row] - linear.state[tick, :width]
-        rest = hidden[sound, row] - linear.state[tick, width : width + hidden.shape[2]]
-        expected[k, : hidden.shape[2]] = expectation(off, rest, noise)
+        rows = slice(ticks - 2, None) if hold and k == ticks - 1 else slice(k - 1, k)
+        these = near[:, rows]
+        if these.any():
+            both = off[:, rows][these]
+            expected[k] = expectation(both[:, :width], both[:, width:], noise)
     return expected
 
 
