@@ -116,7 +116,7 @@ def stabilise(
             scores[design] = score(design)
         if scores[design] > scores[best]:
             best = design
-    better = scores[best] > scores[None]
+    better = scores[best][0] > scores[None][0]
     return Stabilised(
         motion=motion.stabilised(feedback(best), runs=runs, seed=seed, design=vars(best)) if better else motion,
         design=best if better else None,
