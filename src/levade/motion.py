@@ -88,8 +88,8 @@ META = (
 )
 """Keys of ``meta``."""
 
-LATER = ("cost_weights", "feedback")
-"""Keys of ``meta`` that files of earlier versions lack."""
+LATER = ("cost_weights",)
+"""Keys of ``meta`` that files of earlier versions lack. ``feedback`` is there if the motion has a stabiliser."""
 
 # what numpy and zipfile raise for files that are damaged, or something else
 _UNREADABLE = (

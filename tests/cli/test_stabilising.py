@@ -29,6 +29,7 @@ def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, 
     return int(caught.value.code or 0), captured.out, captured.err
 
 
+@pytest.mark.slow
 def test_it_writes_a_motion_that_a_check_knows_as_stabilised(motion: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = run(capsys, "stabilise", str(motion), "--runs", "32", "--json")
     content = json.loads(out)

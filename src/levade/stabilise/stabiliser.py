@@ -109,6 +109,8 @@ def stabilise(
 
     scores: dict[Design | None, tuple[float, float]] = {None: score(None)}
     best = Design(bound=min(Design.bound, bound))
+    if scores[None][0] == 1.0:  # nothing to gain
+        return Stabilised(motion, None, 1.0, 1.0, runs, {})
     scores[best] = score(best)
     for design in _designs(bound, hold=len(subject.reference.position[0]) > subject.reference.horizon_steps):
         design = replace(best, **design)
