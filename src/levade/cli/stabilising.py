@@ -65,7 +65,7 @@ def stabilise_motion(
         return 0 if found.design is not None else 1
     if found.design is None:
         console.print(
-            f"No stabiliser is better than none ({found.open_loop:.1%} of {found.runs} runs): nothing is written."
+            f"No stabiliser is surely better than none ({found.open_loop:.1%} of {found.runs} runs): nothing is written."
         )
         return 1
     console.print(

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from levade.check import Subject
 from levade.check.perturbed import Judged, judge
@@ -49,7 +50,7 @@ class Design:
 
 @dataclass(frozen=True, eq=False)
 class Stabilised:
-    """What was found. motion: with the stabiliser; the motion as it was if none is better than none.
+    """What was found. motion: with the stabiliser; the motion as it was if none is surely better than none.
 
     open_loop, share: successes of the runs it was chosen by, as a share, without and with. tried: design -> share.
     """
@@ -94,6 +95,8 @@ def stabilise(
         gain = _gains(subject, linear, expected, design, size)
         return Feedback(gain, linear.reference, period * subject.timestep, design.bound)
 
+    successes: dict[Design | None, NDArray[np.bool_]] = {}
+
     def score(design: Design | None) -> tuple[float, float]:
         found = judge(
             subject,
@@ -105,6 +108,7 @@ def stabilise(
         )
         if tell is not None:
             tell(f"{'no feedback' if design is None else _text(design)}: {found.success.mean():.1%}")
+        successes[design] = found.success
         return _score(found)
 
     scores: dict[Design | None, tuple[float, float]] = {None: score(None)}
@@ -118,7 +122,7 @@ def stabilise(
             scores[design] = score(design)
         if scores[design] > scores[best]:
             best = design
-    better = scores[best][0] > scores[None][0]
+    better = _surely_more(successes[None], successes[best])
     return Stabilised(
         motion=motion.stabilised(feedback(best), runs=runs, seed=seed, design=vars(best)) if better else motion,
         design=best if better else None,
@@ -169,6 +173,13 @@ def _designs(bound: float, *, hold: bool) -> Iterator[dict[str, float]]:
     if hold:
         for value in (0.03, 0.2):
             yield {"hold": value}
+
+
+def _surely_more(before: NDArray[np.bool_], after: NDArray[np.bool_]) -> bool:
+    """Whether the runs that succeed only after outnumber those that did only before by more than chance: two standard
+    deviations (McNemar's test)."""
+    gained, lost = int((after & ~before).sum()), int((before & ~after).sum())
+    return gained > lost and (gained - lost) ** 2 >= 4 * (gained + lost)
 
 
 def _text(design: Design) -> str:
