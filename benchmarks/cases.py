@@ -41,6 +41,7 @@ REPOSITORY = HERE.parent
 WORK = REPOSITORY / "build" / "cases"
 RESULTS = HERE / "results" / "cases.csv"
 WALL = HERE / "results" / "wall.json"
+OVERHEAD = HERE / "results" / "overhead.md"
 PAGE = REPOSITORY / "docs" / "benchmarks.md"
 FIGURES = REPOSITORY / "docs" / "figures"
 BUDGET = 3000
@@ -211,6 +212,7 @@ def page(rows: Sequence[Result], wall: dict[str, Any]) -> str:
         "@CASES@": "\n".join(parts),
         "@LEGEND@": legend(summaries) if summaries else "",
         "@SEEDS@": seeds or "none yet",
+        "@OVERHEAD@": OVERHEAD.read_text(encoding="utf-8").rstrip() if OVERHEAD.exists() else "Not measured yet.",
         "@BUDGET@": number(BUDGET),
         "@MADE@": f"{'; '.join(made) or 'no runs of levade yet'}; {machine()}",
     }.items():

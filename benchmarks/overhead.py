@@ -1,6 +1,8 @@
 """Where the time of a whole solve goes: the engine, and everything that is not the engine.
 
-    python benchmarks/overhead.py [rearing posture-recovery] [--trials 600] [--repeats 3] [--seed 0]
+    python benchmarks/overhead.py [rearing posture-recovery] [--trials 600] [--repeats 3] [--seed 0] [--keep]
+
+--keep writes the table to results/overhead.md, which `cases.py` puts on its page.
 
 Each task is solved as `levade solve` does, through its stages, for so many trials, on one thread and on two. Clocks are read
 around the calls: *engine* is `mujoco.batch`'s own roll-out, in C; *recording* what `levade.engines` does around it; *policy*,
@@ -17,8 +19,10 @@ import statistics
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
+KEPT = Path(__file__).parent / "results" / "overhead.md"
 PARTS = ("engine", "recording", "policy", "costs", "optimizer", "rest")
 
 
@@ -27,7 +31,7 @@ class Clock:
 
     def __init__(self, read: Callable[[], float]) -> None:
         self.read = read
-        self.spent = dict.fromkeys(PARTS, 0.0)
+        self.spent: dict[str, float] = dict.fromkeys(PARTS, 0.0)
         self._within: list[str] = ["rest"]
         self._since = read()
 
@@ -105,10 +109,17 @@ def main() -> None:
     parser.add_argument("--trials", type=int, default=600)
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--keep", action="store_true", help="write the table to results/overhead.md")
     arguments = parser.parse_args()
     for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
         os.environ.setdefault(name, "1")
-    print(f"| task | clock | {' | '.join(PARTS)} | not engine |\n|---|---|{'---|' * (len(PARTS) + 1)}")
+    lines: list[str] = []
+
+    def say(line: str) -> None:
+        print(line, flush=True)
+        lines.append(line)
+
+    say(f"| task | clock | {' | '.join(PARTS)} | not engine |\n|---|---|{'---|' * (len(PARTS) + 1)}")
     for task in arguments.tasks:
         ways = {"CPU, one thread": (1, time.process_time), "wall, two threads": (2, time.perf_counter)}
         found: dict[str, list[dict[str, float]]] = {way: [] for way in ways}
@@ -118,9 +129,11 @@ def main() -> None:
                     measure(task, threads=threads, trials=arguments.trials, seed=arguments.seed, read=read)
                 )
         for way, runs in found.items():
-            print(row(task, way, {part: statistics.median(run[part] for run in runs) for part in PARTS}))
+            say(row(task, way, {part: statistics.median(run[part] for run in runs) for part in PARTS}))
         one = {part: statistics.median(run[part] for run in found["CPU, one thread"]) for part in PARTS}
-        print(row(task, "two threads, foretold", {**one, "engine": one["engine"] / 2}))
+        say(row(task, "two threads, foretold", {**one, "engine": one["engine"] / 2}))
+    if arguments.keep:
+        KEPT.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 def row(task: str, way: str, spent: dict[str, float]) -> str:
