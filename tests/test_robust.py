@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 from pathlib import Path
 
@@ -142,7 +143,7 @@ def test_the_best_of_a_generation_is_compared_on_a_sample_of_its_own_size() -> N
     assert made.sampler is not None
     assert [len(made.sampler.models(0, generation)) for generation in (0, 1, 2)] == [5, 2, 2]
     seen = generations(made)
-    spent = [b.trials - a.trials for a, b in zip(seen[1:], seen[2:], strict=False)]
+    spent = [b.trials - a.trials for a, b in itertools.pairwise(seen[1:])]
     assert len(spent) >= 2
     for generation, trials in zip(seen[2:], spent, strict=True):
         validated = generation.record.validated
