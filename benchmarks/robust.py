@@ -140,7 +140,7 @@ def parameters() -> str:
     }
     for field in fields(Perturbation):
         about, ends = PARAMETERS[field.name], getattr(default, field.name)
-        unit = "×" if about.unit == "x" else f" {about.unit}"
+        unit = " ×" if about.unit == "x" else f" {about.unit}"
         spread = f"{ends[0]:g} to {ends[1]:g}{unit}" if ends else "none"
         lines.append(f"| `{field.name}` | {about.what} | {count[about.per]} | {spread} | {about.why} |")
     return "\n".join(lines)
@@ -197,7 +197,7 @@ def page(rows: list[dict[str, Any]]) -> str:
     made = ", ".join(f"{name} {version}" for name, version in versions.items())
     replace = {
         "@RUNS@": str(RUNS),
-        "@SHARE@": f"{Demands().share:.0%}",
+        "@SHARE@": f"{100 * (Demands().share or 0):g} %",
         "@PARAMETERS@": parameters(),
         "@NUMBERS@": str(sum(values.shape[1] for values in drawn.values.values())),
         **{f"@{name}@": f"{getattr(default, name):g}" for name in ("samples", "tail", "required")},
