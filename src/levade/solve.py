@@ -569,7 +569,7 @@ def _most(search: _Search, task: Task, optimizer: Optimizer) -> int:
     """Trials that a generation may take; one that has to be looked at more closely takes a few more."""
     if task.robust is None or not search.robust:
         return optimizer.population
-    validated = 1 + task.robust.samples if task.robust.redraw == "generation" else 0
+    validated = 1 + task.robust.fixed if task.robust.redraw == "generation" else 0
     return task.robust.rollouts(optimizer.population) + validated
 
 
