@@ -12,7 +12,14 @@ from levade.errors import LevadeError, did_you_mean
 from levade.robots.driving import SERVO, find_actuation, find_limits
 from levade.robots.findings import note, some
 from levade.robots.packages import find_package_robot
-from levade.robots.preparing import exclude_overlaps, fix_joints, float_freely, lighten, support_servos
+from levade.robots.preparing import (
+    exclude_overlaps,
+    fix_joints,
+    float_freely,
+    lift_joint_limits,
+    lighten,
+    support_servos,
+)
 from levade.robots.reading import Draft, Keyframe, read_model
 from levade.robots.robot import Robot
 from levade.robots.standing import (
@@ -91,6 +98,7 @@ def load_robot(
     neutral = dict(zip(joints, postures["neutral"].tolist(), strict=True))
     limits = JointLimits(ranges[:, 0], ranges[:, 1], velocity, torque, _curves(joints, path, form) if linkage else {})
     chosen = find_actuation(actuation or form.actuation, draft, bare, path, form, neutral, limits, kp, kd)
+    lift_joint_limits(draft, bare, chosen)
     exclude_overlaps(draft, bare, neutral)
     if draft.urdf:
         support_servos(draft, bare, neutral, chosen)
