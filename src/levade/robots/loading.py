@@ -29,7 +29,7 @@ from levade.robots.standing import (
     Bare,
     neutral_from,
 )
-from levade.robots.understanding import Leg, find_legs, find_trunk, roles
+from levade.robots.understanding import Leg, NoFootError, find_legs, find_trunk, roles
 from levade.robots.visuals import thin_visuals
 from levade.trajectory import Array, JointLimits, TorqueCurve
 
@@ -186,7 +186,11 @@ def _understand(draft: Draft, path: Path, form: RobotForm) -> Bare:
                     f"{path}: legs: joint {joint} of {form.model} is in no leg; add it to one, or: fixed: {{{joint}: 0}}"
                 )
     else:
-        legs, others = find_legs(model, trunk, where)
+        try:
+            legs, others = find_legs(model, trunk, where)
+        except NoFootError as error:  # most often since its meshes are not there
+            lost = next((f.what for f in draft.findings if f.what.startswith("collides with nothing")), "")
+            raise LevadeError(f"{error}{lost and f' ({lost})'}") from None
     draft.origins["legs"] = "robot.yaml" if form.legs else "found in the kinematics"
     if others:
         frame = draft.keyframes[0] if draft.keyframes else None
