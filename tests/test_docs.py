@@ -56,21 +56,46 @@ def test_the_replay_of_the_documentation_gives_the_motion_in_the_file(
     np.testing.assert_array_equal(state.qvel[:3], data["trunk_linear_velocity"][-1])
 
 
+def follow(document: str, folder: Path) -> None:
+    """Do what a document says, in one folder, which is the working directory.
+
+    YAML is written under the name in its first line, commands and Python run as they stand; ``text`` is what they say.
+    Pictures (``bash picture``) are left out where there is no OpenGL.
+    """
+    text = (ROOT / document).read_text(encoding="utf-8")
+    environment = {**os.environ, "PYTHONPATH": str(ROOT / "src")}
+    run = f'"{sys.executable}"'
+    prelude = f'set -e; levade() {{ {run} -m levade "$@"; }}; python() {{ {run} "$@"; }}\n'
+    scope: dict = {}
+    for language, code in re.findall(r"```(\w+(?: picture)?)\n(.*?)```", text, re.DOTALL):
+        if language == "yaml":
+            (folder / code.split()[1]).write_text(code)
+        elif language.startswith("bash"):
+            done = subprocess.run(["bash", "-c", prelude + code], env=environment, capture_output=True, text=True)
+            drawn = not ("picture" in language and ("OpenGL" in done.stderr or "pillow" in done.stderr))
+            assert done.returncode == 0 or not drawn, f"{code}{done.stdout}{done.stderr}"
+        elif language == "python":
+            exec(compile(code, document, "exec"), scope)
+
+
 def test_your_task_step_by_step(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Files are written under the name in their first line, commands and Python run as they stand, all in one folder."""
     monkeypatch.chdir(tmp_path)
-    text = (ROOT / "docs/your-task.md").read_text(encoding="utf-8")
-    environment = {**os.environ, "PYTHONPATH": str(ROOT / "src")}
-    prelude = f'set -e; levade() {{ "{sys.executable}" -m levade "$@"; }}\n'
-    scope: dict = {}
-    for language, code in re.findall(r"```(\w+)\n(.*?)```", text, re.DOTALL):
-        if language == "yaml":
-            (tmp_path / code.split()[1]).write_text(code)
-        elif language == "bash":
-            subprocess.run(["bash", "-c", prelude + code], env=environment, check=True, capture_output=True)
-        else:
-            exec(compile(code, "docs/your-task.md", "exec"), scope)
+    follow("docs/your-task.md", tmp_path)
     assert capsys.readouterr().out.startswith("True ")
     assert {"mine.yaml", "task.schema.json", "bow", "bow-outdoors"} <= {path.name for path in tmp_path.iterdir()}
+
+
+def test_your_robot_step_by_step(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    follow("docs/your-robot.md", tmp_path)
+    assert capsys.readouterr().out.startswith("pony ('fl_hip', 'fl_thigh', 'fl_knee') 17.2 kg, 0.344 m high\n")
+    assert {"pony.html", "jump", "robot.yaml"} <= {path.name for path in tmp_path.iterdir()}
+    (tmp_path / "robot.yaml").unlink()
+    said = next(iter(re.findall(r"```text\n(.*?)```", (ROOT / "docs/your-robot.md").read_text(), re.DOTALL)))
+    command = [sys.executable, "-m", "levade", "robots", "inspect", "pony.urdf"]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT / "src")}
+    assert said in subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout

@@ -290,3 +290,15 @@ def test_the_same_robot_in_both_forms_is_the_same(build, quadruped: type) -> Non
     np.testing.assert_allclose(urdf.postures["neutral"], mjcf.postures["neutral"], atol=1e-9)
     for leg, other in zip(urdf.legs, mjcf.legs, strict=True):
         assert leg.joints == other.joints
+
+
+def test_a_torque_limit_of_the_description_is_what_a_joint_gets(quadruped: type, tmp_path: Path) -> None:
+    """The file's own limit, which MuJoCo keeps at the joint, would cut it off again."""
+    path = tmp_path / "toy.urdf"
+    path.write_text(quadruped().urdf())
+    (tmp_path / "robot.yaml").write_text("model: toy.urdf\nlimits: {torque: 35}\n")
+    model = load_robot(path).model
+    limited = model.jnt_actfrclimited[1:].astype(bool)
+    assert (abs(model.jnt_actfrcrange[1:][limited]) == 35).all()
+    (tmp_path / "robot.yaml").write_text("model: toy.urdf\nlimits: {torque: 5}\n")
+    assert load_robot(path).limits.torque.tolist() == [5.0] * 12

@@ -12,7 +12,14 @@ from levade.errors import LevadeError, did_you_mean
 from levade.robots.driving import SERVO, find_actuation, find_limits
 from levade.robots.findings import note, some
 from levade.robots.packages import find_package_robot
-from levade.robots.preparing import exclude_overlaps, fix_joints, float_freely, lighten, support_servos
+from levade.robots.preparing import (
+    exclude_overlaps,
+    fix_joints,
+    float_freely,
+    lift_joint_limits,
+    lighten,
+    support_servos,
+)
 from levade.robots.reading import Draft, Keyframe, read_model
 from levade.robots.robot import Robot
 from levade.robots.standing import (
@@ -22,7 +29,7 @@ from levade.robots.standing import (
     Bare,
     neutral_from,
 )
-from levade.robots.understanding import Leg, find_legs, find_trunk, roles
+from levade.robots.understanding import Leg, NoFootError, find_legs, find_trunk, roles
 from levade.robots.visuals import thin_visuals
 from levade.trajectory import Array, JointLimits, TorqueCurve
 
@@ -91,6 +98,7 @@ def load_robot(
     neutral = dict(zip(joints, postures["neutral"].tolist(), strict=True))
     limits = JointLimits(ranges[:, 0], ranges[:, 1], velocity, torque, _curves(joints, path, form) if linkage else {})
     chosen = find_actuation(actuation or form.actuation, draft, bare, path, form, neutral, limits, kp, kd)
+    lift_joint_limits(draft, bare, chosen)
     exclude_overlaps(draft, bare, neutral)
     if draft.urdf:
         support_servos(draft, bare, neutral, chosen)
@@ -178,7 +186,11 @@ def _understand(draft: Draft, path: Path, form: RobotForm) -> Bare:
                     f"{path}: legs: joint {joint} of {form.model} is in no leg; add it to one, or: fixed: {{{joint}: 0}}"
                 )
     else:
-        legs, others = find_legs(model, trunk, where)
+        try:
+            legs, others = find_legs(model, trunk, where)
+        except NoFootError as error:  # most often since its meshes are not there
+            lost = next((f.what for f in draft.findings if f.what.startswith("collides with nothing")), "")
+            raise LevadeError(f"{error}{lost and f' ({lost})'}") from None
     draft.origins["legs"] = "robot.yaml" if form.legs else "found in the kinematics"
     if others:
         frame = draft.keyframes[0] if draft.keyframes else None

@@ -132,6 +132,16 @@ def support_servos(draft: Draft, bare: Bare, neutral: Mapping[str, float], actua
         )
 
 
+def lift_joint_limits(draft: Draft, bare: Bare, actuation: Actuation) -> None:
+    """Where a description gives an actuator more torque than the file lets its joint pass on, the description counts."""
+    for joint, torque in zip(bare.joints, actuation.torque.tolist(), strict=True):
+        index = bare.model.joint(joint).id
+        if bare.model.jnt_actfrclimited[index] and torque > float(abs(bare.model.jnt_actfrcrange[index]).min()):
+            draft.spec.joint(joint).actfrcrange = [-torque, torque] if np.isfinite(torque) else [0.0, 0.0]
+            if not np.isfinite(torque):
+                draft.spec.joint(joint).actfrclimited = mujoco.mjtLimited.mjLIMITED_FALSE
+
+
 def lighten(draft: Draft) -> None:
     """Take what no geom uses out of the assets."""
     spec = draft.spec

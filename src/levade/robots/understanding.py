@@ -24,6 +24,10 @@ _ALONG = 0.7
 """Least share of an axis along x or y by which a joint's role is told."""
 
 
+class NoFootError(LevadeError):
+    """Nothing collides where a leg ends."""
+
+
 @dataclass(frozen=True)
 class Leg:
     """One leg.
@@ -200,7 +204,7 @@ def roles(model: mujoco.MjModel, joints: tuple[str, ...]) -> tuple[str, ...]:
 def find_foot(model: mujoco.MjModel, joint: int, where: str) -> str:
     """Name of the colliding geom that reaches farthest from the leg's last joint; a round one of nearly the same reach wins.
 
-    Raises LevadeError if nothing that moves with the joint collides.
+    Raises NoFootError if nothing that moves with the joint collides.
     """
     body = int(model.jnt_bodyid[joint])
     below = {body}
@@ -213,7 +217,7 @@ def find_foot(model: mujoco.MjModel, joint: int, where: str) -> str:
         if int(model.geom_bodyid[g]) in below and (model.geom_contype[g] or model.geom_conaffinity[g])
     ]
     if not geoms:
-        raise LevadeError(
+        raise NoFootError(
             f"{where}: no foot: nothing collides on {model.body(body).name}, behind {model.joint(joint).name}; give it a"
             " collision shape, best a sphere at the tip"
         )
