@@ -35,6 +35,9 @@ from levade.tasks import Change, PolicyChoice, Stage, Task, looks_at_hold
 from levade.tasks.reach import check_reach
 from levade.trajectory import Array, Trajectories
 
+_AIM_TAG = 1_095_322_957
+"""Keeps the random numbers of aimed candidates apart from the optimizer's."""
+
 
 @dataclass(frozen=True)
 class Evaluation:
@@ -315,7 +318,8 @@ class Trial:
 class Generation:
     """The state of the search after a generation.
 
-    cost: (population,) as told to the optimizer. best: over all generations and stages. trials: spent so far.
+    cost: (candidates,), of the optimizer's own, then of those aimed beside them. best: over all generations and stages.
+    trials: spent so far.
     trials_to_success: trials spent when one first met every criterion. replayed: whether it came from a record.
     weights: of the best trial's cost. changes: of the weights, that hold or are still to come.
     """
@@ -415,15 +419,17 @@ def solve(
                 _weigh_anew(search, objective, weights)
                 if aim is not None:
                     aim.forget()
-            candidates = optimizer.ask()
+            own = optimizer.ask()
+            aimed = _aimed(aim, objective, optimizer, (seed, search.generations, _AIM_TAG))
+            candidates = np.concatenate([own, aimed])
             stage_weights = {**weights, **_stage_weights(task, stage, number)}
             record, replayed = _evaluate(objective, candidates, search, stage_weights, earlier)
             cost = objective.cost(record.evaluation, stage_weights)
-            optimizer.tell(cost)
-            if aim is not None:
+            optimizer.tell(cost[: len(own)])
+            if aim is not None and injectable is not None:
                 aim.tell(candidates, _missed(task, record.evaluation), cost)
-                proposal = aim.propose()
-                if proposal is not None and injectable is not None:
+                proposal = _worth_telling(aimed, cost) if task.search.aimed else aim.propose()
+                if proposal is not None:
                     injectable.inject(proposal)
 
             search.generations += 1
@@ -500,22 +506,43 @@ def solve(
 def make_optimizer(objective: Objective, seed: int, *, attempt: int = 0) -> Optimizer:
     """The task's optimizer, at the objective's initial weights; each attempt draws other random numbers."""
     search = objective.task.search
-    policy = objective.policy
-    factor = None
-    if search.smoothness > 0 or search.modes is not None:
-        factor = smoothness_factor(policy.kernels, search.smoothness, policy.independent_joints, modes=search.modes)
     own: dict[str, Any] = dict(search.settings)
     if "step_adaptation" in settings(search.optimizer):
         own = {"step_adaptation": search.step_adaptation, **own}
     with _at("search.settings."):
         return OPTIMIZERS[search.optimizer](
             objective.initial_weights,
-            factor=factor,
+            factor=_factor(objective) if search.smoothness > 0 or search.modes is not None else None,
             step=search.step,
             seed=(seed, attempt) if attempt else seed,
             population=search.population,
             **own,
         )
+
+
+def _aimed(aim: Aim | None, objective: Objective, optimizer: Optimizer, seed: tuple[int, ...]) -> Array:
+    """(count, d), candidates beside the optimizer's own; none of them, (0, d), where there is nothing to aim by."""
+    search, policy = objective.task.search, objective.policy
+    if aim is None or not search.aimed:
+        return np.empty((0, policy.size))
+    generator = np.random.default_rng(seed)
+    return aim.around(search.aimed, factor=_factor(objective), step=optimizer.step, generator=generator)
+
+
+def _worth_telling(aimed: Array, cost: Array) -> Array | None:
+    """The best of the aimed candidates, the last of those that cost so much, if it is among the best quarter of the others."""
+    if not len(aimed):
+        return None
+    own, theirs = cost[: -len(aimed)], cost[-len(aimed) :]
+    return aimed[np.argmin(theirs)] if theirs.min() < np.sort(own)[max(1, len(own) // 4)] else None
+
+
+def _factor(objective: Objective) -> Array:
+    """(d, m), square root of the initial covariance of the search, up to its step."""
+    search, policy = objective.task.search, objective.policy
+    if search.smoothness > 0 or search.modes is not None:
+        return smoothness_factor(policy.kernels, search.smoothness, policy.independent_joints, modes=search.modes)
+    return np.eye(policy.size)
 
 
 def _weights(task: Task, generation: int) -> dict[str, float]:
@@ -567,10 +594,11 @@ def _ends(stage: Stage, search: _Search, evaluation: Evaluation) -> bool:
 
 def _most(search: _Search, task: Task, optimizer: Optimizer) -> int:
     """Trials that a generation may take; one that has to be looked at more closely takes a few more."""
+    candidates = optimizer.population + task.search.aimed
     if task.robust is None or not search.robust:
-        return optimizer.population
+        return candidates
     validated = 1 + task.robust.fixed if task.robust.redraw == "generation" else 0
-    return task.robust.rollouts(optimizer.population) + validated
+    return task.robust.rollouts(candidates) + validated
 
 
 def _try(
