@@ -99,3 +99,12 @@ def test_candidates_around_are_none_without_enough_trials_and_repeat_with_the_sa
     assert around(told(slope, np.ones(3), n=4)).shape == (0, 20)
     one, other = (around(told(slope, np.ones(3))) for _ in range(2))
     np.testing.assert_array_equal(one, other)
+
+
+def test_candidates_around_a_best_that_misses_nothing_are_none_of_them_the_best() -> None:
+    generator = np.random.default_rng(5)
+    candidates, slope = generator.standard_normal((60, 12)), 1e-3 * generator.standard_normal((12, 2))
+    aim, cost = Aim(), (candidates**2).sum(axis=1)
+    aim.tell(candidates, candidates @ slope, cost)
+    found = aim.around(4, factor=np.eye(12), step=0.1, generator=generator)
+    assert np.abs(found - candidates[np.argmin(cost)]).max(axis=1).min() > 0

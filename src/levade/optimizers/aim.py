@@ -87,6 +87,10 @@ class Aim:
             weight = np.sqrt(1.0 / (length[nearest] / np.median(length[nearest]) + 0.1))[:, None]
             slope = _ridge(coordinates[nearest] * weight, (errors[nearest] - errors[best]) * weight)  # (m, k)
             spread = [SPREADS[1 + (i - 1) % (len(SPREADS) - 1)] if i else SPREADS[0] for i in range(count)]
+            if (
+                np.abs(errors[best]) <= WITHIN
+            ).all():  # nothing to make up for: the best itself need not be tried again
+                spread[0] = SPREADS[-1]
             drawn = step * np.array(spread)[:, None] * generator.standard_normal((count, factor.shape[1]))
             predicted = errors[best] + drawn @ slope
             normal = slope.T @ slope
@@ -94,7 +98,7 @@ class Aim:
             drawn -= np.linalg.solve(normal, (predicted - np.clip(predicted, -WITHIN, WITHIN)).T).T @ slope.T
             reach = np.linalg.norm(drawn, axis=1, keepdims=True)
             farthest = 3.0 * np.sqrt(length[nearest].max())
-            drawn *= np.minimum(1.0, farthest / np.maximum(reach, np.finfo(float).tiny))
+            drawn *= farthest / np.maximum(reach, farthest)
             return candidates[best] + drawn @ factor.T
 
     def _step(self, candidates: Array, errors: Array, best: int) -> Array | None:
