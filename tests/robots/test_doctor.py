@@ -140,3 +140,17 @@ def test_gains_are_called_unstable_where_the_simulation_is(tmp_path: Path, quadr
         growth.append(max(sizes) / 1e-6)
     assert growth[0] < 1e2
     assert growth[1] > 1e4
+
+
+def test_a_back_that_no_foot_gets_beyond_is_said(quadruped: type, tmp_path: Path) -> None:
+    """Thigh as far up as it goes and shank upright, turned by the abduction so that its arm helps."""
+    robot, path = quadruped(), tmp_path / "toy.xml"
+    rack = '<geom name="trunk" type="box" size="0.2 0.04 0.4"/>'
+    text = robot.mjcf()
+    path.write_text(text.replace('<geom name="trunk" type="box" size="0.2 0.04 0.05"/>', rack))
+    highest = robot.FOOT + np.hypot(robot.LINK * (1 - np.cos(robot.FLEXION[1])), robot.OUT)
+    said = re.search(r"lying on its back, feet stay about (\S+) m over", "".join(map(str, inspect(load_robot(path)))))
+    assert said is not None
+    assert float(said[1]) == pytest.approx(0.4 - highest, abs=0.01)
+    path.write_text(text)
+    assert "on its back" not in "".join(map(str, inspect(load_robot(path))))

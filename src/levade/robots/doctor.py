@@ -8,6 +8,7 @@ What was noticed on loading comes along (`Robot.findings`); the checks here look
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -24,11 +25,13 @@ from levade.robots.robot import Robot
 from levade.robots.shapes import support
 from levade.robots.standing import Bare
 from levade.robots.symmetry import mirror_signs
-from levade.robots.understanding import Leg, moved_bodies
+from levade.robots.understanding import Leg, joint_positions, moved_bodies
 from levade.trajectory import Array
 
 _MASS = (0.2, 500.0)  # kg, of a robot
 _DOWN = np.array([0.0, 0.0, -1.0])
+_ANGLES = 11
+"""Angles of each joint at which a leg is tried for how high it reaches."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +77,7 @@ def inspect(robot: Robot) -> list[Finding]:
     """Everything that was noticed about a robot, warnings first."""
     patient = Patient(robot)
     found = list(robot.findings)
-    for check in (_masses, _ranges, _torques, _feet, _shapes, _servos, _symmetry, _frame, _physics):
+    for check in (_masses, _ranges, _torques, _feet, _shapes, _back, _servos, _symmetry, _frame, _physics):
         found += check(patient)
     return sorted(dict.fromkeys(found), key=lambda finding: finding.kind != "warning")
 
@@ -211,6 +214,39 @@ def _shapes(patient: Patient) -> Iterator[Finding]:
     if open_links:
         what = "without a collision shape: nothing stops it"
         yield note(named("body", open_links), what, "give it a capsule where the motion may touch it")
+
+
+def _back(patient: Patient) -> Iterator[Finding]:
+    """Whether feet come to the ground when the robot lies on its back, as righting itself asks for."""
+    robot, model = patient.robot, patient.robot.model
+    data = robot.data_at(robot.postures["neutral"])
+    trunk = int(model.body_weldid[model.body(robot.trunk).id])
+    shapes = [
+        g
+        for g in range(model.ngeom)
+        if model.body_weldid[model.geom_bodyid[g]] == trunk and (model.geom_contype[g] or model.geom_conaffinity[g])
+    ]
+    if not shapes:
+        return
+    back = max(float(support(model, data, g, -_DOWN)[2]) for g in shapes)
+    endless = ~np.isfinite(robot.limits.upper - robot.limits.lower)
+    lower = np.where(endless, -np.pi, robot.limits.lower)
+    upper = np.where(endless, np.pi, robot.limits.upper)
+    highest = -np.inf
+    legs = [[robot.joint_names.index(joint) for joint in leg.joints] for leg in robot.legs]
+    feet = [model.geom(leg.foot).id for leg in robot.legs]
+    angles = robot.postures["neutral"].copy()
+    addresses = joint_positions(model, robot.joint_names)
+    for shares in itertools.product(np.linspace(0.0, 1.0, _ANGLES), repeat=max(map(len, legs))):
+        for leg in legs:
+            angles[leg] = lower[leg] + np.array(shares[: len(leg)]) * (upper[leg] - lower[leg])
+        data.qpos[addresses] = angles
+        mujoco.mj_kinematics(model, data)
+        highest = max(highest, *(float(support(model, data, foot, -_DOWN)[2]) for foot in feet))
+        if highest >= back:
+            return
+    what = f"lying on its back, feet stay about {back - highest:.2f} m over the ground, within the ranges of the joints"
+    yield note("robot", what, "it can turn over only by swinging its legs, if at all")
 
 
 def _servos(patient: Patient) -> Iterator[Finding]:
