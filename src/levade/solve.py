@@ -420,7 +420,7 @@ def solve(
                 if aim is not None:
                     aim.forget()
             own = optimizer.ask()
-            aimed = _aimed(aim, objective, optimizer, (seed, search.generations, _AIM_TAG))
+            aimed = _aimed(aim, search, objective, optimizer)
             candidates = np.concatenate([own, aimed])
             stage_weights = {**weights, **_stage_weights(task, stage, number)}
             record, replayed = _evaluate(objective, candidates, search, stage_weights, earlier)
@@ -520,13 +520,16 @@ def make_optimizer(objective: Objective, seed: int, *, attempt: int = 0) -> Opti
         )
 
 
-def _aimed(aim: Aim | None, objective: Objective, optimizer: Optimizer, seed: tuple[int, ...]) -> Array:
-    """(count, d), candidates beside the optimizer's own; none of them, (0, d), where there is nothing to aim by."""
-    search, policy = objective.task.search, objective.policy
-    if aim is None or not search.aimed:
+def _aimed(aim: Aim | None, search: _Search, objective: Objective, optimizer: Optimizer) -> Array:
+    """(count, d), candidates beside the optimizer's own, within the budget; none where there is nothing to aim by."""
+    task, policy = objective.task, objective.policy
+    count = task.search.aimed
+    if task.robust is None or not search.robust:
+        count = min(count, task.search.trials - search.trials - optimizer.population)
+    if aim is None or count < 1:
         return np.empty((0, policy.size))
-    generator = np.random.default_rng(seed)
-    return aim.around(search.aimed, factor=_factor(objective), step=optimizer.step, generator=generator)
+    generator = np.random.default_rng((search.seed, search.generations, _AIM_TAG))
+    return aim.around(count, factor=_factor(objective), step=optimizer.step, generator=generator)
 
 
 def _worth_telling(aimed: Array, cost: Array) -> Array | None:
@@ -594,11 +597,10 @@ def _ends(stage: Stage, search: _Search, evaluation: Evaluation) -> bool:
 
 def _most(search: _Search, task: Task, optimizer: Optimizer) -> int:
     """Trials that a generation may take; one that has to be looked at more closely takes a few more."""
-    candidates = optimizer.population + task.search.aimed
     if task.robust is None or not search.robust:
-        return candidates
+        return optimizer.population  # aimed ones beside them are no more than the budget has left
     validated = 1 + task.robust.fixed if task.robust.redraw == "generation" else 0
-    return task.robust.rollouts(candidates) + validated
+    return task.robust.rollouts(optimizer.population + task.search.aimed) + validated
 
 
 def _try(

@@ -126,7 +126,7 @@ class Search:
         all if None. step_adaptation: see `levade.optimizers.CMAES`.
     aim: whether one candidate of each generation is aimed at the criteria: see `levade.optimizers.Aim`.
     aimed: so many more candidates, beside the optimizer's own, are aimed from points near the best trial (`Aim.around`); the
-        best of them is told to the optimizer, instead of that one. Needs ``aim``.
+        best of them is told to the optimizer, instead of that one. Without ``aim``, none.
     restart: trials without a success after which the search starts anew, from the first stage, with other random numbers:
         whoever rolled to the wrong side seldom finds the way back. None goes on to the end of the budget.
     polish: trials to go on for after the first success, for a lower cost; None goes on to the end of the budget.
@@ -288,8 +288,6 @@ def _check_search(search: Search) -> None:
         raise LevadeError(f"search.smoothness: {search.smoothness} should be 0 or more, as a share of the horizon")
     if not 0 <= search.aimed <= 100_000:
         raise LevadeError(f"search.aimed: {search.aimed} should be 0 or more; 6 is usual")
-    if search.aimed and not search.aim:
-        raise LevadeError(f"search.aimed: {search.aimed}, but search.aim is false; say aim: true, or leave aimed out")
     if search.restart is not None and search.restart < 1:
         raise LevadeError(f"search.restart: {search.restart} should be at least 1; leave it out to go on")
     if search.polish is not None and search.polish < 0:
