@@ -94,6 +94,14 @@ class Objective:
             return self.policy.hold(self.state.joint_reference)
         return self.policy.interpolate(self.state.joint_position, _goal(choice, self.robot))
 
+    @cached_property
+    def factor(self) -> Array:
+        """(d, m), square root of the initial covariance of the search, up to its step."""
+        search, policy = self.task.search, self.policy
+        if search.smoothness > 0 or search.modes is not None:
+            return smoothness_factor(policy.kernels, search.smoothness, policy.independent_joints, modes=search.modes)
+        return np.eye(policy.size)
+
     def rollout(self, weights: Array, *, hold_steps: int | None = None, feet: bool = False) -> Trajectories:
         """Simulate trials (n, d), through ``hold_steps`` of the hold; through all of it if None."""
         reference = self.policy.reference(weights, hold_steps=hold_steps)
@@ -512,7 +520,7 @@ def make_optimizer(objective: Objective, seed: int, *, attempt: int = 0) -> Opti
     with _at("search.settings."):
         return OPTIMIZERS[search.optimizer](
             objective.initial_weights,
-            factor=_factor(objective) if search.smoothness > 0 or search.modes is not None else None,
+            factor=objective.factor,
             step=search.step,
             seed=(seed, attempt) if attempt else seed,
             population=search.population,
@@ -522,14 +530,13 @@ def make_optimizer(objective: Objective, seed: int, *, attempt: int = 0) -> Opti
 
 def _aimed(aim: Aim | None, search: _Search, objective: Objective, optimizer: Optimizer) -> Array:
     """(count, d), candidates beside the optimizer's own, within the budget; none where there is nothing to aim by."""
-    task, policy = objective.task, objective.policy
-    count = task.search.aimed
+    task, count = objective.task, objective.task.search.aimed
     if task.robust is None or not search.robust:
         count = min(count, task.search.trials - search.trials - optimizer.population)
     if aim is None or count < 1:
-        return np.empty((0, policy.size))
+        return np.empty((0, objective.policy.size))
     generator = np.random.default_rng((search.seed, search.generations, _AIM_TAG))
-    return aim.around(count, factor=_factor(objective), step=optimizer.step, generator=generator)
+    return aim.around(count, factor=objective.factor, step=optimizer.step, generator=generator)
 
 
 def _worth_telling(aimed: Array, cost: Array) -> Array | None:
@@ -538,14 +545,6 @@ def _worth_telling(aimed: Array, cost: Array) -> Array | None:
         return None
     own, theirs = cost[: -len(aimed)], cost[-len(aimed) :]
     return aimed[np.argmin(theirs)] if theirs.min() < np.sort(own)[max(1, len(own) // 4)] else None
-
-
-def _factor(objective: Objective) -> Array:
-    """(d, m), square root of the initial covariance of the search, up to its step."""
-    search, policy = objective.task.search, objective.policy
-    if search.smoothness > 0 or search.modes is not None:
-        return smoothness_factor(policy.kernels, search.smoothness, policy.independent_joints, modes=search.modes)
-    return np.eye(policy.size)
 
 
 def _weights(task: Task, generation: int) -> dict[str, float]:
