@@ -90,11 +90,9 @@ def changes(method: str, case: Case) -> dict[str, object]:
         return {"search.trials": BUDGET}
     return {
         "search.optimizer": "cma",
-        "search.settings": {},
         "search.population": None,
         "search.smoothness": 0,
         "search.modes": None,
-        "search.aim": False,
         "search.step": case.step,
         "search.step_adaptation": "csa",
         "search.restart": None,

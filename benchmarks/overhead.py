@@ -96,7 +96,6 @@ def measure(task: str, *, threads: int, trials: int, seed: int, read: Callable[[
             (loop.Objective, "cost", "costs"),
             (optimizer, "ask", "optimizer"),
             (optimizer, "tell", "optimizer"),
-            *((loop.Aim, name, "optimizer") for name in ("tell", "propose") if hasattr(loop, "Aim")),
         ):
             stack.enter_context(watched(owner, name, clock, part))
         loop.solve(objective, seed=seed)

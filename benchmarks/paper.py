@@ -28,7 +28,6 @@ PLAIN = [
     "search.population=null",
     "search.smoothness=0",
     "search.modes=null",
-    "search.aim=false",
     "search.step=0.05",
     "search.step_adaptation=csa",
     "search.polish=null",

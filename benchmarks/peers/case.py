@@ -85,7 +85,7 @@ class Job:
 
 def job_of(task: str, robot: str | None, peer: str, seed: int, arguments: argparse.Namespace, python: str) -> Job:
     """One stage, all of the hold, nothing aimed: the task's cost as it stands."""
-    plain = ["stages=[{name: full}]", "search.aim=false"]
+    plain = ["stages=[{name: full}]", "search.optimizer=cma"]
     loaded = load_task(task, robot=robot, changes=[*plain, *arguments.changes])
     budget = arguments.trials or loaded.search.trials
     name = _objective(loaded).robot.name

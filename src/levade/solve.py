@@ -27,7 +27,7 @@ from levade.costs import DIVERGED, errors, evaluate, total
 from levade.costs.risk import ranked_behind, risk
 from levade.engines import Variations, make_engine
 from levade.errors import LevadeError, did_you_mean
-from levade.optimizers import OPTIMIZERS, Aim, Injectable, Optimizer, settings
+from levade.optimizers import OPTIMIZERS, Informed, Optimizer, settings, takes_ending
 from levade.policies import Ends, Follower, GaussianKernels, Group, Policy, smoothness_factor
 from levade.robots import Leg, Robot, load_robot, mirror_signs
 from levade.robust import Sampler, Samples
@@ -35,8 +35,8 @@ from levade.tasks import Change, PolicyChoice, Stage, Task, looks_at_hold
 from levade.tasks.reach import check_reach
 from levade.trajectory import Array, Trajectories
 
-_AIM_TAG = 1_095_322_957
-"""Keeps the random numbers of aimed candidates apart from the optimizer's."""
+ENDING = 0.25
+"""Share of the horizon in which an optimizer may finish a motion, without a change to what comes before."""
 
 
 @dataclass(frozen=True)
@@ -101,6 +101,18 @@ class Objective:
         if search.smoothness > 0 or search.modes is not None:
             return smoothness_factor(policy.kernels, search.smoothness, policy.independent_joints, modes=search.modes)
         return np.eye(policy.size)
+
+    @cached_property
+    def ending(self) -> Array | None:
+        """(q, d), one direction for each independent joint: a ramp over the last quarter of its weights, up to 1.
+
+        None where the motion ends as it must, whatever the weights (`levade.policies.Ends`).
+        """
+        policy = self.policy
+        if policy.ends is not None and policy.ends.settle > 0:
+            return None
+        ramp = np.clip(1.0 - (1.0 - np.linspace(0.0, 1.0, policy.kernels.kernels)) / ENDING, 0.0, 1.0)
+        return np.kron(np.eye(policy.independent_joints), ramp)
 
     def rollout(self, weights: Array, *, hold_steps: int | None = None, feet: bool = False) -> Trajectories:
         """Simulate trials (n, d), through ``hold_steps`` of the hold; through all of it if None."""
@@ -326,7 +338,7 @@ class Trial:
 class Generation:
     """The state of the search after a generation.
 
-    cost: (candidates,), of the optimizer's own, then of those aimed beside them. best: over all generations and stages.
+    cost: (candidates,). best: over all generations and stages.
     trials: spent so far.
     trials_to_success: trials spent when one first met every criterion. replayed: whether it came from a record.
     weights: of the best trial's cost. changes: of the weights, that hold or are still to come.
@@ -410,8 +422,6 @@ def solve(
     task = objective.task
     stages, search = task.stages, _Search(seed=seed)
     optimizer = make_optimizer(objective, seed)
-    injectable = optimizer if isinstance(optimizer, Injectable) else None
-    aim = Aim() if task.search.aim and task.success and injectable is not None else None
     earlier = deque(records)
     weights = _weights(task, 0)
     stopped = "budget"
@@ -425,20 +435,15 @@ def solve(
                     task = task.changed(Change(number, dict(factors)))
             if weights != (weights := _weights(task, number)):
                 _weigh_anew(search, objective, weights)
-                if aim is not None:
-                    aim.forget()
-            own = optimizer.ask()
-            aimed = _aimed(aim, search, objective, optimizer)
-            candidates = np.concatenate([own, aimed])
+                _forget_costs(optimizer, task)
+            candidates = optimizer.ask()
             stage_weights = {**weights, **_stage_weights(task, stage, number)}
             record, replayed = _evaluate(objective, candidates, search, stage_weights, earlier)
             cost = objective.cost(record.evaluation, stage_weights)
-            optimizer.tell(cost[: len(own)])
-            if aim is not None and injectable is not None:
-                aim.tell(candidates, _missed(task, record.evaluation), cost)
-                proposal = _worth_telling(aimed, cost) if task.search.aimed else aim.propose()
-                if proposal is not None:
-                    injectable.inject(proposal)
+            if isinstance(optimizer, Informed):
+                optimizer.tell(cost, _missed(task, record.evaluation))
+            else:
+                optimizer.tell(cost)
 
             search.generations += 1
             spent = record.evaluation.trials + (0 if record.validated is None else record.validated.trials)
@@ -479,16 +484,14 @@ def solve(
             if _hopeless(task, search):
                 search.attempt, search.attempt_trials = search.attempt + 1, 0
                 optimizer = make_optimizer(objective, seed, attempt=search.attempt)
-                injectable = optimizer if isinstance(optimizer, Injectable) else None
                 following = 0
             elif search.stage + 1 < len(stages) and _ends(stage, search, record.evaluation):
                 following = search.stage + 1
             else:
                 continue
             search.stage, before = following, (search.hold_steps, search.robust)
-            if aim is not None:
-                aim.forget()
             _enter(search, objective, stages[search.stage], optimizer)
+            _forget_costs(optimizer, task, hold=search.hold_steps != before[0])
             if (search.hold_steps, search.robust) != before:
                 _reconsider(search, objective, weights, search.hold_steps)
     except KeyboardInterrupt:
@@ -515,6 +518,8 @@ def make_optimizer(objective: Objective, seed: int, *, attempt: int = 0) -> Opti
     """The task's optimizer, at the objective's initial weights; each attempt draws other random numbers."""
     search = objective.task.search
     own: dict[str, Any] = dict(search.settings)
+    if takes_ending(search.optimizer):
+        own["ending"] = objective.ending
     if "step_adaptation" in settings(search.optimizer):
         own = {"step_adaptation": search.step_adaptation, **own}
     with _at("search.settings."):
@@ -528,23 +533,10 @@ def make_optimizer(objective: Objective, seed: int, *, attempt: int = 0) -> Opti
         )
 
 
-def _aimed(aim: Aim | None, search: _Search, objective: Objective, optimizer: Optimizer) -> Array:
-    """(count, d), candidates beside the optimizer's own, within the budget; none where there is nothing to aim by."""
-    task, count = objective.task, objective.task.search.aimed
-    if task.robust is None or not search.robust:
-        count = min(count, task.search.trials - search.trials - optimizer.population)
-    if aim is None or count < 1:
-        return np.empty((0, objective.policy.size))
-    generator = np.random.default_rng((search.seed, search.generations, _AIM_TAG))
-    return aim.around(count, factor=objective.factor, step=optimizer.step, generator=generator)
-
-
-def _worth_telling(aimed: Array, cost: Array) -> Array | None:
-    """The best of the aimed candidates, the last of those that cost so much, if it is among the best quarter of the others."""
-    if not len(aimed):
-        return None
-    own, theirs = cost[: -len(aimed)], cost[-len(aimed) :]
-    return aimed[np.argmin(theirs)] if theirs.min() < np.sort(own)[max(1, len(own) // 4)] else None
+def _forget_costs(optimizer: Optimizer | Informed, task: Task, *, hold: bool = False) -> None:
+    """Costs are weighed by other weights from now on. hold: whether another part of the hold is simulated, too."""
+    if isinstance(optimizer, Informed):
+        optimizer.forget_costs(np.array([hold and looks_at_hold(criterion) for criterion in task.success.values()]))
 
 
 def _weights(task: Task, generation: int) -> dict[str, float]:
@@ -560,9 +552,8 @@ def _stage_weights(task: Task, stage: Stage, generation: int) -> dict[str, float
 
 
 def _missed(task: Task, evaluation: Evaluation) -> Array:
-    """(n, k), errors as a share of what is allowed, of the criteria that were looked at; NaN for diverged trials."""
-    looked_at = [name for name, off in evaluation.errors.items() if not np.isnan(off).all()]
-    shares = [evaluation.errors[name] / (task.success[name].tolerance or 1.0) for name in looked_at]
+    """(n, k), errors as a share of what is allowed; NaN where unknown, all of a trial that diverged."""
+    shares = [off / (task.success[name].tolerance or 1.0) for name, off in evaluation.errors.items()]
     missed = np.stack(shares, axis=1) if shares else np.empty((len(evaluation.success), 0))
     return np.where(evaluation.diverged[:, None], np.nan, missed)
 
@@ -597,9 +588,9 @@ def _ends(stage: Stage, search: _Search, evaluation: Evaluation) -> bool:
 def _most(search: _Search, task: Task, optimizer: Optimizer) -> int:
     """Trials that a generation may take; one that has to be looked at more closely takes a few more."""
     if task.robust is None or not search.robust:
-        return optimizer.population  # aimed ones beside them are no more than the budget has left
+        return optimizer.population
     validated = 1 + task.robust.fixed if task.robust.redraw == "generation" else 0
-    return task.robust.rollouts(optimizer.population + task.search.aimed) + validated
+    return task.robust.rollouts(optimizer.population) + validated
 
 
 def _try(

@@ -1,79 +1,23 @@
-"""Aimed candidates: on a linear problem the first proposal is the answer."""
+"""Aimed candidates: where errors are linear in the candidate, they are the answer."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from levade.optimizers import Aim
+from levade.optimizers.aim import WITHIN, Aim, corrected
 
 
 def told(slope: np.ndarray, offset: np.ndarray, *, spread: float = 0.1, n: int = 60) -> Aim:
-    candidates = spread * np.random.default_rng(1).standard_normal((n, slope.shape[0]))
+    candidates = spread * np.random.default_rng(1).standard_normal((n, len(slope)))
     errors = candidates @ slope + offset
-    aim = Aim()
+    aim = Aim(np.eye(len(slope)))
     aim.tell(candidates, errors, (errors**2).sum(axis=1))
     return aim
 
 
-def test_errors_that_are_linear_vanish_at_the_proposal() -> None:
-    slope = np.random.default_rng(0).standard_normal((20, 3))
-    offset = np.array([9.0, -7.0, 11.0])  # far beyond what any of the trials makes up for
-    proposal = told(slope, offset, spread=0.5).propose()
-    assert proposal is not None
-    assert np.abs(proposal @ slope + offset).max() < 0.1
-
-
-def test_an_error_well_within_its_bounds_is_left_alone() -> None:
-    slope = np.eye(20)[:, :2]
-    aim = Aim()
-    candidates = 0.1 * np.random.default_rng(1).standard_normal((60, 20))
-    errors = candidates @ slope + np.array([5.0, 0.0])
-    aim.tell(candidates, errors, np.abs(errors[:, 0]))
-    proposal = aim.propose()
-    assert proposal is not None
-    best = candidates[np.argmin(np.abs(errors[:, 0]))]
-    assert abs(proposal[1] - best[1]) < 0.01
-    assert proposal[0] < best[0]
-
-
-def test_the_step_stays_near_the_trials_that_it_was_learnt_from() -> None:
-    slope = np.random.default_rng(0).standard_normal((20, 2))
-    aim = told(slope, np.array([1e6, 0.0]))
-    proposal = aim.propose()
-    assert proposal is not None
-    assert np.linalg.norm(proposal) < 10 * 0.1 * np.sqrt(20)
-
-
-def test_no_proposal_without_enough_trials_or_once_all_is_well() -> None:
-    slope = np.random.default_rng(0).standard_normal((20, 3))
-    assert Aim().propose() is None
-    assert told(slope, np.ones(3), n=4).propose() is None
-    assert told(1e-3 * slope, np.zeros(3)).propose() is None
-
-
-@pytest.mark.parametrize("bad", [np.nan, np.inf])
-def test_trials_with_unknown_errors_are_left_out(bad: float) -> None:
-    slope = np.random.default_rng(0).standard_normal((20, 3))
-    offset = np.array([0.9, -0.7, 1.1])
-    aim = told(slope, offset)
-    before = aim.propose()
-    aim.tell(np.full((5, 20), 9.0), np.full((5, 3), bad), np.zeros(5))
-    after = aim.propose()
-    assert before is not None
-    np.testing.assert_array_equal(before, after)
-
-
-def test_a_change_of_what_is_looked_at_starts_anew() -> None:
-    aim = told(np.random.default_rng(0).standard_normal((20, 3)), np.ones(3))
-    aim.tell(np.zeros((2, 20)), np.zeros((2, 5)), np.zeros(2))
-    assert aim.propose() is None
-
-
-def around(aim: Aim, *, count: int = 8, size: int = 20, step: float = 0.1, seed: int = 0) -> np.ndarray:
-    factor = np.random.default_rng(7).standard_normal((size, 10))
-    factor = np.linalg.qr(factor)[0] if size > 10 else np.eye(size)
-    return aim.around(count, factor=factor, step=step, generator=np.random.default_rng(seed))
+def around(aim: Aim, *, count: int = 8, step: float = 0.1, seed: int = 0) -> np.ndarray:
+    return aim.around(count, step=step, generator=np.random.default_rng(seed))
 
 
 def test_candidates_around_the_best_differ_and_are_all_right_where_errors_are_linear() -> None:
@@ -82,9 +26,9 @@ def test_candidates_around_the_best_differ_and_are_all_right_where_errors_are_li
     slope = generator.standard_normal((20, 3))
     z = 0.5 * generator.standard_normal((80, 10))
     errors = z @ factor.T @ slope + np.array([2.0, -1.0, 1.5])
-    aim = Aim()
+    aim = Aim(factor)
     aim.tell(z @ factor.T, errors, (errors**2).sum(axis=1))
-    found = aim.around(8, factor=factor, step=0.5, generator=np.random.default_rng(0))
+    found = around(aim, step=0.5)
     missed = found @ slope + np.array([2.0, -1.0, 1.5])
     assert found.shape == (8, 20)
     assert np.abs(missed).max() < 0.5  # within the tolerance, all of them
@@ -93,18 +37,81 @@ def test_candidates_around_the_best_differ_and_are_all_right_where_errors_are_li
     np.testing.assert_allclose(found, found @ factor @ factor.T, atol=1e-12)  # nowhere that the search does not go
 
 
-def test_candidates_around_are_none_without_enough_trials_and_repeat_with_the_same_random_numbers() -> None:
+def test_errors_far_beyond_what_any_trial_makes_up_for_vanish() -> None:
     slope = np.random.default_rng(0).standard_normal((20, 3))
-    assert around(Aim()).shape == (0, 20)
+    offset = np.array([9.0, -7.0, 11.0])
+    assert np.abs(around(told(slope, offset, spread=0.5))[0] @ slope + offset).max() < 0.5
+
+
+def test_candidates_are_none_without_enough_trials_and_repeat_with_the_same_random_numbers() -> None:
+    slope = np.random.default_rng(0).standard_normal((20, 3))
+    assert around(Aim(np.eye(20))).shape == (0, 20)
     assert around(told(slope, np.ones(3), n=4)).shape == (0, 20)
+    assert around(told(slope, np.ones(3)), count=0).shape == (0, 20)
+    assert Aim(np.eye(20)).best is None
     one, other = (around(told(slope, np.ones(3))) for _ in range(2))
     np.testing.assert_array_equal(one, other)
 
 
-def test_candidates_around_a_best_that_misses_nothing_are_none_of_them_the_best() -> None:
+def test_a_best_that_misses_nothing_is_not_tried_again() -> None:
     generator = np.random.default_rng(5)
     candidates, slope = generator.standard_normal((60, 12)), 1e-3 * generator.standard_normal((12, 2))
-    aim, cost = Aim(), (candidates**2).sum(axis=1)
+    aim, cost = Aim(np.eye(12)), (candidates**2).sum(axis=1)
     aim.tell(candidates, candidates @ slope, cost)
-    found = aim.around(4, factor=np.eye(12), step=0.1, generator=generator)
+    found = aim.around(4, step=0.1, generator=generator)
     assert np.abs(found - candidates[np.argmin(cost)]).max(axis=1).min() > 0
+
+
+def test_the_step_stays_near_the_trials_that_it_was_learnt_from() -> None:
+    slope = np.random.default_rng(0).standard_normal((20, 2))
+    found = around(told(slope, np.array([1e6, 0.0])))
+    assert np.linalg.norm(found, axis=1).max() < 10 * 0.1 * np.sqrt(20)
+
+
+def test_trials_with_unknown_errors_are_left_out() -> None:
+    slope = np.random.default_rng(0).standard_normal((20, 3))
+    one, other = (told(slope, np.array([0.9, -0.7, 1.1])) for _ in range(2))
+    other.tell(np.full((5, 20), 9.0), np.full((5, 3), np.nan), np.zeros(5))
+    np.testing.assert_array_equal(around(one), around(other))
+
+
+def test_without_criteria_there_is_nothing_to_aim_at() -> None:
+    aim = Aim(np.eye(4))
+    aim.tell(np.random.default_rng(0).standard_normal((40, 4)), np.empty((40, 0)), np.zeros(40))
+    assert around(aim).shape == (0, 4)
+
+
+def test_what_is_looked_at_only_lately_is_aimed_at_as_soon_as_enough_is_known_and_the_rest_from_all_trials() -> None:
+    """A stage that simulates the hold: its costs are others, its errors new, those at the horizon the same."""
+    generator = np.random.default_rng(2)
+    slope, offset = generator.standard_normal((20, 3)), np.array([2.0, -1.0, 1.5])
+    early = 0.3 * generator.standard_normal((60, 20))
+    unknown = early @ slope + offset
+    unknown[:, 2] = np.nan
+    aim = Aim(np.eye(20))
+    aim.tell(early, unknown, (unknown[:, :2] ** 2).sum(axis=1))
+    before = around(aim)[0]
+    assert np.abs((before @ slope + offset)[:2]).max() < 0.5 < abs((before @ slope + offset)[2])
+    aim.forget_costs(np.array([False, False, True]))
+    assert around(aim).shape == (0, 20)  # none is the best by the new costs
+    late = 0.3 * generator.standard_normal((24, 20))
+    errors = late @ slope + offset
+    aim.tell(late, errors, (errors**2).sum(axis=1))
+    np.testing.assert_array_equal(aim.best[0] if aim.best else None, late[np.argmin((errors**2).sum(axis=1))])
+    assert np.abs(around(aim)[0] @ slope + offset).max() < 0.5
+
+
+@pytest.mark.parametrize("farthest", [np.inf, 1.0])
+def test_points_are_moved_by_the_smallest_step(farthest: float) -> None:
+    generator = np.random.default_rng(0)
+    drawn, slope, errors = generator.standard_normal((5, 6)), generator.standard_normal((6, 2)), np.array([3.0, 0.1])
+    moved = corrected(drawn, errors, slope, farthest)
+    if farthest == 1.0:
+        assert np.linalg.norm(moved, axis=1).max() <= 1.0 + 1e-12
+        return
+    predicted = errors + moved @ slope
+    assert np.abs(predicted).max() < WITHIN + 1e-6
+    across = np.linalg.svd(slope.T)[2][2:]  # directions that no error depends on
+    np.testing.assert_allclose((moved - drawn) @ across.T, 0, atol=1e-9)
+    already = corrected(np.zeros((1, 6)), np.array([0.1, -0.2]), slope, farthest)
+    np.testing.assert_allclose(already, 0, atol=1e-12)

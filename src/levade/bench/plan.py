@@ -4,7 +4,7 @@ tasks: [rearing, posture-recovery]      # names or files
 robots: [hyq2max]                       # names or files; left out, each task's own
 optimizers:                             # a list of names, or names of your own with what they change in the task
   cma: {}
-  plain: {search.optimizer: cma, search.smoothness: 0, search.aim: false}
+  plain: {search.optimizer: cma, search.smoothness: 0}
 seeds: 20                               # 0 to 19, or a list
 trials: 3000                            # budget; left out, each task's own
 """
@@ -144,9 +144,7 @@ def _variants(plan: Plan, task: str, robot: str | None) -> Iterator[tuple[str, T
         if changes:
             yield name, _load(task, robot, [*_changes(changes), *common], f"optimizers.{name}")
         elif name in OPTIMIZERS:
-            # numbers of the task's own optimizer are not for another
-            reset = [] if name == own else ["search.settings={}"]
-            yield name, _load(task, robot, [f"search.optimizer={name}", *reset, *common], f"optimizers.{name}")
+            yield name, _load(task, robot, [f"search.optimizer={name}", *common], f"optimizers.{name}")
         else:
             raise LevadeError(f"optimizers: no optimizer {name!r}; {did_you_mean(name, OPTIMIZERS)}")
 

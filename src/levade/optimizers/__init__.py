@@ -10,23 +10,28 @@ from __future__ import annotations
 
 import inspect
 
-from levade.optimizers.aim import Aim
 from levade.optimizers.cem import CEM
 from levade.optimizers.cmaes import CMAES
+from levade.optimizers.levade import Levade
 from levade.optimizers.mppi import MPPI
 from levade.optimizers.pi2 import PI2, PI2CMA
-from levade.optimizers.protocol import Injectable, Optimizer
+from levade.optimizers.protocol import Informed, Optimizer
 from levade.optimizers.random_search import RandomSearch
 
-OPTIMIZERS = {"cma": CMAES, "pi2": PI2, "pi2-cma": PI2CMA, "mppi": MPPI, "cem": CEM, "random": RandomSearch}
+OPTIMIZERS = {"levade": Levade, "cma": CMAES, "pi2": PI2, "pi2-cma": PI2CMA, "mppi": MPPI, "cem": CEM, "random": RandomSearch}
 """Name on the command line and in task files -> class."""
 
-_COMMON = ("mean", "factor", "step", "seed", "population")
+_COMMON = ("mean", "factor", "step", "seed", "population", "ending")
 
 
 def settings(optimizer: str) -> tuple[str, ...]:
     """Names of what one optimizer takes beside what all take."""
     return tuple(name for name in inspect.signature(OPTIMIZERS[optimizer]).parameters if name not in _COMMON)
+
+
+def takes_ending(optimizer: str) -> bool:
+    """Whether it is to be told by which directions the last part of a motion can be changed alone (`Levade`)."""
+    return "ending" in inspect.signature(OPTIMIZERS[optimizer]).parameters
 
 
 __all__ = [
@@ -36,9 +41,10 @@ __all__ = [
     "OPTIMIZERS",
     "PI2",
     "PI2CMA",
-    "Aim",
-    "Injectable",
+    "Informed",
+    "Levade",
     "Optimizer",
     "RandomSearch",
     "settings",
+    "takes_ending",
 ]

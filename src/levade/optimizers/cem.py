@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from levade.optimizers.sampling import Learner, checked_share
+from levade.optimizers.sampling import Sampler, checked_share
 from levade.trajectory import Array
 
 
-class CEM(Learner):
+class CEM(Sampler):
     """Cross-entropy method with a normal distribution for each coordinate (Rubinstein, Methodology and Computing in
     Applied Probability 1(2), 1999; Stulp and Sigaud, ICML 2012, Table 1, left): mean and variance of the elite,
 

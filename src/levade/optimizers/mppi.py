@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from levade.optimizers.sampling import Learner, checked_positive, checked_share, softmax
+from levade.optimizers.sampling import Sampler, checked_positive, checked_share, softmax
 from levade.trajectory import Array
 
 
-class MPPI(Learner):
+class MPPI(Sampler):
     """Annealed MPPI: the information-theoretic average of the trials (Williams et al., ICRA 2017, Algorithm 2),
 
     u <- sum_k w_k u_k,  w_k = exp(-(S_k - min S) / lambda) / sum

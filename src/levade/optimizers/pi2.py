@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from levade.optimizers.sampling import Learner, checked_positive, checked_share, softmax
+from levade.optimizers.sampling import Sampler, checked_positive, checked_share, softmax
 from levade.trajectory import Array
 
 
@@ -27,7 +27,7 @@ def probabilities(cost: Array, eliteness: float) -> Array:
     return softmax(-eliteness * (cost - cost.min()) / span) if span > 0 else np.full(cost.size, 1 / cost.size)
 
 
-class PI2(Learner):
+class PI2(Sampler):
     """PI² (Theodorou, Buchli and Schaal, JMLR 11, 2010) in its black-box form: the probability-weighted mean of the trials,
 
     theta <- sum_k P_k theta_k
@@ -68,7 +68,7 @@ class PI2(Learner):
         self._step = max(self._step * self._decay, min(self._step, self._floor * self._first_step))
 
 
-class PI2CMA(Learner):
+class PI2CMA(Sampler):
     """PI²-CMA (Stulp and Sigaud, ICML 2012, arXiv 1206.4621, Table 1): the same probabilities adapt the covariance, too,
 
     Sigma <- sum_k P_k (theta_k - theta)(theta_k - theta)'        (their eq. 17; theta is the mean before the update)

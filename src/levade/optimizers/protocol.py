@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import Protocol, runtime_checkable
 
+import numpy as np
+from numpy.typing import NDArray
+
 from levade.trajectory import Array
 
 
@@ -34,9 +37,34 @@ class Optimizer(Protocol):
 
 
 @runtime_checkable
-class Injectable(Optimizer, Protocol):
-    """An optimizer that can also try candidates of others, as `levade.optimizers.Aim` makes them."""
+class Informed(Protocol):
+    """An optimizer that also looks at how far candidates miss the criteria. Of its candidates, `ask` may return fewer."""
 
-    def inject(self, candidate: Array) -> None:
-        """Make a candidate (d,) part of the next generation, in place of one of its own."""
+    @property
+    def population(self) -> int:
+        """Candidates per generation, at most."""
+        ...
+
+    @property
+    def step(self) -> float:
+        """As of any `Optimizer`."""
+        ...
+
+    def ask(self) -> Array:
+        """The next candidates, (n, d), n up to `population`."""
+        ...
+
+    def tell(self, cost: Array, errors: Array | None = None) -> None:
+        """Costs (n,) of the candidates just asked for.
+
+        errors: (n, k), signed, as a share of what is allowed; NaN where unknown, all of a trial that diverged.
+        """
+        ...
+
+    def scale_step(self, factor: float) -> None:
+        """As of any `Optimizer`."""
+        ...
+
+    def forget_costs(self, changed: NDArray[np.bool_]) -> None:
+        """From now on costs mean something else, and so do the ``changed`` (k,) of the errors."""
         ...

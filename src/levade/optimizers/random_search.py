@@ -8,7 +8,7 @@ from levade.trajectory import Array
 
 class RandomSearch(Sampler):
     """Samples round the start, always the same distribution (Brooks, Operations Research 6(2), 1958). Arguments as
-    `Sampler`; nothing is learned, and there is no injecting candidates, which would no longer be random.
+    `Sampler`; nothing is learned.
     """
 
     @property

@@ -92,27 +92,6 @@ class Sampler(ABC):
         """Move the centre, and change the spread. z: (n, m), cost: (n,)."""
 
 
-class Learner(Sampler):
-    """A sampler that also learns from candidates of others."""
-
-    _injected: Array | None = None
-
-    def inject(self, candidate: Array) -> None:
-        """Make a candidate (d,) part of the next generation, in place of one of its own."""
-        with single_threaded():
-            self._injected = np.linalg.lstsq(self._factor, candidate - self._mean, rcond=1e-8)[0]
-
-    def ask(self) -> Array:
-        """The next candidates, (population, d): the centre, samples round it, and last the one that was injected."""
-        candidates = super().ask()
-        if self._injected is not None:
-            assert self._asked is not None
-            self._asked[-1], self._injected = self._injected, None
-            with single_threaded():
-                candidates[-1] = self._mean + self._factor @ self._asked[-1]
-        return candidates
-
-
 def bounded(cost: Array) -> Array:
     """Costs (n,) with what lies far beyond the others brought back to where they can still be told apart."""
     best = cost.min()

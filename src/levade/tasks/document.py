@@ -71,7 +71,8 @@ def load_task(name_or_path: str | Path, *, robot: str | None = None, changes: Se
     """A built-in task by name, or any task by the path of its YAML file.
 
     robot: name or file of a robot, instead of the task's. changes: "path=value" each, such as
-    "costs.effort.weight=0.5"; the path has to exist in the task with all its defaults. Raises LevadeError.
+    "costs.effort.weight=0.5"; the path has to exist in the task with all its defaults. Another ``search.optimizer`` comes
+    without the settings of the task's own. Raises LevadeError.
     """
     path = _find(str(name_or_path))
     content = read_yaml(path)
@@ -83,8 +84,10 @@ def load_task(name_or_path: str | Path, *, robot: str | None = None, changes: Se
     rest = [change for change in changes if change not in with_robot]
     if rest:
         content = task_to_dict(task)
-        for change in rest:
+        for change in sorted(rest, key=lambda change: not change.startswith("search.optimizer=")):
             _apply(content, change)
+            if change.startswith("search.optimizer=") and content["search"]["optimizer"] != task.search.optimizer:
+                content["search"]["settings"] = {}
         task = _changed(content)
     return task
 

@@ -1,0 +1,153 @@
+"""The default optimizer: CMA-ES where nothing is known of errors, and soon right where they say what is missing."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from levade.errors import LevadeError
+from levade.optimizers import CMAES, Informed, Levade
+from levade.optimizers.finish import FARTHEST, PROBE, Finish
+
+D = 24
+ENDING = np.kron(np.eye(4), np.array([0.0, 0.0, 0.0, 0.0, 0.5, 1.0]))  # of four joints with six weights
+
+
+def test_without_errors_it_is_cma_es() -> None:
+    own = CMAES(np.ones(6), step=0.3, seed=5, population=8)
+    levade = Levade(np.ones(6), step=0.3, seed=5, population=8, aimed=6)
+    for _ in range(5):
+        x = own.ask()
+        np.testing.assert_array_equal(levade.ask(), x)
+        own.tell((x**2).sum(axis=1))
+        levade.tell((x**2).sum(axis=1))
+    assert levade.step == own.step
+    assert isinstance(levade, Informed)
+    assert not isinstance(own, Informed)
+
+
+def trials_until_right(optimizer: Levade | CMAES, slope: np.ndarray, offset: np.ndarray, *, most: int = 4000) -> int:
+    """Trials until one misses nothing by more than is allowed."""
+    trials = 0
+    while trials < most:
+        x = optimizer.ask()
+        trials += len(x)
+        assert len(x) <= optimizer.population
+        errors = np.sin(x) @ slope + offset
+        if (np.abs(errors) <= 1).all(axis=1).any():
+            return trials
+        cost = (errors**2).sum(axis=1)
+        if isinstance(optimizer, Levade):
+            optimizer.tell(cost, errors)
+        else:
+            optimizer.tell(cost)
+    return most
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_tight_tolerances_take_a_fraction_of_the_trials_of_cma_es(seed: int) -> None:
+    generator = np.random.default_rng(seed)
+    slope, offset = 300 * generator.standard_normal((D, 4)), 300 * generator.standard_normal(4)
+    plain = trials_until_right(CMAES(np.zeros(D), step=0.1, seed=seed, population=12), slope, offset)
+    aimed = trials_until_right(Levade(np.zeros(D), step=0.1, seed=seed, population=12), slope, offset)
+    assert aimed < 0.4 * plain
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_what_the_ending_can_mend_is_mended_at_the_second_look(seed: int) -> None:
+    """A generation of CMA-ES, one of probes, one of steps."""
+    generator = np.random.default_rng(seed)
+    slope, offset = 300 * generator.standard_normal((D, 2)), 30 * generator.standard_normal(2)
+    finished = Levade(np.zeros(D), step=0.01, seed=seed, population=12, aimed=0, ending=ENDING, finish=200)
+    assert trials_until_right(finished, slope, offset) <= 12 + len(ENDING) + 1
+
+
+def test_the_same_seed_gives_the_same_candidates_and_another_others() -> None:
+    slope, offset = np.random.default_rng(0).standard_normal((D, 3)), np.array([20.0, -10.0, 5.0])
+    asked: list[list[np.ndarray]] = []
+    for seed in (1, 1, (1, 1)):
+        optimizer, asked_of = Levade(np.zeros(D), step=0.1, seed=seed, ending=ENDING), []
+        for _ in range(12):
+            asked_of.append(x := optimizer.ask())
+            errors = x @ slope + offset
+            optimizer.tell((errors**2).sum(axis=1), errors)
+        asked.append(asked_of)
+    for one, other in zip(asked[0], asked[1], strict=True):
+        np.testing.assert_array_equal(one, other)
+    assert not np.array_equal(asked[0][0], asked[2][0])
+
+
+def test_a_new_stage_begins_with_the_best_of_the_last() -> None:
+    optimizer = Levade(np.zeros(D), step=0.1, seed=0, population=12)
+    slope = np.random.default_rng(0).standard_normal((D, 2))
+    best, least = np.zeros(D), np.inf
+    for _ in range(4):
+        x = optimizer.ask()
+        errors = x @ slope + 50.0
+        cost = (errors**2).sum(axis=1)
+        if cost.min() < least:
+            best, least = x[np.argmin(cost)], cost.min()
+        optimizer.tell(cost, errors)
+    optimizer.forget_costs(np.zeros(2, dtype=bool))
+    np.testing.assert_array_equal(optimizer.ask()[-1], best)
+
+
+def test_a_generation_in_which_all_diverge_is_survived() -> None:
+    optimizer = Levade(np.zeros(D), step=0.1, seed=0, ending=ENDING)
+    for _ in range(3):
+        n = len(optimizer.ask())
+        optimizer.tell(np.full(n, 1e12), np.full((n, 3), np.nan))
+    assert np.isfinite(optimizer.ask()).all()
+
+
+@pytest.mark.parametrize(("name", "value"), [("aimed", -1), ("aimed", 2.5), ("finish", -1.0), ("finish", np.nan)])
+def test_settings_that_make_no_sense_are_refused(name: str, value: float) -> None:
+    with pytest.raises(LevadeError, match=name):
+        Levade(np.zeros(4), step=0.1, seed=0, **{name: value})
+
+
+def finish(errors: np.ndarray) -> Finish:
+    return Finish(np.ones(D), errors, ENDING, count=3, generator=np.random.default_rng(0))
+
+
+def test_a_finish_probes_each_direction_then_is_right_and_leaves_the_rest_of_the_motion_alone() -> None:
+    slope = 200 * np.random.default_rng(1).standard_normal((D, 3))
+    offset = -np.ones(D) @ slope + np.array([9.0, -4.0, 2.0])
+    attempt = finish(np.ones(D) @ slope + offset)
+    probes = attempt.ask()
+    np.testing.assert_allclose(probes, 1 + PROBE * ENDING)
+    attempt.tell(probes @ slope + offset)
+    steps = attempt.ask()
+    assert steps.shape == (3, D)
+    missed = steps @ slope + offset
+    assert np.abs(missed[[0, 2]]).max() < 1
+    assert 2 < np.abs(missed[1]).max() < 6  # half of the way from 9
+    np.testing.assert_array_equal(steps[:, ENDING.sum(axis=0) == 0], 1.0)
+    attempt.tell(steps @ slope + offset)
+    assert attempt.miss < 1
+    assert any(np.array_equal(attempt.best, step) for step in steps)
+
+
+def test_a_finish_ignores_what_is_unknown_and_trials_that_diverged() -> None:
+    slope = 200 * np.random.default_rng(1).standard_normal((D, 3))
+    slope[:, 2] = np.nan
+    offset = -np.ones(D) @ slope + np.array([9.0, -4.0, 0.0])
+    attempt = finish(np.ones(D) @ slope + offset)
+    missed = attempt.ask() @ slope + offset
+    missed[1] = np.nan
+    attempt.tell(missed)
+    assert np.abs((attempt.ask() @ slope + offset)[:1, :2]).max() < 1
+
+
+def test_a_finish_gives_up_where_the_ending_cannot_help_or_steps_do_not() -> None:
+    slope = np.zeros((D, 1))
+    slope[-1] = 9.0 / (4 * FARTHEST)
+    attempt = finish(np.array([9.0]))
+    attempt.tell((attempt.ask() - 1) @ slope + 9.0)
+    assert attempt.over  # it would take a step of more than a radian
+    attempt = finish(np.array([9.0]))
+    attempt.tell(9.0 + 300 * (attempt.ask() - 1)[:, -1:])
+    assert not attempt.over
+    attempt.tell(np.full((3, 1), 8.9))  # not as foretold
+    assert attempt.over
+    assert attempt.miss <= 9.0
