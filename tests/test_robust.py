@@ -18,7 +18,7 @@ from levade.solve import Generation, Objective, Record, solve
 from levade.tasks import Racing, Robust, load_task, task_to_yaml
 
 SMALL = [
-    *("search.population=6", "horizon=0.06", "hold=0.02", "search.polish=null"),
+    *("search.optimizer=cma", "search.population=6", "horizon=0.06", "hold=0.02", "search.polish=null"),
     "success={pitch: {target: 0, tolerance: 0.2}, height: {target: 0.57, tolerance: 5 cm, at: end}}",
     "stages=[{name: nominal, robust: false, trials: 12, hold: false}, {name: robust, hold: 0.01}]",
 ]

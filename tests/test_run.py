@@ -27,7 +27,13 @@ from levade.solve import Generation, Objective
 from levade.tasks import load_task
 
 GENERATIONS = 10
-CHANGES = ["search.population=8", "search.trials=80", "horizon=0.1", "success.height.tolerance=0"]
+CHANGES = [
+    "search.optimizer=cma",
+    "search.population=8",
+    "search.trials=80",
+    "horizon=0.1",
+    "success.height.tolerance=0",
+]
 
 
 @pytest.fixture(scope="module")
@@ -376,7 +382,13 @@ def solve_in_a_process(directory: Path, *more: str) -> subprocess.Popen[str]:
     return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
-LONG = ["search.population=8", "search.trials=4000", "success.height.tolerance=0", "horizon=0.6"]
+LONG = [
+    "search.optimizer=cma",
+    "search.population=8",
+    "search.trials=4000",
+    "success.height.tolerance=0",
+    "horizon=0.6",
+]
 
 
 def wait_for_generations(directory: Path, process: subprocess.Popen[str], count: int) -> None:

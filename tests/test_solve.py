@@ -34,13 +34,14 @@ stages:
 success:
   pitch: {target: -0.3, tolerance: 0.02}
   later: {quantity: pitch, target: -0.3, tolerance: 0.3, at: end}
-search: {trials: 120, population: 8, step: 0.2, smoothness: 0.2, polish: null}
+search: {optimizer: cma, trials: 120, population: 8, step: 0.2, smoothness: 0.2, polish: null}
 """
 
 
 @functools.cache
 def rearing() -> Objective:
-    return Objective(load_task("rearing"), threads=1)
+    """With an optimizer whose generations are all of one size."""
+    return Objective(load_task("rearing", changes=["search.optimizer=cma"]), threads=1)
 
 
 @pytest.fixture(scope="module")
@@ -453,7 +454,8 @@ def test_a_record_survives_json_to_the_bit() -> None:
 
 def test_a_cost_of_ones_own_is_optimised() -> None:
     base = load_task(
-        "rearing", changes=["search.population=8", "search.trials=160", "search.polish=null", "horizon=0.1"]
+        "rearing",
+        changes=["search.population=8", "search.trials=160", "search.polish=null", "horizon=0.1", "search.step=0.02"],
     )
     mine = {"knee": Cost(lambda t: np.square(t.joint_position[:, -1, 2] + 1.6), 1.0)}
     stage = dataclasses.replace(base.stages[-1], weights={}, promote={}, step=1.0)
@@ -461,3 +463,18 @@ def test_a_cost_of_ones_own_is_optimised() -> None:
     solution, generations = collect(Objective(task, threads=1))
     assert solution.best.cost < 0.3 * generations[0].cost.min()
     assert solution.success  # no criteria: every trial that does not break down
+
+
+def test_levades_search_goes_through_stages_within_its_budget_and_again_from_records(staged: Objective) -> None:
+    """Its generations differ in size: with aimed candidates, of them alone, and of probes and steps of a finish."""
+    search = dataclasses.replace(staged.task.search, optimizer="levade", trials=240)
+    objective = changed(staged, search=search)
+    solution, generations = collect(objective)
+    sizes = {len(g.cost) for g in generations}
+    assert 8 in sizes
+    assert {14, objective.policy.independent_joints} & sizes
+    assert [g.stage_name for g in generations][0] == "first"
+    assert {g.stage_name for g in generations} >= {"first", "second", "third"}
+    assert generations[-1].trials == solution.trials == sum(len(g.cost) for g in generations) <= 240
+    records = [Record.from_json(json.loads(json.dumps(g.record.to_json()))) for g in generations[:9]]
+    assert_same(solve(objective, records=records), solution)

@@ -15,7 +15,7 @@ from levade.run import CHECKPOINT, MOTION, PROGRESS, TASK, Outcome, read_run, re
 from levade.solve import Generation, Objective, Solution, solve
 from levade.tasks import Change, Task, load_task, task_from_dict, task_to_dict
 
-# three stages that weigh by themselves, look at the hold differently and aim, and a goal that is not met
+# three stages that weigh by themselves, look at the hold differently, and a goal that is not met
 STEERED = """
 name: steered
 horizon: 0.1
@@ -32,7 +32,7 @@ stages:
   - {name: third}
 success:
   pitch: {target: -0.3, tolerance: 0}
-search: {trials: 96, population: 8, step: 0.2, smoothness: 0.2, polish: null}
+search: {optimizer: cma, trials: 96, population: 8, step: 0.2, smoothness: 0.2, polish: null}
 """
 SLIDERS = {2: {"position": 3.0}, 5: {"orientation": 0.2, "effort": 40.0}, 6: {"position": 1.0}, 9: {"after": 10.0}}
 

@@ -42,7 +42,7 @@ def test_a_plan_is_the_product_of_its_lists(tmp_path: Path) -> None:
 
 def test_left_out_the_task_decides() -> None:
     (only,) = cases(Plan(tasks=("rearing",), seeds=1))
-    assert only.key == ("rearing", "hyq2max", "cma", 0)
+    assert only.key == ("rearing", "hyq2max", "levade", 0)
     assert (only.task.search.trials, only.task.search.polish, only.budget_steps) == (3009, 340, None)
     (through,) = cases(Plan(tasks=("rearing",), seeds=1, until="budget"))
     assert through.task.search.polish is None

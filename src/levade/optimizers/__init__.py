@@ -18,7 +18,15 @@ from levade.optimizers.pi2 import PI2, PI2CMA
 from levade.optimizers.protocol import Informed, Optimizer
 from levade.optimizers.random_search import RandomSearch
 
-OPTIMIZERS = {"levade": Levade, "cma": CMAES, "pi2": PI2, "pi2-cma": PI2CMA, "mppi": MPPI, "cem": CEM, "random": RandomSearch}
+OPTIMIZERS = {
+    "levade": Levade,
+    "cma": CMAES,
+    "pi2": PI2,
+    "pi2-cma": PI2CMA,
+    "mppi": MPPI,
+    "cem": CEM,
+    "random": RandomSearch,
+}
 """Name on the command line and in task files -> class."""
 
 _COMMON = ("mean", "factor", "step", "seed", "population", "ending")

@@ -66,9 +66,14 @@ class Aim:
             self._errors = np.where(changed, np.nan, self._errors)
 
     @property
+    def least(self) -> float:
+        """The cost of the best trial; infinite before there is one."""
+        return float(self._cost.min(initial=np.inf))
+
+    @property
     def best(self) -> tuple[Array, Array] | None:
         """The trial of least cost, (d,), and its errors (k,); None before there is one."""
-        if not np.isfinite(self._cost).any():
+        if not np.isfinite(self.least):
             return None
         best = int(np.argmin(self._cost))
         return self._candidates[best], self._errors[best]
@@ -76,7 +81,7 @@ class Aim:
     def around(self, count: int, *, step: float, generator: np.random.Generator) -> Array:
         """Candidates (count, d) to try next; none, (0, d), while too few trials are known. step: the optimizer's."""
         none = np.empty((0, len(self._factor)))
-        if count < 1 or not np.isfinite(self._cost).any():
+        if count < 1 or not np.isfinite(self.least):
             return none
         best = int(np.argmin(self._cost))
         looked_at = np.flatnonzero(np.isfinite(self._errors[best]))

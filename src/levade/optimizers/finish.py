@@ -32,7 +32,9 @@ class Finish:
     largest weight is 1. count: candidates of each round after the probes.
     """
 
-    def __init__(self, base: Array, errors: Array, ending: Array, *, count: int, generator: np.random.Generator) -> None:
+    def __init__(
+        self, base: Array, errors: Array, ending: Array, *, count: int, generator: np.random.Generator
+    ) -> None:
         self._ending, self._count, self._generator = ending, count, generator
         self._known = np.isfinite(errors)
         self._first = self._best = base

@@ -21,7 +21,8 @@ class Levade:
     """Covariance matrix adaptation over smooth motions, with two uses of the signed errors behind the costs.
 
     Each generation, some candidates are aimed (`levade.optimizers.aim`); the best of them, if it is among the best quarter of
-    the others, becomes a part of the next generation. When the best trial misses by little, and by half as much as at the
+    the others, becomes a part of the next generation. If it is the best of all so far, aimed candidates alone follow, for as
+    long as they go on to be. When the best trial misses by little, and by half as much as at the
     last attempt, its ending is finished by least squares (`levade.optimizers.finish`).
 
     mean, factor, step, seed, step_adaptation: as in `CMAES`. population: candidates of CMA-ES in a generation.
@@ -39,13 +40,13 @@ class Levade:
         population: int | None = None,
         step_adaptation: Literal["csa", "tpa"] = "csa",
         aimed: int = 6,
-        finish: float = 20.0,
+        finish: float = 40.0,
         ending: Array | None = None,
     ) -> None:
         if aimed < 0 or aimed != int(aimed):
             raise LevadeError(f"aimed: {aimed:g} should be a whole number, 0 or more; 6 is usual")
         if not finish >= 0:
-            raise LevadeError(f"finish: {finish:g} should be 0 or more tolerances; 20 is usual")
+            raise LevadeError(f"finish: {finish:g} should be 0 or more tolerances; 40 is usual")
         self._cma = CMAES(
             mean, factor=factor, step=step, seed=seed, population=population, step_adaptation=step_adaptation
         )
@@ -58,6 +59,8 @@ class Levade:
         self._attempt_below = np.inf
         self._asked: Array | None = None
         self._own = 0
+        self._none = np.empty((0, len(mean)))
+        self._pursuing = False
 
     @property
     def population(self) -> int:
@@ -73,7 +76,7 @@ class Levade:
         if self._finish is not None:
             self._own, asked = 0, self._finish.ask()
         else:
-            own = self._cma.ask()
+            own = self._none if self._pursuing else self._cma.ask()
             self._own = len(own)
             aimed = self._aim.around(self._count, step=self.step, generator=self._generator)
             beside = aimed if self._carried is None or not self._count else self._carried[None]
@@ -95,7 +98,9 @@ class Levade:
             raise ValueError(f"cost: expected {len(asked)} finite numbers, got {cost}")
         if self._own:
             self._cma.tell(cost[: self._own])
-            self._tell_of_aimed(asked[self._own :], cost)
+            # the best of the aimed, if it is among the best quarter of the others
+            if len(cost) > self._own and cost[self._own :].min() < np.sort(cost[: self._own])[max(1, self._own // 4)]:
+                self._cma.inject(asked[self._own + int(np.argmin(cost[self._own :]))])
         if errors is None:
             return
         if self._finish is not None:
@@ -108,7 +113,7 @@ class Levade:
                 self._cma.inject(self._finish.best)
                 self._finish = None
         else:
-            self._aim.tell(asked, errors, cost)
+            self._pursue(asked, errors, cost)
             self._begin_to_finish()
 
     def scale_step(self, factor: float) -> None:
@@ -120,13 +125,16 @@ class Levade:
         best = self._aim.best
         self._carried = None if best is None else best[0]
         self._aim.forget_costs(changed)
-        self._finish, self._attempt_below = None, np.inf
+        self._finish, self._attempt_below, self._pursuing = None, np.inf, False
 
-    def _tell_of_aimed(self, aimed: Array, cost: Array) -> None:
-        """Inject the best of the aimed (n, d), if it is among the best quarter of the others."""
-        own, theirs = cost[: self._own], cost[self._own :]
-        if len(theirs) and theirs.min() < np.sort(own)[max(1, self._own // 4)]:
-            self._cma.inject(aimed[int(np.argmin(theirs))])
+    def _pursue(self, asked: Array, errors: Array, cost: Array) -> None:
+        """Tell `Aim` of a generation. If one that it aimed is the best of all, the next generation is all its own."""
+        least = self._aim.least
+        self._aim.tell(asked, errors, cost)
+        pursued, aimed = self._pursuing, cost[self._own :]
+        self._pursuing = len(aimed) > 0 and np.isfinite(least) and aimed.min() < cost[: self._own].min(initial=least)
+        if pursued and not self._pursuing and self._aim.best is not None:
+            self._cma.inject(self._aim.best[0])
 
     def _begin_to_finish(self) -> None:
         best = self._aim.best
