@@ -473,7 +473,7 @@ def test_levades_search_goes_through_stages_within_its_budget_and_again_from_rec
     sizes = {len(g.cost) for g in generations}
     assert 8 in sizes
     assert {14, objective.policy.independent_joints} & sizes
-    assert [g.stage_name for g in generations][0] == "first"
+    assert generations[0].stage_name == "first"
     assert {g.stage_name for g in generations} >= {"first", "second", "third"}
     assert generations[-1].trials == solution.trials == sum(len(g.cost) for g in generations) <= 240
     records = [Record.from_json(json.loads(json.dumps(g.record.to_json()))) for g in generations[:9]]
