@@ -108,10 +108,11 @@ class Aim:
         length = np.einsum("nm,nm->n", coordinates, coordinates)
         known = np.isfinite(errors)
         slope, farthest = np.zeros((coordinates.shape[1], errors.shape[1])), 0.0
-        patterns, which = np.unique(known.T, axis=0, return_inverse=True)
-        for number, pattern in enumerate(patterns):
-            columns = np.flatnonzero(which.ravel() == number)
-            usable = np.flatnonzero(pattern & (length > 0))
+        alike: dict[bytes, list[int]] = {}
+        for column in range(errors.shape[1]):
+            alike.setdefault(known[:, column].tobytes(), []).append(column)
+        for columns in alike.values():
+            usable = np.flatnonzero(known[:, columns[0]] & (length > 0))
             if usable.size < 2 * errors.shape[1]:
                 continue
             nearest = usable[np.argsort(length[usable], kind="stable")[: self._neighbours]]

@@ -90,12 +90,13 @@ class Levade:
 
         errors: (n, k), signed, as a share of what is allowed; NaN where unknown, all of a trial that diverged.
         """
-        asked, self._asked = self._asked, None
+        asked = self._asked
         if asked is None:
             raise RuntimeError("tell: there are no candidates to tell about; ask first")
         cost = np.asarray(cost, dtype=np.float64)
         if cost.shape != (len(asked),) or not np.isfinite(cost).all():
             raise ValueError(f"cost: expected {len(asked)} finite numbers, got {cost}")
+        self._asked = None
         if self._own:
             self._cma.tell(cost[: self._own])
             # the best of the aimed, if it is among the best quarter of the others
