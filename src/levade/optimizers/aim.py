@@ -111,7 +111,8 @@ class Aim:
         alike: dict[bytes, list[int]] = {}
         for column in range(errors.shape[1]):
             alike.setdefault(known[:, column].tobytes(), []).append(column)
-        for columns in alike.values():
+        for group in alike.values():
+            columns = np.array(group)
             usable = np.flatnonzero(known[:, columns[0]] & (length > 0))
             if usable.size < 2 * errors.shape[1]:
                 continue
