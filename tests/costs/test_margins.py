@@ -31,15 +31,15 @@ def at_rest(make):
 
 def test_what_is_left_counts_as_a_multiple_of_what_is_wanted(at_rest):
     """At rest nothing is missed; at the limit each joint misses 1, beyond by the margin again 4."""
-    assert Margins(position=0.1, speed=0.05, torque_speed=0.05)(at_rest).tolist() == [0, 0]
+    assert Margins(angle=0.1, speed=0.05, torque_speed=0.05)(at_rest).tolist() == [0, 0]
     angle, speed = np.zeros((2, 25, 2)), np.zeros((2, 25, 2))
     angle[0, 7, 1], angle[1, 9, 0] = 1.0, -1.1
     speed[0, 24, 0], speed[1, 3, 1] = -10.25, 1e6  # the second joint has no speed limit
     moved = dataclasses.replace(at_rest, joint_position=angle, joint_velocity=speed)
-    assert Margins(position=0.1)(moved) == pytest.approx([1.0, 4.0])
+    assert Margins(angle=0.1)(moved) == pytest.approx([1.0, 4.0])
     assert Margins(speed=0.05)(moved) == pytest.approx([1.5**2, 0.0])
     assert Margins(speed=0.05, over="horizon")(moved) == pytest.approx([0.0, 0.0])  # row 24 is in the hold
-    assert Margins(position=0.1, speed=0.05)(moved) == pytest.approx([1.0 + 1.5**2, 4.0])
+    assert Margins(angle=0.1, speed=0.05)(moved) == pytest.approx([1.0 + 1.5**2, 4.0])
 
 
 def test_the_line_counts_while_driving_only(at_rest):
@@ -74,9 +74,9 @@ def test_limits_come_with_the_robots_line():
 @pytest.mark.parametrize(
     ("wanted", "message"),
     [
-        ({}, "margins: none is wanted; give at least one of position, speed, torque_speed, midplane"),
+        ({}, "margins: none is wanted; give at least one of angle, speed, torque_speed, midplane"),
         ({"speed": 0.0}, "margins.speed: 0.0 should be a positive margin; leave it out if none is wanted"),
-        ({"position": float("nan")}, "margins.position: nan should be a positive margin"),
+        ({"angle": float("nan")}, "margins.angle: nan should be a positive margin"),
     ],
 )
 def test_margins_that_make_no_sense_are_refused(wanted, message):

@@ -140,7 +140,7 @@ ALL = [
     Orientation(roll=0.0, yaw=1.0),
     Orientation(0.0, 0.0, 0.0, at="hold"),
     GroundContact(("trunk", "hip"), "impulse"),
-    Margins(position=0.1, speed=0.1),
+    Margins(angle=0.1, speed=0.1),
 ]
 
 

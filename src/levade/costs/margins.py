@@ -20,7 +20,7 @@ class Margins:
     A joint that just reaches a limit costs 1; one that leaves the margin costs nothing. It is the extreme over time that
     counts, not how long: the excess of an integral that is weighed against other costs never quite goes.
 
-    position: [rad] to the ends of the range. speed: share of the speed limit. torque_speed: share of the stall torque to the
+    angle: [rad] to the ends of the range. speed: share of the speed limit. torque_speed: share of the stall torque to the
         actuator's line |torque| / stall_torque + |speed| / no_load_speed = 1 while driving; a drive is beyond it where its
         torque lags behind its speed. midplane: [m], how far each foot stays on its own side of the trunk's middle plane: legs
         that do not cross do not collide. None for what does not count; joints without a limit never miss its margin.
@@ -29,14 +29,14 @@ class Margins:
 
     unit: ClassVar[str] = "-"
 
-    position: float | None = None
+    angle: float | None = None
     speed: float | None = None
     torque_speed: float | None = None
     midplane: float | None = None
     over: Over = "all"
 
     def __post_init__(self) -> None:
-        wanted = {name: getattr(self, name) for name in ("position", "speed", "torque_speed", "midplane")}
+        wanted = {name: getattr(self, name) for name in ("angle", "speed", "torque_speed", "midplane")}
         if all(value is None for value in wanted.values()):
             raise LevadeError(f"margins: none is wanted; give at least one of {', '.join(wanted)}")
         for name, value in wanted.items():
@@ -49,10 +49,10 @@ class Margins:
         """(n,) [-]."""
         rows, limits = rows_over(trajectories, self.over), trajectories.limits
         missed = []
-        if self.position is not None:
-            angle = trajectories.joint_position[:, rows]
-            left = np.minimum(angle.min(axis=1) - limits.lower, limits.upper - angle.max(axis=1))
-            missed.append(_shortfall(left, self.position))
+        if self.angle is not None:
+            at = trajectories.joint_position[:, rows]
+            left = np.minimum(at.min(axis=1) - limits.lower, limits.upper - at.max(axis=1))
+            missed.append(_shortfall(left, self.angle))
         speed = np.abs(trajectories.joint_velocity[:, rows])
         if self.speed is not None:
             missed.append(_shortfall(1 - speed.max(axis=1) / limits.velocity, self.speed))
