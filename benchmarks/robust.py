@@ -234,7 +234,7 @@ def seeds_of(rows: list[dict[str, Any]]) -> str:
 def of(values: list[bool | None]) -> str:
     """How many of those that are known."""
     known = [value for value in values if value is not None]
-    return f"{sum(known)} of {len(known)}" if known else "not there"
+    return f"{sum(known)} of {len(known)}" if known else "not there" if values else "not run"
 
 
 def missing(rows: list[dict[str, Any]]) -> str:
