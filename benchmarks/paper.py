@@ -122,7 +122,7 @@ def page() -> str:
             )
         )
     template = (HERE / "paper.md.in").read_text(encoding="utf-8")
-    solved, crossed = both_engines()
+    solved, crossed, perturbed = both_engines()
     made = ", ".join(f"{name} {version}" for name, version in content["versions"].items())
     return (
         template.replace("@ROWS@", "\n".join(rows))
@@ -130,10 +130,11 @@ def page() -> str:
         .replace("@MADE@", f"{made}; {content['machine']}")
         .replace("@SOLVED@", solved)
         .replace("@CROSSED@", crossed)
+        .replace("@PERTURBED@", perturbed)
     )
 
 
-def both_engines() -> tuple[str, str]:
+def both_engines() -> tuple[str, str, str]:
     """Tables of the tasks in both engines, and of motions of one in the other, from the other benchmarks' results."""
     import robust
 
@@ -150,7 +151,8 @@ def both_engines() -> tuple[str, str]:
             shares = [f"{sum(one[which] for one in there[e])} of {len(there[e])}" for e in engines.ENGINES]
             rows.append((task, judged, *shares))
     rows += [(task, "its own", *shares) for task, *shares in robust.crossed(robust.kept())]
-    return engines.solved(results), "\n".join(f"| `{task}` | {' | '.join(rest)} |" for task, *rest in rows)
+    crossed = "\n".join(f"| `{task}` | {' | '.join(rest)} |" for task, *rest in rows)
+    return engines.solved(results), crossed, robust.found_in_ode(robust.kept())
 
 
 def main() -> None:

@@ -266,6 +266,16 @@ def crossed(rows: list[dict[str, Any]]) -> list[tuple[str, str, str]]:
     return found
 
 
+def found_in_ode(rows: list[dict[str, Any]]) -> str:
+    """Of motions found in ODE: how many perturbed runs succeed there, and in MuJoCo."""
+    return "\n".join(
+        f"- `{row['task']}-robust`, seed {row['seed']}, found in ODE in {row['trials']} trials: {row['successes_in_ode']} of"
+        f" {row['runs_in_ode']} perturbed runs succeed in ODE, {row['successes']} of {row['runs']} in MuJoCo."
+        for row in rows
+        if "successes_in_ode" in row
+    )
+
+
 def variants() -> str:
     """What each robust variant asks for, from its task."""
     from levade.tasks import load_task
