@@ -1,7 +1,9 @@
 """The paper's two experiments with the paper's own method, and docs/paper.md with what came of them.
 
     python benchmarks/paper.py            # ten seeds, both tasks, both horizons: 54 core-minutes
-    python benchmarks/paper.py --write    # only write docs/paper.md anew, from benchmarks/results/paper.json
+    python benchmarks/paper.py --write    # only write docs/paper.md anew, from benchmarks/results
+
+What it says of both engines is from the results of engines.py and robust.py.
 
 Plain CMA-ES: default population (17 and 19), one stage with the paper's weights, weights sampled independently (no smooth
 initial covariance), cumulative step-size adaptation, initial step 0.05 rad (the first author's code has 0.01 to 0.05), the
@@ -119,12 +121,37 @@ def page() -> str:
             )
         )
     template = (HERE / "paper.md.in").read_text(encoding="utf-8")
+    solved, crossed, perturbed = both_engines()
     made = ", ".join(f"{name} {version}" for name, version in content["versions"].items())
     return (
         template.replace("@ROWS@", "\n".join(rows))
         .replace("@SEEDS@", str(content["seeds"]))
         .replace("@MADE@", f"{made}; {content['machine']}")
+        .replace("@SOLVED@", solved)
+        .replace("@CROSSED@", crossed)
+        .replace("@PERTURBED@", perturbed)
     )
+
+
+def both_engines() -> tuple[str, str, str]:
+    """Tables of the tasks in both engines, and of motions of one in the other, from the other benchmarks' results."""
+    import robust
+
+    import engines
+
+    results = json.loads(engines.RESULTS.read_text(encoding="utf-8"))["results"]
+    rows = []
+    for task in engines.TASKS:
+        won = {
+            e: [r for r in results if (r["task"], r["engine"]) == (task, e) and r["success"]] for e in engines.ENGINES
+        }
+        there = {e: [r["replays"][other] for r in won[e]] for e, other in (("mujoco", "ode"), ("ode", "mujoco"))}
+        for which, judged in (("success", "its own"), ("close", "within 0.1 rad and 5 cm")):
+            shares = [f"{sum(one[which] for one in there[e])} of {len(there[e])}" for e in engines.ENGINES]
+            rows.append((task, judged, *shares))
+    rows += [(task, "its own", *shares) for task, *shares in robust.crossed(robust.kept())]
+    crossed = "\n".join(f"| `{task}` | {' | '.join(rest)} |" for task, *rest in rows)
+    return engines.solved(results), crossed, robust.found_in_ode(robust.kept())
 
 
 def main() -> None:

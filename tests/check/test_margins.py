@@ -148,3 +148,14 @@ def test_legs_that_enter_each_other_are_found(standing: Motion, changed: Change)
     mujoco.mj_forward(model, data)
     depth = max(-c.dist for c in data.contact if all(model.geom_bodyid[g] for g in c.geom))
     assert deepest["depth"] == pytest.approx(depth, abs=1e-4)
+
+
+def test_where_the_robot_gives_no_limit_nothing_is_judged(standing: Motion, changed: Change) -> None:
+    limits = dict(standing.meta["limits"])
+    limits["velocity"] = [None] * 12
+    limits["torque"] = [None, *limits["torque"][1:]]
+    found = margins(Subject(changed(standing, {"limits": limits})), Demands())
+    assert (found["speed"].passed, found["speed"].value) == (None, None)
+    assert found["speed"].reason == "the robot gives no limit"
+    assert found["torque"].values["lf_haa"] is None
+    assert found["torque"].passed is True

@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -10,6 +14,7 @@ import pytest
 from levade.cli import main
 from levade.motion import Motion, record
 from levade.solve import Objective, solve
+from levade.stabilise import stabilise
 from levade.tasks import load_task
 
 
@@ -44,6 +49,37 @@ def test_it_writes_a_motion_that_a_check_knows_as_stabilised(motion: Path, capsy
     assert checked["perturbed"]["successes"] > checked["open_loop"]["successes"]
     _, out, _ = run(capsys, "check", str(written), "--runs", "8")
     assert "without the stabiliser" in out
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_search_that_is_stopped_keeps_its_best(motion: Path, tmp_path: Path, number: signal.Signals) -> None:
+    """The real thing: a signal while the second design is tried."""
+    written = tmp_path / "kept.npz"
+    process = subprocess.Popen(
+        [sys.executable, "-m", "levade", "stabilise", str(motion), "--threads=1", f"--out={written}"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "PYTHONUNBUFFERED": "1", "COLUMNS": "200"},
+    )
+    assert process.stdout is not None
+    told = [process.stdout.readline() for _ in range(2)]
+    assert told[0].strip().startswith("no feedback:")
+    process.send_signal(number)
+    out, err = process.communicate(timeout=100)
+    assert (process.returncode, err) == (0, "")
+    count = 1 + sum("corrections of" in line for line in out.splitlines())
+    assert f"Interrupted after {count} design{'s' * (count > 1)}: the best is kept." in out
+    assert count < 6
+    kept = Motion.load(written)
+    assert kept.feedback is not None
+    assert kept.meta["feedback"]["runs"] == 96
+
+
+def test_before_the_first_design_there_is_nothing_to_keep(motion: Path) -> None:
+    found = stabilise(Motion.load(motion), runs=8, threads=1, stopping=lambda: True)
+    assert (found.interrupted, found.design, found.tried) == (True, None, {})
+    assert found.motion.feedback is None
 
 
 def test_a_motion_that_nothing_disturbs_is_left_alone(

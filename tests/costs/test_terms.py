@@ -16,6 +16,7 @@ from levade.costs import (
     JointLimitExcess,
     JointVelocity,
     LinearVelocity,
+    Margins,
     Orientation,
     Position,
     Posture,
@@ -139,6 +140,7 @@ ALL = [
     Orientation(roll=0.0, yaw=1.0),
     Orientation(0.0, 0.0, 0.0, at="hold"),
     GroundContact(("trunk", "hip"), "impulse"),
+    Margins(angle=0.1, speed=0.1),
 ]
 
 

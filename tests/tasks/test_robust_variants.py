@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from levade.check import Subject, numerics, other_engines, perturbed
+from levade.costs import Margins
 from levade.engines import Perturbation
 from levade.motion import record
 from levade.solve import Objective, solve
@@ -56,6 +57,21 @@ def test_criteria_of_its_own_are_those_of_the_nominal_task_as_hardware_needs_the
             assert one.tolerance == (0.05 if one.quantity == "height" else 0.1)
         else:
             assert (one.quantity, one.at) == ("speed", "end")
+
+
+def test_within_the_limits_is_the_robust_rearing_with_margins() -> None:
+    """The same motion is asked for, a tenth of a second later; of the costs, only the margins are new."""
+    variant, robust = load_task("rearing-within-limits"), load_task("rearing-robust")
+    for key in ("robot", "scene", "physics", "start", "hold", "success"):
+        assert getattr(variant, key) == getattr(robust, key), key
+    assert variant.horizon == 0.4
+    costs = dict(variant.costs)
+    margins = costs.pop("margins")
+    assert costs == robust.costs
+    assert isinstance(margins.term, Margins)
+    assert margins.term.over == "all"
+    assert variant.robust is not None
+    assert variant.robust.perturb == Perturbation()
 
 
 @pytest.mark.slow

@@ -60,11 +60,11 @@ def margins(subject: Subject, demands: Demands) -> dict[str, Margin]:
         "position": _least(
             "rad", joints, np.minimum(angle - limits.lower, limits.upper - angle).min(axis=0), demands.position
         ),
-        "speed": _least("share of limit", joints, 1 - np.abs(speed).max(axis=0) / limits.velocity, demands.speed),
+        "speed": _least("share of limit", joints, _left(np.abs(speed).max(axis=0), limits.velocity), demands.speed),
         "torque": _least(
             "share of limit",
             joints,
-            1 - np.abs(torque).max(axis=0) / limits.torque,
+            _left(np.abs(torque).max(axis=0), limits.torque),
             demands.torque,
             more={"time_at_limit": dict(zip(joints, at_limit.tolist(), strict=True))},
         ),
@@ -83,6 +83,11 @@ def margins(subject: Subject, demands: Demands) -> dict[str, Margin]:
     return found | _contacts(subject, demands)
 
 
+def _left(most: Array, limit: Array) -> Array:
+    """(joints,) what is left, as a share of the limit; nan where there is none."""
+    return np.where(np.isfinite(limit), 1 - most / limit, np.nan)
+
+
 def _least(
     unit: str,
     names: tuple[str, ...],
@@ -92,7 +97,7 @@ def _least(
     reason: str = "",
     more: Mapping[str, Any] | None = None,
 ) -> Margin:
-    """A margin of what is left (names,); infinite where there is no limit."""
+    """A margin of what is left (names,); not finite where there is no limit."""
     known = np.isfinite(left)
     values = {name: float(value) if finite else None for name, value, finite in zip(names, left, known, strict=True)}
     if not known.any():

@@ -4,18 +4,15 @@ from __future__ import annotations
 
 import functools
 import json
-import signal
-import sys
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from pathlib import Path
-from types import FrameType
 
 from rich.console import Console
 from rich.markup import escape
 
 from levade.cli.display import Display
 from levade.cli.inspecting import tell_warnings
+from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console, motion_summary
 from levade.cli.watching import Watching, watched
 from levade.run import Outcome, read_run, resume, run, unfinished
@@ -56,7 +53,7 @@ def solve_and_report(
         go = functools.partial(run, objective, seed=seed, directory=out)
     tell_warnings(console, objective.robot, objective.task.robot.name)
     with ExitStack() as stack:
-        stopping = stack.enter_context(_stop_between_generations())
+        stopping = stack.enter_context(stop_between("generation"))
         watch = None
         if watching is not None:
             page = watched(watching, console, objective, seed=seed, directory=out, interrupted=stopping)
@@ -119,22 +116,3 @@ def _tell(console: Console, outcome: Outcome) -> None:
     if solution.diverged:
         console.print(f"[yellow]{solution.diverged} trials diverged[/]: their simulations broke down, and rank last.")
     console.print(f"Written: {directory}/motion.npz, task.yaml, progress.csv, checkpoint.jsonl")
-
-
-@contextmanager
-def _stop_between_generations() -> Iterator[Callable[[], bool]]:
-    """Ctrl-C and SIGTERM end the search after the generation that is being simulated, so that nothing is half done."""
-    asked = False
-
-    def ask(number: int, frame: FrameType | None) -> None:
-        nonlocal asked
-        if asked and number == signal.SIGINT:
-            print("levade: stopping after this generation", file=sys.stderr)
-        asked = True
-
-    before = {number: signal.signal(number, ask) for number in (signal.SIGINT, signal.SIGTERM)}
-    try:
-        yield lambda: asked
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)

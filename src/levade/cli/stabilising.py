@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Sequence
 from pathlib import Path
 
 from rich.markup import escape
 
 from levade.cli.checking import changed
+from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console
 from levade.engines import Perturbation
 from levade.errors import LevadeError
@@ -28,22 +30,25 @@ def stabilise_motion(
     threads: int,
     as_json: bool,
 ) -> int:
-    """Exit status 0 if a stabiliser is written, 1 if the motion is better without."""
+    """Exit status 0 if a stabiliser is written, 1 if the motion is better without. Ctrl-C keeps the best so far."""
     motion = Motion.load(path)
     place = out if out is not None else path.with_name(f"{path.stem}-stabilised.npz")
     if not place.parent.is_dir():
         raise LevadeError(f"--out {place}: no such directory; make it, or give another")
     console = make_console()
-    found = stabilise(
-        motion,
-        rate=rate,
-        bound=bound,
-        runs=runs,
-        seed=seed,
-        perturbation=changed(Perturbation(), perturb, option="--perturb"),
-        threads=threads,
-        tell=None if as_json else lambda line: console.print(f"  {line}", style="dim"),
-    )
+    perturbation = changed(Perturbation(), perturb, option="--perturb")
+    with stop_between("design") as stopping:
+        found = stabilise(
+            motion,
+            rate=rate,
+            bound=bound,
+            runs=runs,
+            seed=seed,
+            perturbation=perturbation,
+            threads=threads,
+            tell=None if as_json else lambda line: console.print(f"  {line}", style="dim"),
+            stopping=stopping,
+        )
     if found.design is not None:
         try:
             found.motion.save(place)
@@ -56,17 +61,23 @@ def stabilise_motion(
             "motion": str(path),
             "written": None if found.design is None else str(place),
             "runs": found.runs,
-            "open_loop": found.open_loop,
-            "share": found.share,
+            "open_loop": None if math.isnan(found.open_loop) else found.open_loop,
+            "share": None if math.isnan(found.share) else found.share,
             "design": None if found.design is None else vars(found.design),
+            "interrupted": found.interrupted,
             "feedback": None if found.design is None else found.motion.meta["feedback"],
         }
         print(json.dumps(content, ensure_ascii=False))
         return 0 if found.design is not None else 1
+    tried = len(found.tried)
+    if found.interrupted:
+        when = f"after {tried} design{'s' * (tried != 1)}" if tried else "before a design was tried: nothing is written"
+        console.print(f"[yellow]Interrupted[/] {when}{': the best is kept' if found.design else ''}.")
     if found.design is None:
-        console.print(
-            f"No stabiliser is surely better than none ({found.open_loop:.1%} of {found.runs} runs): nothing is written."
-        )
+        if tried or not found.interrupted:
+            console.print(
+                f"No stabiliser is surely better than none ({found.open_loop:.1%} of {found.runs} runs): nothing is written."
+            )
         return 1
     console.print(
         f"{found.share:.1%} of {found.runs} perturbed runs succeed with it, {found.open_loop:.1%} without."

@@ -18,6 +18,7 @@ from levade.costs.contact import GroundContact
 from levade.costs.effort import Effort
 from levade.costs.evaluate import DIVERGED, HIGHEST, Term, evaluate, total
 from levade.costs.limits import JointLimitExcess, ReferenceLimitExcess, SpeedLimitExcess, TorqueLimitExcess
+from levade.costs.margins import Margins
 from levade.costs.miss import Miss
 from levade.costs.orientation import Orientation
 from levade.costs.position import Position
@@ -35,6 +36,7 @@ __all__ = [
     "JointLimitExcess",
     "JointVelocity",
     "LinearVelocity",
+    "Margins",
     "Miss",
     "Orientation",
     "Position",

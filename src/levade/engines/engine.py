@@ -9,7 +9,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import mujoco
 import numpy as np
@@ -21,6 +21,9 @@ from levade.errors import LevadeError
 from levade.robots import Robot
 from levade.scenes import Scene, compose
 from levade.trajectory import Array, JointLimits, JointReference, LegGeometry, Trajectories
+
+if TYPE_CHECKING:
+    from levade.engines.ensemble import Ensemble
 
 _OVERLAP = 0.003
 """[m]: what may overlap before the start; contacts at rest sink in by less."""
@@ -82,6 +85,10 @@ class Engine(ABC):
         feet: record the contact force on each foot. bodies: record the contact force with the scene of these.
         Simulations that break down are marked in ``diverged``; their later rows repeat the last one.
         """
+
+    @abstractmethod
+    def ensemble(self) -> Ensemble:
+        """For simulating versions of the model: robots that differ from the nominal one."""
 
     @abstractmethod
     def _settle(self, model: mujoco.MjModel, data: mujoco.MjData, posture: Array, time: float) -> State:

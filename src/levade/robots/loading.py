@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -9,6 +10,7 @@ import mujoco
 import numpy as np
 
 from levade.errors import LevadeError, did_you_mean
+from levade.robots.actuation import DCMotor
 from levade.robots.driving import SERVO, find_actuation, find_limits
 from levade.robots.findings import note, some
 from levade.robots.packages import find_package_robot
@@ -98,6 +100,8 @@ def load_robot(
     neutral = dict(zip(joints, postures["neutral"].tolist(), strict=True))
     limits = JointLimits(ranges[:, 0], ranges[:, 1], velocity, torque, _curves(joints, path, form) if linkage else {})
     chosen = find_actuation(actuation or form.actuation, draft, bare, path, form, neutral, limits, kp, kd)
+    if isinstance(chosen, DCMotor):
+        limits = replace(limits, stall_torque=chosen.stall_torque, no_load_speed=chosen.no_load_speed)
     lift_joint_limits(draft, bare, chosen)
     exclude_overlaps(draft, bare, neutral)
     if draft.urdf:

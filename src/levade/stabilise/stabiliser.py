@@ -52,7 +52,8 @@ class Design:
 class Stabilised:
     """What was found. motion: with the stabiliser; the motion as it was if none is surely better than none.
 
-    open_loop, share: successes of the runs it was chosen by, as a share, without and with. tried: design -> share.
+    open_loop, share: successes of the runs it was chosen by, as a share, without and with (nan if it was interrupted before).
+    tried: design -> share. interrupted: whether designs were left untried.
     """
 
     motion: Motion
@@ -61,6 +62,7 @@ class Stabilised:
     share: float
     runs: int
     tried: dict[Design, float]
+    interrupted: bool = False
 
 
 def stabilise(
@@ -73,11 +75,13 @@ def stabilise(
     perturbation: Perturbation | None = None,
     threads: int = 0,
     tell: Callable[[str], None] | None = None,
+    stopping: Callable[[], bool] = lambda: False,
 ) -> Stabilised:
     """Find a stabiliser for a motion.
 
     rate: [Hz], of measurements; the nearest that steps allow. bound: [rad], at most, on a correction. runs: perturbed runs
     that choose between designs, drawn from ``perturbation`` with ``seed``, apart from those of a check. tell: is told of each.
+    stopping: asked before each; once it says so, the best of those that were tried is the outcome.
     Raises LevadeError if the motion is not MuJoCo's, broke down, has no criteria, or a number makes no sense.
     """
     subject = Subject(motion, threads=threads)
@@ -111,25 +115,30 @@ def stabilise(
         successes[design] = found.success
         return _score(found)
 
-    scores: dict[Design | None, tuple[float, float]] = {None: score(None)}
-    best = Design(bound=min(Design.bound, bound))
-    if scores[None][0] == 1.0:  # nothing to gain
-        return Stabilised(motion, None, 1.0, 1.0, runs, {})
-    scores[best] = score(best)
-    for design in _designs(bound, hold=len(subject.reference.position[0]) > subject.reference.horizon_steps):
-        design = replace(best, **design)
-        if design not in scores:
-            scores[design] = score(design)
-        if scores[design] > scores[best]:
+    scores: dict[Design | None, tuple[float, float]] = {}
+    best, interrupted = Design(bound=min(Design.bound, bound)), False
+    hold = subject.reference.steps > subject.reference.horizon_steps
+    for change in (None, {}, *_designs(bound, hold=hold)):
+        design = None if change is None else replace(best, **change)
+        if design in scores:
+            continue
+        if interrupted := stopping():
+            break
+        scores[design] = score(design)
+        if design is None and scores[None][0] == 1.0:  # nothing to gain
+            break
+        if design is not None and scores[design] > scores.get(best, (0.0, -math.inf)):
             best = design
-    better = _surely_more(successes[None], successes[best])
+    better = best in scores and _surely_more(successes[None], successes[best])
+    open_loop = scores[None][0] if None in scores else math.nan
     return Stabilised(
         motion=motion.stabilised(feedback(best), runs=runs, seed=seed, design=vars(best)) if better else motion,
         design=best if better else None,
-        open_loop=scores[None][0],
-        share=scores[best][0] if better else scores[None][0],
+        open_loop=open_loop,
+        share=scores[best][0] if better else open_loop,
         runs=runs,
         tried={design: share for design, (share, _) in scores.items() if design is not None},
+        interrupted=interrupted,
     )
 
 

@@ -16,6 +16,7 @@ from levade.costs import (
     JointLimitExcess,
     JointVelocity,
     LinearVelocity,
+    Margins,
     Miss,
     Orientation,
     Position,
@@ -45,6 +46,7 @@ TERMS = {
     "reference_limits": ReferenceLimitExcess,
     "torque_limits": TorqueLimitExcess,
     "speed_limits": SpeedLimitExcess,
+    "margins": Margins,
     "ground_contact": GroundContact,
 }
 """Name in a task file -> term."""

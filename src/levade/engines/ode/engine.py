@@ -6,13 +6,14 @@ engine = OdeEngine(load_robot("hyq2max"), Scene(), Physics(engine="ode"))
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import mujoco
 import numpy as np
 
 from levade.engines.engine import Engine
 from levade.engines.ode.crew import Crew
-from levade.engines.ode.simulation import Simulation
+from levade.engines.ode.simulation import Record, Simulation
 from levade.engines.ode.skeleton import skeleton
 from levade.engines.physics import Physics
 from levade.engines.start import State
@@ -20,6 +21,9 @@ from levade.errors import LevadeError
 from levade.robots import Robot
 from levade.scenes import Scene
 from levade.trajectory import Array, JointLimits, JointReference, LegGeometry, Trajectories, rotate
+
+if TYPE_CHECKING:
+    from levade.engines.ode.ensemble import OdeEnsemble
 
 
 class OdeEngine(Engine):
@@ -47,6 +51,23 @@ class OdeEngine(Engine):
     ) -> Trajectories:
         self.steps += reference.position.shape[0] * reference.steps
         return self._stage.rollout((state.qpos, state.qvel, state.act), reference, feet=feet, bodies=bodies)
+
+    def ensemble(self) -> OdeEnsemble:
+        """For simulating versions of the model: robots that differ from the nominal one."""
+        from levade.engines.ode.ensemble import OdeEnsemble
+
+        robot = self.robot
+        return OdeEnsemble(
+            self._stage,
+            self.physics,
+            self.layout,
+            trunk=robot.trunk,
+            joint_names=robot.joint_names,
+            limits=robot.limits,
+            trunk_com_offset=robot.trunk_com_offset,
+            legs=robot.leg_geometry,
+            threads=self.threads,
+        )
 
     def _settle(self, model: mujoco.MjModel, data: mujoco.MjData, posture: Array, time: float) -> State:
         steps = round(time / self.physics.timestep)
@@ -87,8 +108,8 @@ class OdeStage:
         self._crew = Crew(xml, assets, physics, threads)
         self._physics, self._limits, self._offset = physics, limits, trunk_com_offset
         self._to, self._from = _order(self._crew.simulation, joints)
-        self._model = self._crew.simulation.skeleton.model
-        self._feet = [self._model.geom(foot).id for foot in feet]
+        self.model = self._crew.simulation.skeleton.model
+        self._feet = [self.model.geom(foot).id for foot in feet]
 
     def rollout(
         self,
@@ -99,13 +120,23 @@ class OdeStage:
         bodies: Sequence[str] = (),
     ) -> Trajectories:
         """As `Engine.rollout`; start: qpos, qvel, act of the model."""
-        record = self._crew.run(
-            start,
-            reference.position[..., self._from],
-            reference.velocity[..., self._from],
-            geoms=self._feet if feet else [],
-            bodies=[self._model.body(body).id for body in bodies],
-        )
+        asked = self.asked(reference.position, reference.velocity, feet=feet, bodies=bodies)
+        record = self._crew.run(start, asked.pop("position"), asked.pop("velocity"), **asked)
+        return self.trajectories(record, reference, feet=feet, bodies=bodies)
+
+    def asked(self, position: Array, velocity: Array, *, feet: bool, bodies: Sequence[str]) -> dict[str, Any]:
+        """What `Simulation.run` takes: desired joint motion (n, steps, joints), and whose forces to record."""
+        return {
+            "position": position[..., self._from],
+            "velocity": velocity[..., self._from],
+            "geoms": self._feet if feet else [],
+            "bodies": [self.model.body(body).id for body in bodies],
+        }
+
+    def trajectories(
+        self, record: Record, reference: JointReference, *, feet: bool, bodies: Sequence[str]
+    ) -> Trajectories:
+        """What was simulated, in the robot's order of joints."""
         return Trajectories(
             joint_position=record.angle[..., self._to],
             joint_velocity=record.speed[..., self._to],

@@ -1,0 +1,75 @@
+"""What a motion leaves of the joints' limits at its tightest instant, as `levade check` measures it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from levade.costs.rows import Over, rows_over
+from levade.errors import LevadeError
+from levade.trajectory import Array, Trajectories
+
+
+@dataclass(frozen=True)
+class Margins:
+    """Squared shortfall of the margins that are wanted, each as a multiple of itself, over joints and kinds of limit [-].
+
+    A joint that just reaches a limit costs 1; one that leaves the margin costs nothing. It is the extreme over time that
+    counts, not how long: the excess of an integral that is weighed against other costs never quite goes.
+
+    angle: [rad] to the ends of the range. speed: share of the speed limit. torque_speed: share of the stall torque to the
+        actuator's line |torque| / stall_torque + |speed| / no_load_speed = 1 while driving; a drive is beyond it where its
+        torque lags behind its speed. midplane: [m], how far each foot stays on its own side of the trunk's middle plane: legs
+        that do not cross do not collide. None for what does not count; joints without a limit never miss its margin.
+    over: the motion proper, or the hold as well.
+    """
+
+    unit: ClassVar[str] = "-"
+
+    angle: float | None = None
+    speed: float | None = None
+    torque_speed: float | None = None
+    midplane: float | None = None
+    over: Over = "all"
+
+    def __post_init__(self) -> None:
+        wanted = {name: getattr(self, name) for name in ("angle", "speed", "torque_speed", "midplane")}
+        if all(value is None for value in wanted.values()):
+            raise LevadeError(f"margins: none is wanted; give at least one of {', '.join(wanted)}")
+        for name, value in wanted.items():
+            if value is not None and not (math.isfinite(value) and value > 0):
+                raise LevadeError(
+                    f"margins.{name}: {value} should be a positive margin; leave it out if none is wanted"
+                )
+
+    def __call__(self, trajectories: Trajectories) -> Array:
+        """(n,) [-]."""
+        rows, limits = rows_over(trajectories, self.over), trajectories.limits
+        missed = []
+        if self.angle is not None:
+            at = trajectories.joint_position[:, rows]
+            left = np.minimum(at.min(axis=1) - limits.lower, limits.upper - at.max(axis=1))
+            missed.append(_shortfall(left, self.angle))
+        speed = np.abs(trajectories.joint_velocity[:, rows])
+        if self.speed is not None:
+            missed.append(_shortfall(1 - speed.max(axis=1) / limits.velocity, self.speed))
+        if self.torque_speed is not None and limits.stall_torque is not None and limits.no_load_speed is not None:
+            torque = trajectories.joint_torque[:, rows]
+            used = np.abs(torque) / limits.stall_torque + speed / limits.no_load_speed
+            used = np.where(torque * trajectories.joint_velocity[:, rows] > 0, used, 0.0)
+            missed.append(_shortfall(1 - used.max(axis=1), self.torque_speed))
+        if self.midplane is not None:
+            outward = [
+                leg.foot_position(trajectories.joint_position[:, rows])[..., 1] * (1.0 if leg.side == "left" else -1.0)
+                for leg in trajectories.legs
+            ]
+            missed += [_shortfall(side.min(axis=1, keepdims=True), self.midplane) for side in outward]
+        return np.ascontiguousarray(np.concatenate(missed, axis=1)).sum(axis=1) if missed else np.zeros(trajectories.n)
+
+
+def _shortfall(left: Array, wanted: float) -> Array:
+    """(n, joints) squares."""
+    return np.square(np.maximum(wanted - left, 0.0) / wanted)

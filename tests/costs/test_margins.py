@@ -1,0 +1,84 @@
+"""The margins that a motion leaves, joint by joint and instant by instant."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from levade.costs import Margins
+from levade.errors import LevadeError
+from levade.robots import load_robot
+from levade.trajectory import JointLimits
+
+LIMITS = JointLimits(
+    lower=np.full(2, -1.0),
+    upper=np.full(2, 1.0),
+    velocity=np.array([10.0, np.inf]),
+    torque=np.full(2, 100.0),
+    stall_torque=np.full(2, 200.0),
+    no_load_speed=np.full(2, 20.0),
+)
+
+
+@pytest.fixture
+def at_rest(make):
+    """Two joints at rest in the middle of their ranges; make: from tests/costs/conftest.py."""
+    still = np.zeros((2, 25, 2))
+    return make(2, joint_position=still, joint_velocity=still, joint_torque=still, limits=LIMITS, legs=())
+
+
+def test_what_is_left_counts_as_a_multiple_of_what_is_wanted(at_rest):
+    """At rest nothing is missed; at the limit each joint misses 1, beyond by the margin again 4."""
+    assert Margins(angle=0.1, speed=0.05, torque_speed=0.05)(at_rest).tolist() == [0, 0]
+    angle, speed = np.zeros((2, 25, 2)), np.zeros((2, 25, 2))
+    angle[0, 7, 1], angle[1, 9, 0] = 1.0, -1.1
+    speed[0, 24, 0], speed[1, 3, 1] = -10.25, 1e6  # the second joint has no speed limit
+    moved = dataclasses.replace(at_rest, joint_position=angle, joint_velocity=speed)
+    assert Margins(angle=0.1)(moved) == pytest.approx([1.0, 4.0])
+    assert Margins(speed=0.05)(moved) == pytest.approx([1.5**2, 0.0])
+    assert Margins(speed=0.05, over="horizon")(moved) == pytest.approx([0.0, 0.0])  # row 24 is in the hold
+    assert Margins(angle=0.1, speed=0.05)(moved) == pytest.approx([1.0 + 1.5**2, 4.0])
+
+
+def test_the_line_counts_while_driving_only(at_rest):
+    torque, speed = np.zeros((2, 25, 2)), np.zeros((2, 25, 2))
+    torque[0, 4, 0], speed[0, 4, 0] = 100.0, 12.0  # half the stall torque, 0.6 of the no-load speed
+    torque[1, 4, 0], speed[1, 4, 0] = 100.0, -12.0
+    moved = dataclasses.replace(at_rest, joint_torque=torque, joint_velocity=speed)
+    assert Margins(torque_speed=0.1)(moved) == pytest.approx([4.0, 0.0])
+    without = dataclasses.replace(LIMITS, stall_torque=None, no_load_speed=None)
+    assert (Margins(torque_speed=0.1)(dataclasses.replace(moved, limits=without)) == 0).all()
+
+
+def test_feet_keep_to_their_side(make):
+    robot = load_robot("hyq2max")
+    neutral = np.broadcast_to(robot.posture("neutral"), (1, 25, 12)).copy()
+    standing = make(1, joint_position=neutral, limits=robot.limits, legs=robot.leg_geometry)
+    aside = [abs(leg.foot_position(neutral)[0, 0, 1]) for leg in robot.leg_geometry]
+    assert Margins(midplane=0.9 * min(aside))(standing).tolist() == [0]
+    wanted = min(aside) + 0.1
+    assert Margins(midplane=wanted)(standing) == pytest.approx(sum(((wanted - a) / wanted) ** 2 for a in aside))
+
+
+def test_limits_come_with_the_robots_line():
+    limits = load_robot("hyq2max").limits
+    assert limits.stall_torque is not None
+    assert limits.no_load_speed is not None
+    assert limits.stall_torque.tolist() == [192, 392, 400] * 4
+    assert limits.no_load_speed.tolist() == [35, 17, 17] * 4
+    assert load_robot("hyq2max", actuation="ideal").limits.stall_torque is None
+
+
+@pytest.mark.parametrize(
+    ("wanted", "message"),
+    [
+        ({}, "margins: none is wanted; give at least one of angle, speed, torque_speed, midplane"),
+        ({"speed": 0.0}, "margins.speed: 0.0 should be a positive margin; leave it out if none is wanted"),
+        ({"angle": float("nan")}, "margins.angle: nan should be a positive margin"),
+    ],
+)
+def test_margins_that_make_no_sense_are_refused(wanted, message):
+    with pytest.raises(LevadeError, match=message):
+        Margins(**wanted)
