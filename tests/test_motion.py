@@ -8,6 +8,7 @@ import subprocess
 import sys
 import zipfile
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import mujoco
@@ -97,6 +98,17 @@ def test_a_replay_without_levade_is_the_same_to_the_bit(motion: Motion, file: Pa
     assert end["pitch"] + 1.0472 == pytest.approx(motion.meta["errors"]["pitch"], abs=1e-9)
     assert end["height"] - 0.9 == pytest.approx(motion.meta["errors"]["height"], abs=1e-9)
     np.testing.assert_allclose(end["recorded"], end["com"], atol=1e-9)
+
+
+def test_what_it_says_of_itself_is_of_a_fresh_simulation(objective: Objective, solution: Solution) -> None:
+    """Whatever the search believed: nothing that it took for its own speed is passed on."""
+    best = solution.best
+    believed = replace(best, success=True, errors=dict.fromkeys(best.errors, 0.0), terms=dict.fromkeys(best.terms, 0.0))
+    motion = record(objective, replace(solution, best=believed), seed=1)
+    fresh = Objective(load_task("rearing", changes=HERE)).evaluate(best.weights[None])
+    assert motion.meta["success"] is bool(fresh.success[0])
+    assert motion.meta["errors"] == {name: float(off[0]) for name, off in fresh.errors.items()}
+    assert motion.meta["cost_terms"] == {name: float(term[0]) for name, term in fresh.terms.items()}
 
 
 @pytest.mark.slow

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 from pathlib import Path
 
@@ -23,7 +24,8 @@ SMALL = [
 ]
 FIXED = "robust={samples: 4, measure: cvar, racing: {first: 1, keep: 0.5}}"
 REDRAWN = "robust={samples: 3, measure: mean, redraw: generation, required: 0.5}"
-BUDGET = {FIXED: 90, REDRAWN: 120}
+VALIDATED = "robust={samples: 2, measure: mean, redraw: generation, validation: 5}"
+BUDGET = {FIXED: 90, REDRAWN: 120, VALIDATED: 120}
 
 
 def objective(robust: str = FIXED, *more: str, threads: int = 1) -> Objective:
@@ -136,6 +138,22 @@ def test_models_are_redrawn_when_asked_and_never_those_of_a_check() -> None:
         assert not np.isclose(kept.models(0, 0).delay[:, None], checked.delay).any()
 
 
+def test_the_best_of_a_generation_is_compared_on_a_sample_of_its_own_size() -> None:
+    made = objective(VALIDATED)
+    assert made.sampler is not None
+    assert [len(made.sampler.models(0, generation)) for generation in (0, 1, 2)] == [5, 2, 2]
+    seen = generations(made)
+    spent = [b.trials - a.trials for a, b in itertools.pairwise(seen[1:])]
+    assert len(spent) >= 2
+    for generation, trials in zip(seen[2:], spent, strict=True):
+        validated = generation.record.validated
+        assert validated is not None
+        assert validated.samples is not None
+        assert validated.samples.known.shape == (1, 5)
+        verified = generation.record.evaluation.verified + validated.verified
+        assert trials == 6 * (1 + 2) + 1 + 5 + verified
+
+
 def test_few_samples_cover_every_range_evenly() -> None:
     ensemble = objective().engine.ensemble()  # type: ignore[union-attr]
     sample = Perturbation(friction=(0.0 + 0.1, 1.1)).spread(ensemble.model, ensemble.joints, n=10, seed=1)
@@ -180,6 +198,8 @@ def test_tasks_keep_what_they_ask_for(tmp_path: Path) -> None:
     [
         ("{samples: 0}", r"robust.samples: 0 should be 1 to 1000"),
         ("{measure: wurst}", r"robust.measure"),
+        ("{validation: 9}", r"robust.validation: with redraw: never"),
+        ("{redraw: generation, validation: 0}", r"robust.validation: 0 should be 1 to 1000"),
         ("{tail: 0}", r"robust.tail: 0.0 should be a share"),
         ("{samples: 2, racing: {first: 2}}", r"robust.racing.first: 2 of 2 samples leaves nothing to race for"),
         ("{racing: {first: 1, keep: 0}}", r"robust.racing.keep: 0.0 should be a share"),

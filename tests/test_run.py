@@ -100,7 +100,7 @@ def test_an_interrupted_run_goes_on_to_the_same_end(
 def test_a_run_of_any_optimizer_goes_on_to_the_same_end(tmp_path: Path, optimizer: str) -> None:
     """Through a stage that changes the step, with aimed candidates where the optimizer takes them."""
     stages = "stages=[{name: first, trials: 24}, {name: second, step: 0.5}]"
-    changes = [*CHANGES, f"search.optimizer={optimizer}", "search.aim=true", stages]
+    changes = [*CHANGES, f"search.optimizer={optimizer}", "search.aim=true", "search.aimed=3", stages]
     objective = Objective(load_task("rearing", changes=changes), threads=1)
     whole = run(objective, seed=3, directory=tmp_path / "whole")
     run(objective, seed=3, directory=tmp_path / "part", observe=stop_after(5))

@@ -21,9 +21,11 @@ import wire
 from levade.bench import Result
 from levade.bench.case import made_with
 from levade.errors import LevadeError
+from levade.policies import Policy
 from levade.policies.groups import expansion
 from levade.solve import Objective
 from levade.tasks import Task, load_task, task_to_yaml
+from levade.tasks.document import task_to_dict
 
 HERE = Path(__file__).resolve().parent
 
@@ -73,8 +75,12 @@ class Job:
 
     @property
     def checksum(self) -> int:
-        settings = json.dumps(dataclasses.asdict(PEERS[self.peer]), sort_keys=True)
-        return zlib.crc32(f"{task_to_yaml(self.task)}{settings}{self.budget}".encode())
+        """Of everything that decides the result but the seed and the versions: not of how levade itself would search."""
+        given = {
+            key: value for key, value in task_to_dict(self.task).items() if key not in ("search", "stages", "robust")
+        }
+        settings = dataclasses.asdict(PEERS[self.peer])
+        return zlib.crc32(f"{json.dumps([given, settings], sort_keys=True)}{self.budget}".encode())
 
 
 def job_of(task: str, robot: str | None, peer: str, seed: int, arguments: argparse.Namespace, python: str) -> Job:
@@ -208,7 +214,9 @@ def _check_same(job: Job, command: list[str], case: Path) -> None:
 
 
 def export(objective: Objective, case: Path) -> None:
-    """What anyone needs to simulate the task: model, start, kernels, which joint follows which, and the task itself."""
+    """What anyone needs to simulate the task: model, start, kernels, which joint follows which, where references come from
+    and go to, and the task itself.
+    """
     (case / "assets").mkdir(parents=True, exist_ok=True)
     engine, policy, state = objective.engine, objective.policy, objective.state
     (case / "model.xml").write_text(engine.xml)
@@ -218,7 +226,19 @@ def export(objective: Objective, case: Path) -> None:
     index, sign = expansion(policy.groups)
     phi, phi_rate = policy.basis
     arrays = {"mean": objective.initial_weights, "phi": phi, "phi_rate": phi_rate, "index": index, "sign": sign}
+    for name, value in zip(("factor", "added", "factor_rate", "added_rate"), _ends(policy), strict=True):
+        arrays[name] = value
     np.savez(case / "arrays.npz", qpos=state.qpos, qvel=state.qvel, act=state.act, **arrays)
+
+
+def _ends(policy: Policy) -> tuple[np.ndarray, ...]:
+    """What `Ends.blend` says of each row up to the horizon, its rates by time; all of the kernels where there are none."""
+    rows, horizon = policy.horizon_steps, policy.horizon_steps * policy.timestep
+    if policy.ends is None:
+        nothing = np.zeros((rows, 1))
+        return np.ones((rows, 1)), nothing, nothing, nothing
+    factor, added, factor_rate, added_rate = policy.ends.blend(np.arange(1, rows + 1) / rows)
+    return factor, added, factor_rate / horizon, added_rate / horizon
 
 
 def _result(

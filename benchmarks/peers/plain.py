@@ -47,6 +47,7 @@ class Problem:
         arrays = np.load(case / "arrays.npz")
         self.mean, self.phi, self.phi_rate = arrays["mean"], arrays["phi"], arrays["phi_rate"]
         self.index, self.sign = arrays["index"], arrays["sign"]
+        self.ends = tuple(arrays[name] for name in ("factor", "added", "factor_rate", "added_rate"))
         self.rows, self.hold = len(self.phi), self.task.hold_steps
         start = mujoco.MjData(model)
         start.qpos[:], start.qvel[:], start.act[:] = arrays["qpos"], arrays["qvel"], arrays["act"]
@@ -70,6 +71,11 @@ class Problem:
         velocity = np.zeros_like(position)
         position[:, : self.rows] = np.einsum("rk,njk->nrj", self.phi, w)
         velocity[:, : self.rows] = np.einsum("rk,njk->nrj", self.phi_rate, w)
+        factor, added, factor_rate, added_rate = self.ends
+        velocity[:, : self.rows] = (
+            factor * velocity[:, : self.rows] + factor_rate * position[:, : self.rows] + added_rate
+        )
+        position[:, : self.rows] = factor * position[:, : self.rows] + added
         position[:, self.rows :] = position[:, self.rows - 1 : self.rows]
         control = np.zeros((n, steps, self.model.nu))
         control[..., self.ctrl] = position
@@ -88,6 +94,7 @@ class Problem:
             trunk_com_offset=self.robot.trunk_com_offset,
             reference=JointReference(position, velocity, self.task.physics.timestep, self.rows),
             limits=self.robot.limits,
+            legs=self.robot.leg_geometry,
             timestep=self.task.physics.timestep,
             horizon_steps=self.rows,
             diverged=~(np.isfinite(state).all(axis=(1, 2)) & (np.abs(state) < 1e10).all(axis=(1, 2))),

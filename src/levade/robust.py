@@ -91,7 +91,8 @@ class Sampler:
         key = (seed, 0 if self._robust.redraw == "never" else generation)
         if self._drawn is None or self._drawn[0] != key:
             ensemble = self._ensemble
-            perturb, n = self._robust.perturb, self._robust.samples
+            robust = self._robust
+            perturb, n = robust.perturb, robust.samples if key[1] else robust.fixed
             sample = perturb.spread(ensemble.model, ensemble.joints, n=n, seed=(*key, _TAG))
             self._drawn = (key, ensemble.vary(self._start, sample))
         return self._drawn[1]

@@ -35,6 +35,9 @@ from levade.tasks import Change, PolicyChoice, Stage, Task, looks_at_hold
 from levade.tasks.reach import check_reach
 from levade.trajectory import Array, Trajectories
 
+_AIM_TAG = 1_095_322_957
+"""Keeps the random numbers of aimed candidates apart from the optimizer's."""
+
 
 @dataclass(frozen=True)
 class Evaluation:
@@ -90,6 +93,14 @@ class Objective:
         if choice.initial == "hold":
             return self.policy.hold(self.state.joint_reference)
         return self.policy.interpolate(self.state.joint_position, _goal(choice, self.robot))
+
+    @cached_property
+    def factor(self) -> Array:
+        """(d, m), square root of the initial covariance of the search, up to its step."""
+        search, policy = self.task.search, self.policy
+        if search.smoothness > 0 or search.modes is not None:
+            return smoothness_factor(policy.kernels, search.smoothness, policy.independent_joints, modes=search.modes)
+        return np.eye(policy.size)
 
     def rollout(self, weights: Array, *, hold_steps: int | None = None, feet: bool = False) -> Trajectories:
         """Simulate trials (n, d), through ``hold_steps`` of the hold; through all of it if None."""
@@ -315,7 +326,8 @@ class Trial:
 class Generation:
     """The state of the search after a generation.
 
-    cost: (population,) as told to the optimizer. best: over all generations and stages. trials: spent so far.
+    cost: (candidates,), of the optimizer's own, then of those aimed beside them. best: over all generations and stages.
+    trials: spent so far.
     trials_to_success: trials spent when one first met every criterion. replayed: whether it came from a record.
     weights: of the best trial's cost. changes: of the weights, that hold or are still to come.
     """
@@ -415,15 +427,17 @@ def solve(
                 _weigh_anew(search, objective, weights)
                 if aim is not None:
                     aim.forget()
-            candidates = optimizer.ask()
+            own = optimizer.ask()
+            aimed = _aimed(aim, search, objective, optimizer)
+            candidates = np.concatenate([own, aimed])
             stage_weights = {**weights, **_stage_weights(task, stage, number)}
             record, replayed = _evaluate(objective, candidates, search, stage_weights, earlier)
             cost = objective.cost(record.evaluation, stage_weights)
-            optimizer.tell(cost)
-            if aim is not None:
+            optimizer.tell(cost[: len(own)])
+            if aim is not None and injectable is not None:
                 aim.tell(candidates, _missed(task, record.evaluation), cost)
-                proposal = aim.propose()
-                if proposal is not None and injectable is not None:
+                proposal = _worth_telling(aimed, cost) if task.search.aimed else aim.propose()
+                if proposal is not None:
                     injectable.inject(proposal)
 
             search.generations += 1
@@ -500,22 +514,37 @@ def solve(
 def make_optimizer(objective: Objective, seed: int, *, attempt: int = 0) -> Optimizer:
     """The task's optimizer, at the objective's initial weights; each attempt draws other random numbers."""
     search = objective.task.search
-    policy = objective.policy
-    factor = None
-    if search.smoothness > 0 or search.modes is not None:
-        factor = smoothness_factor(policy.kernels, search.smoothness, policy.independent_joints, modes=search.modes)
     own: dict[str, Any] = dict(search.settings)
     if "step_adaptation" in settings(search.optimizer):
         own = {"step_adaptation": search.step_adaptation, **own}
     with _at("search.settings."):
         return OPTIMIZERS[search.optimizer](
             objective.initial_weights,
-            factor=factor,
+            factor=objective.factor,
             step=search.step,
             seed=(seed, attempt) if attempt else seed,
             population=search.population,
             **own,
         )
+
+
+def _aimed(aim: Aim | None, search: _Search, objective: Objective, optimizer: Optimizer) -> Array:
+    """(count, d), candidates beside the optimizer's own, within the budget; none where there is nothing to aim by."""
+    task, count = objective.task, objective.task.search.aimed
+    if task.robust is None or not search.robust:
+        count = min(count, task.search.trials - search.trials - optimizer.population)
+    if aim is None or count < 1:
+        return np.empty((0, objective.policy.size))
+    generator = np.random.default_rng((search.seed, search.generations, _AIM_TAG))
+    return aim.around(count, factor=objective.factor, step=optimizer.step, generator=generator)
+
+
+def _worth_telling(aimed: Array, cost: Array) -> Array | None:
+    """The best of the aimed candidates, the last of those that cost so much, if it is among the best quarter of the others."""
+    if not len(aimed):
+        return None
+    own, theirs = cost[: -len(aimed)], cost[-len(aimed) :]
+    return aimed[np.argmin(theirs)] if theirs.min() < np.sort(own)[max(1, len(own) // 4)] else None
 
 
 def _weights(task: Task, generation: int) -> dict[str, float]:
@@ -568,9 +597,9 @@ def _ends(stage: Stage, search: _Search, evaluation: Evaluation) -> bool:
 def _most(search: _Search, task: Task, optimizer: Optimizer) -> int:
     """Trials that a generation may take; one that has to be looked at more closely takes a few more."""
     if task.robust is None or not search.robust:
-        return optimizer.population
-    validated = 1 + task.robust.samples if task.robust.redraw == "generation" else 0
-    return task.robust.rollouts(optimizer.population) + validated
+        return optimizer.population  # aimed ones beside them are no more than the budget has left
+    validated = 1 + task.robust.fixed if task.robust.redraw == "generation" else 0
+    return task.robust.rollouts(optimizer.population + task.search.aimed) + validated
 
 
 def _try(

@@ -51,6 +51,18 @@ def test_references_at_half_the_step_are_the_policys_own(moving: Motion) -> None
     assert np.allclose(fine.position[0, :300, 1], expected, atol=1e-9)
 
 
+def test_a_horizon_of_no_whole_number_of_steps_stays_as_long_as_the_file() -> None:
+    """300.9 ms are 150 steps of 2 ms, and would be 301 of 1 ms."""
+    changes = ["search.population=4", "search.trials=4", "search.step=0.1", "horizon=0.3009", "hold=0.0509"]
+    objective = Objective(load_task("rearing", changes=changes), threads=1)
+    subject = Subject(record(objective, solve(objective, seed=0), seed=0), threads=1)
+    fine, source = subject.reference_at(2)
+    assert source == "policy"
+    assert (fine.steps, fine.horizon_steps) == (2 * subject.reference.steps, 2 * subject.reference.horizon_steps)
+    assert np.array_equal(fine.position[:, 1::2], subject.reference.position)
+    assert {"half time step", "quarter time step"} <= set(numerics(subject))
+
+
 def test_without_the_robots_description_cubics_come_as_near(moving: Motion, changed: Callable[..., Motion]) -> None:
     subject = Subject(moving)
     exact, ours = subject.reference_at(4)[0], interpolated(subject.reference, 4)

@@ -81,6 +81,18 @@ def test_threads_order_and_size_of_the_batch_do_not_matter(
             np.testing.assert_array_equal(getattr(out, name), expected[name][rows], err_msg=f"{label}: {name}")
 
 
+def test_another_state_is_another_start(
+    engine: MujocoEngine, state: State, wave: Callable[..., JointReference]
+) -> None:
+    """An engine keeps what it made of the latest state."""
+    reference = wave(state.joint_reference, n=2)
+    expected = copied(engine.rollout(state, reference))
+    higher = dataclasses.replace(state, qpos=state.qpos + np.eye(state.qpos.size)[2])
+    off = engine.rollout(higher, reference).trunk_position[:, 0, 2] - expected["trunk_position"][:, 0, 2]
+    np.testing.assert_allclose(off, 1.0, atol=1e-3)
+    np.testing.assert_array_equal(engine.rollout(state, reference).trunk_position, expected["trunk_position"])
+
+
 def test_trunk_velocities_are_the_rates_of_its_pose(
     engine: MujocoEngine, state: State, wave: Callable[..., JointReference]
 ) -> None:

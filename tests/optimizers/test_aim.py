@@ -68,3 +68,43 @@ def test_a_change_of_what_is_looked_at_starts_anew() -> None:
     aim = told(np.random.default_rng(0).standard_normal((20, 3)), np.ones(3))
     aim.tell(np.zeros((2, 20)), np.zeros((2, 5)), np.zeros(2))
     assert aim.propose() is None
+
+
+def around(aim: Aim, *, count: int = 8, size: int = 20, step: float = 0.1, seed: int = 0) -> np.ndarray:
+    factor = np.random.default_rng(7).standard_normal((size, 10))
+    factor = np.linalg.qr(factor)[0] if size > 10 else np.eye(size)
+    return aim.around(count, factor=factor, step=step, generator=np.random.default_rng(seed))
+
+
+def test_candidates_around_the_best_differ_and_are_all_right_where_errors_are_linear() -> None:
+    generator = np.random.default_rng(3)
+    factor = np.linalg.qr(generator.standard_normal((20, 10)))[0]
+    slope = generator.standard_normal((20, 3))
+    z = 0.5 * generator.standard_normal((80, 10))
+    errors = z @ factor.T @ slope + np.array([2.0, -1.0, 1.5])
+    aim = Aim()
+    aim.tell(z @ factor.T, errors, (errors**2).sum(axis=1))
+    found = aim.around(8, factor=factor, step=0.5, generator=np.random.default_rng(0))
+    missed = found @ slope + np.array([2.0, -1.0, 1.5])
+    assert found.shape == (8, 20)
+    assert np.abs(missed).max() < 0.5  # within the tolerance, all of them
+    assert len({row.tobytes() for row in found}) == 8
+    assert np.linalg.norm(found[1:] - found[0], axis=1).min() > 0.01
+    np.testing.assert_allclose(found, found @ factor @ factor.T, atol=1e-12)  # nowhere that the search does not go
+
+
+def test_candidates_around_are_none_without_enough_trials_and_repeat_with_the_same_random_numbers() -> None:
+    slope = np.random.default_rng(0).standard_normal((20, 3))
+    assert around(Aim()).shape == (0, 20)
+    assert around(told(slope, np.ones(3), n=4)).shape == (0, 20)
+    one, other = (around(told(slope, np.ones(3))) for _ in range(2))
+    np.testing.assert_array_equal(one, other)
+
+
+def test_candidates_around_a_best_that_misses_nothing_are_none_of_them_the_best() -> None:
+    generator = np.random.default_rng(5)
+    candidates, slope = generator.standard_normal((60, 12)), 1e-3 * generator.standard_normal((12, 2))
+    aim, cost = Aim(), (candidates**2).sum(axis=1)
+    aim.tell(candidates, candidates @ slope, cost)
+    found = aim.around(4, factor=np.eye(12), step=0.1, generator=generator)
+    assert np.abs(found - candidates[np.argmin(cost)]).max(axis=1).min() > 0

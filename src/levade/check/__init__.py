@@ -3,6 +3,7 @@
     certificate = check(Motion.load("motion.npz"), runs=500, seed=0)
     certificate.passed
     certificate.perturbed.share, certificate.perturbed.low      # of 500 perturbed runs, and its 95 % interval
+    certificate.open_loop                                       # the same without the stabiliser, if the motion has one
     certificate.margins["torque"].failed                        # joints that go beyond their limits
 
 What each part does is in docs/check.md.
@@ -66,13 +67,18 @@ def check(
         raise LevadeError(f"check: {runs} runs; 1 or more, 500 is usual")
     if not 1 <= divide <= 64:
         raise LevadeError(f"check: the time step divided by {divide}; 1 to 64, 2 is usual")
-    demands = demands or Demands()
+    demands, feedback = demands or Demands(), motion.feedback
+    ranges = perturbation or Perturbation()
+    without = perturbed(subject, ranges, runs=runs, seed=seed, divide=divide)
     return Certificate(
         task=subject.task.name,
         robot=str(motion.meta["robot"]),
         criteria=subject.task.name if criteria is None else criteria.name,
         demands=demands,
-        perturbed=perturbed(subject, perturbation or Perturbation(), runs=runs, seed=seed, divide=divide),
+        perturbed=without
+        if feedback is None
+        else perturbed(subject, ranges, runs=runs, seed=seed, divide=divide, feedback=feedback),
+        open_loop=None if feedback is None else without,
         numerics=numerics(subject),
         engines=other_engines(subject),
         margins=margins(subject, demands),

@@ -15,7 +15,10 @@ from levade.check.perturbed import Perturbed
 
 @dataclass(frozen=True)
 class Certificate:
-    """What a check found. criteria: whose success criteria were used, the name of a task."""
+    """What a check found. criteria: whose success criteria were used, the name of a task.
+
+    perturbed, numerics: with the stabiliser, if the motion has one. open_loop: the perturbed runs without it, else None.
+    """
 
     task: str
     robot: str
@@ -25,6 +28,7 @@ class Certificate:
     numerics: Mapping[str, Numeric]
     engines: Mapping[str, Replayed]
     margins: Mapping[str, Margin]
+    open_loop: Perturbed | None = None
 
     @property
     def verdicts(self) -> tuple[Verdict, ...]:
@@ -44,6 +48,7 @@ class Certificate:
             "criteria": self.criteria,
             "failed": [verdict.name for verdict in self.verdicts if verdict.passed is False],
             "perturbed": self.perturbed.to_json(),
+            "open_loop": None if self.open_loop is None else self.open_loop.to_json(),
             "numerics": {name: one.to_json() for name, one in self.numerics.items()},
             "engines": {name: one.to_json() for name, one in self.engines.items()},
             "margins": {name: one.to_json() for name, one in self.margins.items()},
@@ -51,11 +56,12 @@ class Certificate:
         }
 
     def _perturbed(self) -> Verdict:
-        found, share = self.perturbed, self.demands.share
+        found, share, without = self.perturbed, self.demands.share, self.open_loop
+        beside = "" if without is None else f"; without the stabiliser {without.share:.1%}"
         return Verdict(
             "perturbed",
             None if share is None else found.share >= share,
-            f"{found.successes} of {found.runs} runs ({found.share:.1%}; {found.low:.1%} to {found.high:.1%})",
+            f"{found.successes} of {found.runs} runs ({found.share:.1%}; {found.low:.1%} to {found.high:.1%}){beside}",
             "" if share is None else f"{share:.0%}",
             "" if share is not None else "not demanded",
         )
@@ -81,6 +87,7 @@ class Certificate:
                 found.append(Verdict(f"engine {name}", None, "", "success", one.reason))
                 continue
             moved = f"; {100 * one.apart['position_at_horizon']:.2g} cm off at the horizon"
+            moved += "; without the stabiliser" * (self.open_loop is not None)
             found.append(
                 Verdict(
                     f"engine {name}",

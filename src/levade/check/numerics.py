@@ -76,7 +76,8 @@ def simulate_at(subject: Subject, variant: Variant) -> tuple[Trajectories, str]:
     reference, source = subject.reference_at(variant.parts)
     ensemble = subject.ensemble(varied(subject.model_copy(), variant))
     nominal = Perturbation().nominal(ensemble.model, ensemble.joints)
-    return ensemble.rollout(ensemble.vary(subject.start, nominal), reference), source
+    variations = ensemble.vary(subject.start, nominal)
+    return ensemble.rollout(variations, reference, feedback=subject.motion.feedback), source
 
 
 def varied(model: mujoco.MjModel, variant: Variant) -> mujoco.MjModel:

@@ -14,6 +14,7 @@ from levade.check.subject import Subject
 from levade.costs import DIVERGED, errors, success
 from levade.engines import Ensemble, Perturbation, Sample
 from levade.engines.perturbation import PARAMETERS, joined, labels
+from levade.feedback import Feedback, SensorErrors
 from levade.trajectory import Array, JointReference
 
 _AT_ONCE = 64
@@ -87,10 +88,18 @@ class Perturbed:
         }
 
 
-def perturbed(subject: Subject, perturbation: Perturbation, *, runs: int, seed: int, divide: int = 1) -> Perturbed:
+def perturbed(
+    subject: Subject,
+    perturbation: Perturbation,
+    *,
+    runs: int,
+    seed: int,
+    divide: int = 1,
+    feedback: Feedback | None = None,
+) -> Perturbed:
     """Simulate a motion on ``runs`` perturbed versions of its model, and once more with each parameter alone.
 
-    divide: the motion's time step by so much.
+    divide: the motion's time step by so much. feedback: the stabiliser, whose sensors err (`levade.feedback.SensorErrors`).
     """
     model = subject.model_copy()
     model.opt.timestep /= divide
@@ -104,7 +113,7 @@ def perturbed(subject: Subject, perturbation: Perturbation, *, runs: int, seed: 
     corners = {
         name: perturbation.corners(ensemble.model, ensemble.joints, name, n=_CORNERS, seed=seed) for name in names
     }
-    whole = _judge(subject, ensemble, reference, joined([sample, *corners.values()]))
+    whole = judge(subject, ensemble, reference, joined([sample, *corners.values()]), feedback=feedback, seed=seed)
     drawn = whole.part(0, runs)
     alone, first = {}, runs
     for name, corner in corners.items():
@@ -143,7 +152,7 @@ def perturbed(subject: Subject, perturbation: Perturbation, *, runs: int, seed: 
 
 
 @dataclass(frozen=True, eq=False)
-class _Judged:
+class Judged:
     """n runs. miss: (n,) the largest error, in tolerances."""
 
     errors: Mapping[str, Array]
@@ -151,17 +160,31 @@ class _Judged:
     diverged: NDArray[np.bool_]
     miss: Array
 
-    def part(self, first: int, last: int) -> _Judged:
+    def part(self, first: int, last: int) -> Judged:
         at = slice(first, last)
         off = {name: values[at] for name, values in self.errors.items()}
-        return _Judged(off, self.success[at], self.diverged[at], self.miss[at])
+        return Judged(off, self.success[at], self.diverged[at], self.miss[at])
 
 
-def _judge(subject: Subject, ensemble: Ensemble, reference: JointReference, sample: Sample) -> _Judged:
+def judge(
+    subject: Subject,
+    ensemble: Ensemble,
+    reference: JointReference,
+    sample: Sample,
+    *,
+    feedback: Feedback | None = None,
+    seed: int = 0,
+) -> Judged:
+    """Simulate a motion on all models of a sample. seed: of the sensors' errors, which only feedback notices."""
     criteria, parts = subject.criteria, []
     for first in range(0, len(sample), _AT_ONCE):
         part = Sample({name: values[first : first + _AT_ONCE] for name, values in sample.values.items()})
-        trajectories = ensemble.rollout(ensemble.vary(subject.start, part), reference)
+        wrong = None
+        if feedback is not None:
+            ticks = -(-reference.steps // feedback.steps(reference.timestep))
+            wrong = SensorErrors().draw(_AT_ONCE, ticks, ensemble.joints, seed=(seed, first))[: len(part)]
+        variations = ensemble.vary(subject.start, part)
+        trajectories = ensemble.rollout(variations, reference, feedback=feedback, sensor_errors=wrong)
         parts.append((errors(criteria, trajectories), success(criteria, trajectories), trajectories.diverged))
     off = {name: np.concatenate([part[0][name] for part in parts]) for name in criteria}
     met, diverged = (np.concatenate([part[i] for part in parts]) for i in (1, 2))
@@ -169,7 +192,7 @@ def _judge(subject: Subject, ensemble: Ensemble, reference: JointReference, samp
     for name, criterion in criteria.items():
         np.maximum(miss, np.abs(off[name]) / (criterion.tolerance or 1.0), out=miss)
     miss[diverged] = DIVERGED
-    return _Judged(off, met, diverged, miss)
+    return Judged(off, met, diverged, miss)
 
 
 def _sensitivities(
@@ -177,7 +200,7 @@ def _sensitivities(
     ensemble: Ensemble,
     perturbation: Perturbation,
     sample: Sample,
-    drawn: _Judged,
+    drawn: Judged,
     alone: Mapping[str, NDArray[np.bool_]],
     names: list[str],
 ) -> tuple[Sensitivity, ...]:

@@ -89,11 +89,18 @@ class Subject:
         """
         if parts == 1:
             return self.reference, "policy"
-        physics = replace(self.task.physics, timestep=self.timestep / parts)
+        # whole steps of the file: a horizon that is rounded to other steps would be another one
+        rows = self.motion.horizon_steps
+        task = replace(
+            self.task,
+            physics=replace(self.task.physics, timestep=self.timestep / parts),
+            horizon=rows * self.timestep,
+            hold=(self.reference.steps - rows) * self.timestep,
+        )
         if self.robot is not None:
             coarse = make_policy(self.task, self.robot).reference(self.motion["weights"][None])
             if np.array_equal(coarse.position, self.reference.position):
-                fine = make_policy(replace(self.task, physics=physics), self.robot)
+                fine = make_policy(task, self.robot)
                 return fine.reference(self.motion["weights"][None]), "policy"
         return interpolated(self.reference, parts), "interpolation"
 

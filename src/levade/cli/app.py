@@ -282,6 +282,41 @@ def check(
 
 
 @app.command()
+def stabilise(
+    motion: Annotated[Path, typer.Argument(metavar="MOTION", help="A motion.npz.")],
+    out: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="To write; by default MOTION-stabilised.npz, beside it.")
+    ] = None,
+    rate: Annotated[float, typer.Option(metavar="HZ", help="Measurements a second; one period of latency.")] = 250.0,
+    bound: Annotated[float, typer.Option(metavar="RAD", help="Largest correction of a joint's reference.")] = 0.5,
+    runs: Annotated[int, typer.Option(help="Perturbed runs that choose the stabiliser.")] = 96,
+    seed: Annotated[int, typer.Option(min=0, help="Of these runs; they are none of those of a check.")] = 0,
+    perturb: Annotated[
+        list[str] | None, typer.Option(metavar="FILE|NAME=RANGE", help="Ranges, as in levade check. Repeatable.")
+    ] = None,
+    threads: Annotated[int, typer.Option(min=0, help="0 for one per core; no effect on the result.")] = 0,
+    as_json: Json = False,
+) -> int:
+    """Find a feedback that keeps a motion on its way, from gyroscope, attitude and joint angles, and save it with it.
+
+    Exit status: 0 it is written, 1 the motion is better without and nothing is written, 2 the input is wrong.
+    """
+    from levade.cli.stabilising import stabilise_motion
+
+    return stabilise_motion(
+        motion,
+        out=out,
+        rate=rate,
+        bound=bound,
+        runs=runs,
+        seed=seed,
+        perturb=perturb or [],
+        threads=threads,
+        as_json=as_json,
+    )
+
+
+@app.command()
 def view(
     what: Annotated[
         str,

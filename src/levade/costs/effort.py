@@ -39,4 +39,5 @@ class Effort:
                     " give the robot torque limits, or say normalised: false"
                 )
             torque = torque / limit
-        return integral(torque * torque, trajectories.timestep)
+            return integral(np.square(torque, out=torque), trajectories.timestep)
+        return integral(np.square(torque), trajectories.timestep)

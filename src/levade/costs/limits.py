@@ -96,7 +96,9 @@ class SpeedLimitExcess:
 
 
 def _range_excess(angle: Array, limits: JointLimits) -> Array:
-    return np.square(angle - np.clip(angle, limits.lower, limits.upper))
+    excess = np.minimum(np.maximum(angle, limits.lower), limits.upper)
+    np.subtract(angle, excess, out=excess)
+    return np.square(excess, out=excess)
 
 
 def _check_positive(what: str, limit: Array) -> None:

@@ -16,7 +16,7 @@ from typing import ClassVar
 import numpy as np
 
 from levade.costs.rows import At, beyond, check_target, check_tolerance, mean_over_rows, rows_at
-from levade.trajectory import Array, Trajectories, roll_pitch_yaw
+from levade.trajectory import Array, Trajectories, components, roll_pitch_yaw
 
 
 @dataclass(frozen=True)
@@ -106,13 +106,17 @@ def angle_between(a: Array, b: Array) -> Array:
 
 def world_up(quaternion: Array) -> Array:
     """(..., 4) to (..., 3): the world's up in trunk axes, the third row of the rotation matrix."""
-    w, x, y, z = np.moveaxis(quaternion, -1, 0)
-    return np.stack([2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)], axis=-1)
+    w, x, y, z = components(quaternion)
+    up = np.empty((*quaternion.shape[:-1], 3))
+    up[..., 0] = 2 * (x * z - w * y)
+    up[..., 1] = 2 * (y * z + w * x)
+    up[..., 2] = 1 - 2 * (x * x + y * y)
+    return up
 
 
 def nose(quaternion: Array) -> Array:
     """(..., 4) to (..., 3): the trunk's x axis in the world, the first column of the rotation matrix."""
-    w, x, y, z = np.moveaxis(quaternion, -1, 0)
+    w, x, y, z = components(quaternion)
     return np.stack([1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)], axis=-1)
 
 

@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from levade.costs.evaluate import DIVERGED
+from levade.costs.evaluate import DIVERGED, within
 from levade.costs.orientation import angle_between, pitch_past_vertical, world_up, wrap
 from levade.costs.rows import rows_at
 from levade.errors import LevadeError, did_you_mean
@@ -104,7 +104,7 @@ class Criterion:
         with np.errstate(all="ignore"):  # of broken trials, see below
             error = self._error(trajectories)
             bad = trajectories.diverged | ~np.isfinite(error)
-            return np.where(bad, DIVERGED, np.clip(error, -DIVERGED, DIVERGED))
+            return np.where(bad, DIVERGED, within(error, DIVERGED))
 
     def holds(self, trajectories: Trajectories) -> NDArray[np.bool_]:
         """(n,) whether each trial meets the criterion; never one that diverged."""
@@ -116,6 +116,8 @@ class Criterion:
 
     def _error(self, trajectories: Trajectories) -> Array:
         error = self.deviations(trajectories)
+        if error.shape[1] == 1:
+            return error[:, 0]
         worst = np.argmax(np.abs(error), axis=1)[:, None]
         return np.take_along_axis(error, worst, axis=1)[:, 0]
 

@@ -24,6 +24,7 @@ from levade.engines.engine import Layout
 from levade.engines.perturbation import Sample, obstacles
 from levade.engines.simulating import RESET_OFF, SENSORS_OFF, STATE, quiet, simulate
 from levade.engines.stance import Stance, product, quaternion
+from levade.feedback import Correcting, Feedback, sensed
 from levade.scenes import GROUND
 from levade.trajectory import Array, JointLimits, JointReference, LegGeometry, Trajectories, rotate
 
@@ -111,15 +112,54 @@ class Ensemble:
         return Variations(fields, qpos, qvel, act, values["latency"][:, 0])
 
     def rollout(
-        self, variations: Variations, reference: JointReference, *, feet: bool = False, bodies: Sequence[str] = ()
+        self,
+        variations: Variations,
+        reference: JointReference,
+        *,
+        feet: bool = False,
+        bodies: Sequence[str] = (),
+        feedback: Feedback | None = None,
+        sensor_errors: Array | None = None,
     ) -> Trajectories:
-        """Simulate n versions; reference: of n trials, or of one for all. Else as `levade.engines.MujocoEngine.rollout`."""
-        n, layout = len(variations), self.layout
+        """Simulate n versions; reference: of n trials, or of one for all. Else as `levade.engines.MujocoEngine.rollout`.
+
+        feedback: corrects the reference from what each run senses. sensor_errors: (n, ticks, sensed), added to that.
+        """
         recorded = ["qpos", "qvel", "actuator_force"]
-        sensors = feet or bool(bodies)
-        if sensors:
+        if feet or bodies:
             recorded.append("sensordata")
-        batch = self._batch_for(n, sensors=sensors)
+        out, diverged = self.record(variations, reference, recorded, feedback=feedback, sensor_errors=sensor_errors)
+        if len(reference.position) == 1 < len(variations):
+            shape = (len(variations), *reference.position.shape[1:])
+            reference = JointReference(
+                np.broadcast_to(reference.position, shape),
+                np.broadcast_to(reference.velocity, shape),
+                reference.timestep,
+                reference.horizon_steps,
+            )
+        return self.layout.trajectories(
+            out,
+            reference,
+            limits=self._limits,
+            trunk_com_offset=self._offset,
+            legs=self._legs,
+            diverged=diverged,
+            feet=feet,
+            bodies=bodies,
+        )
+
+    def record(
+        self,
+        variations: Variations,
+        reference: JointReference,
+        recorded: Sequence[str],
+        *,
+        feedback: Feedback | None = None,
+        sensor_errors: Array | None = None,
+    ) -> tuple[dict[str, Array], NDArray[np.bool_]]:
+        """As `rollout`, but fields of `mujoco.MjData`, name -> (n, steps, ...), and which runs broke down."""
+        n, layout = len(variations), self.layout
+        batch = self._batch_for(n, sensors="sensordata" in recorded)
         self._set_fields(batch, variations.fields, n)
         data = mujoco.MjData(self.model)
         row = np.empty(mujoco.mj_stateSize(self.model, STATE))
@@ -132,24 +172,46 @@ class Ensemble:
         ctrl = np.zeros((n, reference.steps, self.model.nu))
         ctrl[..., layout.ctrl_position] = told.position
         ctrl[..., layout.ctrl_velocity] = told.velocity
-        out, diverged = simulate(batch, batch.state[:n].copy(), ctrl, recorded)
-        if reference.position.shape[0] == 1 < n:
-            reference = JointReference(
-                np.broadcast_to(reference.position, told.position.shape),
-                np.broadcast_to(reference.velocity, told.velocity.shape),
-                reference.timestep,
-                reference.horizon_steps,
-            )
-        return layout.trajectories(
-            out,
-            reference,
-            limits=self._limits,
-            trunk_com_offset=self._offset,
-            legs=self._legs,
-            diverged=diverged,
-            feet=feet,
-            bodies=bodies,
+        rows = batch.state[:n].copy()
+        if feedback is None:
+            return simulate(batch, rows, ctrl, recorded)
+        correcting = Correcting(
+            feedback,
+            steps=reference.steps,
+            timestep=reference.timestep,
+            delay=variations.delay,
+            lower=self._limits.lower,
+            upper=self._limits.upper,
+            errors=sensor_errors,
         )
+        return self._corrected(batch, rows, ctrl, recorded, correcting)
+
+    def _corrected(
+        self, batch: Batch, rows: Array, ctrl: Array, recorded: Sequence[str], correcting: Correcting
+    ) -> tuple[dict[str, Array], NDArray[np.bool_]]:
+        """As `simulate`, tick by tick, under feedback. ctrl: without it; changed to what is sent."""
+        n, layout = len(rows), self.layout
+        root, rate = layout.root_qpos, layout.root_qvel
+        qpos, qvel = batch.bind("qpos"), batch.bind("qvel")
+        diverged = np.zeros(n, dtype=bool)
+        out: dict[str, Array] = {}
+        for tick, part in correcting:
+            seen = sensed(
+                qpos[:n, root + 3 : root + 7],
+                qvel[:n, rate + 3 : rate + 6],
+                qpos[:n, layout.joint_qpos],
+                qvel[:n, layout.joint_qvel],
+            )
+            told = ctrl[:, part, layout.ctrl_position]
+            ctrl[:, part, layout.ctrl_position] = correcting.corrected(tick, part, seen, told)
+            now, broken = simulate(batch, batch.state[:n].copy(), ctrl[:, part], recorded)
+            for name, values in now.items():
+                whole = out.setdefault(name, np.zeros((n, ctrl.shape[1], *values.shape[2:]), values.dtype))
+                whole[:, part] = values
+                whole[diverged, part] = whole[diverged, part.start - 1][:, None]
+            batch.state[:n][broken | diverged] = rows[broken | diverged]  # nothing to see there any more
+            diverged |= broken
+        return out, diverged
 
     def _fields(self, values: Mapping[str, Array]) -> dict[str, Array]:
         """Model fields (n, ...) of a sample, but for the slope."""

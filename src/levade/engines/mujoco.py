@@ -26,6 +26,7 @@ class MujocoEngine(Engine):
     def __init__(self, robot: Robot, scene: Scene, physics: Physics, *, threads: int = 0) -> None:
         super().__init__(robot, scene, physics, threads=threads)
         self._batches: dict[bool, Batch] = {}
+        self._latest: tuple[State, Array] | None = None
 
     def rollout(
         self, state: State, reference: JointReference, *, feet: bool = False, bodies: Sequence[str] = ()
@@ -74,11 +75,17 @@ class MujocoEngine(Engine):
         return batch
 
     def _row(self, state: State) -> Array:
-        """The state as a batch takes it: as after ``mj_resetData`` and setting qpos, qvel and act."""
+        """The state as a batch takes it: as after ``mj_resetData`` and setting qpos, qvel and act.
+
+        Made anew for another state only: a search starts every trial from one.
+        """
+        if self._latest is not None and self._latest[0] is state:
+            return self._latest[1]
         data = mujoco.MjData(self.model)
         data.qpos[:], data.qvel[:], data.act[:] = state.qpos, state.qvel, state.act
         row = np.empty(mujoco.mj_stateSize(self.model, STATE))
         mujoco.mj_getState(self.model, data, row, STATE)
+        self._latest = state, row
         return row
 
     def _settle(self, model: mujoco.MjModel, data: mujoco.MjData, posture: Array, time: float) -> State:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
+import zipfile
 from importlib import resources
 from pathlib import Path
 
@@ -11,6 +13,7 @@ import numpy as np
 
 from levade.export.content import Content, describe
 from levade.export.samples import Samples
+from levade.feedback import Feedback
 from levade.trajectory import Array
 
 XYZ, WXYZ = ("x", "y", "z"), ("w", "x", "y", "z")
@@ -48,9 +51,20 @@ def write_table(path: Path, table: dict[str, Array]) -> None:
 def write(content: Content, directory: Path) -> list[str]:
     """motion.csv, and beside it meta.json and player.py."""
     write_table(directory / "motion.csv", columns(content.playing))
-    write_json(directory / "meta.json", describe(content.playing, content.provenance), indent=2)
+    write_json(directory / "meta.json", describe(content.playing, content.provenance, content.feedback), indent=2)
+    if content.feedback is not None:
+        write_feedback(directory / "feedback.npz", content.feedback)
     write_player(directory)
     return []
+
+
+def write_feedback(path: Path, feedback: Feedback) -> None:
+    """A stabiliser's arrays, for numpy; the same ones give the same bytes."""
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as file:
+        for name, values in (("gain", feedback.gain), ("reference", feedback.reference)):
+            content = io.BytesIO()
+            np.save(content, values, allow_pickle=False)
+            file.writestr(zipfile.ZipInfo(f"{name}.npy"), content.getvalue(), zipfile.ZIP_DEFLATED)
 
 
 def write_player(directory: Path) -> None:

@@ -12,7 +12,7 @@ def write(content: Content, directory: Path) -> list[str]:
     """motion.json, and player.py, which reads it."""
     samples = content.samples
     document = {
-        "meta": describe(samples, content.provenance),
+        "meta": describe(samples, content.provenance, content.feedback),
         "time": samples.time.tolist(),
         "command": {name: getattr(samples, f"command_{name}").tolist() for name in ("position", "velocity", "torque")},
         "state": {
@@ -24,6 +24,11 @@ def write(content: Content, directory: Path) -> list[str]:
             "contact_force": {foot: samples.foot_contact_force[:, i].tolist() for i, foot in enumerate(samples.feet)},
         },
     }
+    if content.feedback is not None:
+        document["feedback"] = {
+            "gain": content.feedback.gain.tolist(),
+            "reference": content.feedback.reference.tolist(),
+        }
     write_json(directory / "motion.json", document)
     write_player(directory)
     return []

@@ -54,7 +54,9 @@ def write(content: Content, directory: Path) -> list[str]:
     """unitree.csv, and motion.csv with meta.json and player.py, all in Unitree's order and under its names."""
     order = motors(content.motion)
     names = content.samples.joints.names
-    samples = content.samples.reordered([names.index(joint) for joint in order.values()], list(order))
+    index = [names.index(joint) for joint in order.values()]
+    samples = content.samples.reordered(index, list(order))
+    feedback = None if content.feedback is None else content.feedback.reordered(index)
     table: dict[str, Array] = {"time": samples.time}
     for i, motor in enumerate(order):
         table[f"{motor}/q"] = samples.command_position[:, i]
@@ -64,7 +66,9 @@ def write(content: Content, directory: Path) -> list[str]:
         table[f"{motor}/kd"] = np.full(len(samples.time), samples.joints.kd[i])
     as_csv.write_table(directory / "unitree.csv", table)
     provenance = content.provenance | {"motors": order}
-    as_csv.write(replace(content, samples=samples, playing=samples, provenance=provenance), directory)
+    as_csv.write(
+        replace(content, samples=samples, playing=samples, provenance=provenance, feedback=feedback), directory
+    )
     return _notes(content.model, order, content.motion)
 
 

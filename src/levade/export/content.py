@@ -9,6 +9,7 @@ import mujoco
 import numpy as np
 
 from levade.export.samples import Samples
+from levade.feedback import Feedback, names
 from levade.motion import Motion
 from levade.trajectory import Array
 
@@ -32,7 +33,7 @@ UNITS = {
 class Content:
     """samples: at the rate asked for. playing: at a rate that a robot can follow; mostly the same.
 
-    provenance: task, robot, seed, versions, command.
+    provenance: task, robot, seed, versions, command. feedback: the stabiliser, None if there is none to go with the rows.
     """
 
     motion: Motion
@@ -40,6 +41,7 @@ class Content:
     samples: Samples
     playing: Samples
     provenance: dict[str, Any]
+    feedback: Feedback | None = None
 
 
 def provenance(motion: Motion, command: str | None) -> dict[str, Any]:
@@ -62,7 +64,7 @@ def provenance(motion: Motion, command: str | None) -> dict[str, Any]:
     }
 
 
-def describe(samples: Samples, provenance: dict[str, Any]) -> dict[str, Any]:
+def describe(samples: Samples, provenance: dict[str, Any], feedback: Feedback | None = None) -> dict[str, Any]:
     """All about a table of samples that is not in its rows; JSON. Limits are null where there is none."""
     joints = samples.joints
     return {
@@ -78,6 +80,18 @@ def describe(samples: Samples, provenance: dict[str, Any]) -> dict[str, Any]:
         "limits": {name: _finite(getattr(joints, name)) for name in ("lower", "upper", "velocity", "torque")},
         "start": {"position": joints.start_position.tolist(), "torque": joints.start_torque.tolist()},
         "units": UNITS,
+        "feedback": None if feedback is None else _describe(feedback, joints.names),
+    }
+
+
+def _describe(feedback: Feedback, joints: tuple[str, ...]) -> dict[str, Any]:
+    """All about a stabiliser but its arrays; JSON."""
+    return {
+        "rate": 1.0 / feedback.period,
+        "latency": feedback.period,
+        "bound": feedback.bound,
+        "sensed": names(joints),
+        "columns": [*names(joints), *(f"{joint}/correction" for joint in joints)],
     }
 
 

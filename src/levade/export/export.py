@@ -14,6 +14,7 @@ from levade.export.content import Content, provenance
 from levade.export.directory import filling
 from levade.export.model import compile_model
 from levade.export.samples import Samples, sample
+from levade.feedback import Feedback
 from levade.motion import Motion
 
 Write = Callable[[Content, Path], list[str]]
@@ -84,12 +85,32 @@ def export(
 
     samples = at(rate if rate is not None else form.rate or own)
     playing = samples if form.plays else at(own)
-    content = Content(motion, model, samples, playing, provenance(motion, command))
+    feedback = _feedback(motion, playing, own_gains=kp is None and kd is None)
+    content = Content(motion, model, samples, playing, provenance(motion, command), feedback)
     with filling(directory) as partial:
         notes = form.write(content, partial)
         names = sorted(path.relative_to(partial) for path in partial.rglob("*") if path.is_file())
-    notes = [*_notes(motion, playing), *notes]
+    notes = [*_notes(motion, playing), *_feedback_notes(motion, feedback), *notes]
     return Exported(to, directory, tuple(directory / name for name in names), samples, tuple(notes))
+
+
+def _feedback(motion: Motion, playing: Samples, *, own_gains: bool) -> Feedback | None:
+    """The motion's stabiliser, where it fits what is played: drives of the same gains, and a row at each of its ticks."""
+    feedback = motion.feedback
+    if feedback is None or not own_gains:
+        return None
+    rows = playing.rate * feedback.period
+    return feedback if rows > 0.5 and abs(rows - round(rows)) < 1e-6 else None
+
+
+def _feedback_notes(motion: Motion, feedback: Feedback | None) -> list[str]:
+    own = motion.feedback
+    if own is None or feedback is not None:
+        return []
+    return [
+        f"the stabiliser is left out: it goes with the simulation's gains, and with rates that are"
+        f" multiples of {1 / own.period:g} Hz"
+    ]
 
 
 def _notes(motion: Motion, samples: Samples) -> list[str]:

@@ -14,6 +14,12 @@ methods; arrays are in the order of `Motion.joints`, SI units:
         def write(self, position, velocity, torque, kp, kd):    # what each drive is to do until the next call:
             ...                                                 # kp (position - q) + kd (velocity - qd) + torque
 
+        def read_trunk(self):                                   # only for a motion with a stabiliser:
+            return quaternion, rate                             # trunk to world, w x y z; (3,) [rad/s] in trunk axes
+
+A motion with a stabiliser (`feedback` in its meta; feedback.npz beside motion.csv) corrects the positions by what the robot
+senses, from the first row on; --no-feedback plays it without.
+
 What happens, at the rate of the file: the joints have to be near the start already; they are led from where they are to
 the start within the ramp, and have to be there; then every row is sent at its time, positions clamped to the joints'
 ranges and torques to their limits. If a joint is further from where the simulation had it than the tolerance, or a reading
@@ -53,8 +59,44 @@ class Robot(Protocol):
         ...
 
 
+class SensingRobot(Robot, Protocol):
+    """What the player asks of a robot beside, if the motion has a stabiliser."""
+
+    def read_trunk(self) -> tuple[Array, Array]:
+        """Attitude, trunk to world, w-x-y-z (yaw does not matter), and angular velocity in trunk axes [rad/s]."""
+        ...
+
+
 class Stopped(Exception):
     """The motion was not played to its end; why."""
+
+
+@dataclass(frozen=True, eq=False)
+class Feedback:
+    """A stabiliser: ``gain[j]`` times the deviation from ``reference[j]`` at tick j, in force from the next tick on.
+
+    gain: (gains, joints, sensed + joints); the last columns are for the correction in force. reference: (ticks, sensed). After
+    the last of each the last one stays. rate: [Hz], of ticks. bound: [rad], on each joint's correction.
+    Sensed are: up in trunk axes (3), angular velocity in trunk axes (3) [rad/s], joint positions [rad] and velocities [rad/s].
+    """
+
+    gain: Array
+    reference: Array
+    rate: float
+    bound: float
+
+    def correction(self, tick: int, measured: Array, last: Array) -> Array:
+        """(joints,) [rad], from the next tick on. measured: (sensed,). last: (joints,) [rad], in force now."""
+        off = np.concatenate([measured - self.reference[min(tick, len(self.reference) - 1)], last])
+        gain = self.gain[min(tick, len(self.gain) - 1)]
+        return np.clip(np.einsum("c,jc->j", off, gain), -self.bound, self.bound)
+
+
+def sensed(quaternion: Array, rate: Array, position: Array, velocity: Array) -> Array:
+    """What a stabiliser looks at, (6 + 2 joints,)."""
+    w, x, y, z = quaternion
+    up = [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]
+    return np.concatenate([up, rate, position, velocity])
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,6 +119,7 @@ class Motion:
     lower: Array
     upper: Array
     torque_limit: Array
+    feedback: Feedback | None = None
 
     @classmethod
     def load(cls, path: str | Path) -> Motion:
@@ -87,6 +130,7 @@ class Motion:
             meta, command = content["meta"], content["command"]
             arrays = {name: np.array(command[name], dtype=float) for name in ("position", "velocity", "torque")}
             arrays["expected"] = np.array(content["state"]["position"], dtype=float)
+            gains = content.get("feedback") or {}
         else:
             meta = json.loads(path.with_name("meta.json").read_text(encoding="utf-8"))
             with path.open(encoding="utf-8", newline="") as file:
@@ -97,9 +141,21 @@ class Motion:
             pick = lambda what, name: table[:, [place[f"{what}/{joint}/{name}"] for joint in meta["joints"]]]  # noqa: E731
             arrays = {name: pick("command", name) for name in ("position", "velocity", "torque")}
             arrays["expected"] = pick("state", "position")
+            gains = {}
+            if meta.get("feedback"):
+                with np.load(path.with_name("feedback.npz"), allow_pickle=False) as file:
+                    gains = {name: file[name] for name in ("gain", "reference")}
         if not all(np.isfinite(values).all() and len(values) == meta["rows"] for values in arrays.values()):
             raise ValueError(f"{path}: not {meta['rows']} rows of numbers, as its meta says; export the motion again")
         limits = meta["limits"]
+        feedback = None
+        if meta.get("feedback"):
+            gain, reference = (np.array(gains[name], dtype=float) for name in ("gain", "reference"))
+            joints, about = len(meta["joints"]), meta["feedback"]
+            fits = gain.shape[1:] == (joints, 6 + 3 * joints) and reference.shape[1:] == (6 + 2 * joints,)
+            if not (fits and np.isfinite(gain).all() and np.isfinite(reference).all()):
+                raise ValueError(f"{path}: its stabiliser is not one for {joints} joints; export the motion again")
+            feedback = Feedback(gain, reference, float(about["rate"]), float(about["bound"]))
         bound = lambda name, none: np.array([none if value is None else value for value in limits[name]], dtype=float)  # noqa: E731
         return cls(
             joints=list(meta["joints"]),
@@ -111,6 +167,7 @@ class Motion:
             lower=bound("lower", -np.inf),
             upper=bound("upper", np.inf),
             torque_limit=bound("torque", np.inf),
+            feedback=feedback,
             **arrays,
         )
 
@@ -129,6 +186,7 @@ def play(
     start_tolerance: float = 0.5,
     tolerance: float = 0.3,
     hold: float = 0.0,
+    feedback: bool = True,
     wait: Callable[[float], float] | None = None,
 ) -> float:
     """Play a motion. Returns the largest tracking error [rad]. Raises Stopped.
@@ -136,11 +194,14 @@ def play(
     ramp: [s], from the present joint positions to the start; 0 for none. start_tolerance: [rad], how far the joints may be
     from the start before the ramp. tolerance: [rad], how far from where the simulation had them, from the end of the ramp
     on. hold: [s], for which the last row is sent on after the end.
+    feedback: whether to use the motion's stabiliser, if it has one; the robot then needs ``read_trunk``. The tolerance
+    is wider by the correction in force.
     wait: called before each tick with its time [s] since the first; returns how late it is [s]. By default the clock.
     """
     late = wait or clock()
     zero = np.zeros(len(motion.joints))
     position, torque = motion.clamped()
+    correcting = _Correcting(motion, robot) if feedback and motion.feedback is not None else None
     start = np.clip(motion.start_position, motion.lower, motion.upper)
     try:
         present, _ = _read(motion, robot)
@@ -155,16 +216,52 @@ def play(
             robot.write(present + share * (start - present), zero, share * motion.start_torque, motion.kp, motion.kd)
         for row in range(len(position)):
             _on_time(late((ticks + row) / motion.rate), motion.rate)
-            now, _ = _read(motion, robot)
-            worst = max(worst, _check(motion, now, motion.expected[row], tolerance, f"at {row / motion.rate:.3f} s"))
-            robot.write(position[row], motion.velocity[row], torque[row], motion.kp, motion.kd)
+            now, going = _read(motion, robot)
+            added = zero if correcting is None else correcting(row, now, going)
+            when = f"at {row / motion.rate:.3f} s"
+            worst = max(worst, _check(motion, now, motion.expected[row], tolerance + np.abs(added), when))
+            sent = np.clip(position[row] + added, motion.lower, motion.upper)
+            robot.write(sent, motion.velocity[row], torque[row], motion.kp, motion.kd)
         for tick in range(round(hold * motion.rate)):
-            _on_time(late((ticks + len(position) + tick) / motion.rate), motion.rate)
-            robot.write(position[-1], zero, torque[-1], motion.kp, motion.kd)
+            row = len(position) + tick
+            _on_time(late((ticks + row) / motion.rate), motion.rate)
+            added = zero if correcting is None else correcting(row, *_read(motion, robot))
+            sent = np.clip(position[-1] + added, motion.lower, motion.upper)
+            robot.write(sent, zero, torque[-1], motion.kp, motion.kd)
     except BaseException:
         _damp(motion, robot, clock() if wait is None else lambda instant: 0.0)
         raise
     return worst
+
+
+class _Correcting:
+    """A stabiliser at work: measures at its ticks, and keeps the correction that is in force."""
+
+    def __init__(self, motion: Motion, robot: Any) -> None:
+        if not hasattr(robot, "read_trunk"):
+            raise Stopped(
+                "the motion has a stabiliser, and the robot no read_trunk; add it, or play with --no-feedback"
+            )
+        assert motion.feedback is not None
+        self._feedback, self._robot = motion.feedback, robot
+        self._rows = round(motion.rate / motion.feedback.rate)
+        self._due = self._last = np.zeros(len(motion.joints))
+
+    def __call__(self, row: int, position: Array, velocity: Array) -> Array:
+        """(joints,) [rad], to be added to what is sent now."""
+        if row % self._rows == 0:
+            quaternion, rate = (np.asarray(values, dtype=float) for values in self._robot.read_trunk())
+            if quaternion.shape != (4,) or rate.shape != (3,):
+                raise Stopped(
+                    f"the robot's trunk reads {quaternion.tolist()}, {rate.tolist()}; should be 4 and 3 numbers"
+                )
+            length = float(np.linalg.norm(quaternion))
+            if not (abs(length - 1.0) < 0.01 and np.isfinite(rate).all()):
+                raise Stopped(f"the robot's trunk reads {quaternion.tolist()}; should be a unit quaternion")
+            self._last = self._due
+            seen = sensed(quaternion / length, rate, position, velocity)
+            self._due = self._feedback.correction(row // self._rows, seen, self._last)
+        return self._last
 
 
 def _read(motion: Motion, robot: Robot) -> tuple[Array, Array]:
@@ -174,15 +271,17 @@ def _read(motion: Motion, robot: Robot) -> tuple[Array, Array]:
     return position, velocity
 
 
-def _check(motion: Motion, position: Array, expected: Array, tolerance: float, when: str) -> float:
+def _check(motion: Motion, position: Array, expected: Array, tolerance: float | Array, when: str) -> float:
     off = np.abs(position - expected)
-    joint = int(np.argmax(off))
-    if off[joint] > tolerance:
+    allowed = np.broadcast_to(tolerance, off.shape)
+    joint = int(np.argmax(off - allowed))
+    if off[joint] > allowed[joint]:
         raise Stopped(
-            f"{motion.joints[joint]} is at {position[joint]:.3f} rad, should be at {expected[joint]:.3f} within {tolerance:g}"
+            f"{motion.joints[joint]} is at {position[joint]:.3f} rad, should be at {expected[joint]:.3f} within"
+            f" {allowed[joint]:g}"
             f" {when}"
         )
-    return float(off[joint])
+    return float(off.max())
 
 
 def _on_time(late: float, rate: float) -> None:
@@ -238,6 +337,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--ramp", type=float, default=2.0, help="to the start [s]; 2")
     parser.add_argument("--start-tolerance", type=float, default=0.5, help="from the start, before the ramp [rad]; 0.5")
     parser.add_argument("--tolerance", type=float, default=0.3, help="from the simulation, in the motion [rad]; 0.3")
+    parser.add_argument("--no-feedback", action="store_true", help="without the motion's stabiliser")
     parser.add_argument("--hold", type=float, default=0.0, help="send the last row for longer [s]; 0")
     options = parser.parse_args(arguments)
     if options.dry_run == (options.robot is not None):
@@ -254,6 +354,11 @@ def main(arguments: list[str] | None = None) -> int:
     changed = int((position != motion.position).sum() + (torque != motion.torque).sum())
     rows = len(motion.position)
     print(f"{rows} rows at {motion.rate:g} Hz for {len(motion.joints)} joints: {', '.join(motion.joints)}")
+    if motion.feedback is not None:
+        off = " (not in a dry run)" if options.dry_run else " (switched off)" if options.no_feedback else ""
+        print(
+            f"with a stabiliser at {motion.feedback.rate:g} Hz, corrections of {motion.feedback.bound:g} rad at most{off}"
+        )
     if changed:
         print(f"{changed} commands of {2 * position.size} are beyond the joints' limits, and are clamped")
     try:
@@ -264,6 +369,7 @@ def main(arguments: list[str] | None = None) -> int:
             start_tolerance=options.start_tolerance,
             tolerance=options.tolerance,
             hold=options.hold,
+            feedback=not (options.no_feedback or options.dry_run),
             wait=(lambda instant: 0.0) if options.dry_run else None,
         )
     except Stopped as stopped:

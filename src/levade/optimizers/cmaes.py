@@ -6,18 +6,14 @@ the initial covariance of the candidates, up to ``step**2``.
 
 from __future__ import annotations
 
-import warnings
 from typing import Literal
 
 import numpy as np
 
 from levade.errors import LevadeError
 from levade.optimizers.blas import single_threaded
+from levade.optimizers.library import cma
 from levade.trajectory import Array
-
-with warnings.catch_warnings():
-    warnings.simplefilter("ignore")  # that matplotlib is missing, which only cma's own plots need
-    import cma
 
 # cma's stop rules answer a flat or noisy cost; when to stop is for the staged loop to say
 _NEVER = {"tolfun": 0, "tolfunhist": 0, "tolfunrel": 0, "tolx": 0, "tolstagnation": 10**9, "tolflatfitness": 10**9}

@@ -37,7 +37,9 @@ class Robust:
     measure, tail: of the costs of a candidate's whole roll-outs, the nominal one among them: see `levade.costs.risk`.
     redraw: "never" tries all candidates on the same models; "generation" draws new ones for each generation (the candidates of
         one share them), and compares the best of each with the best so far on one sample that stays the same.
-    required: share of the samples that a candidate has to succeed on, beside the nominal model, to count as a success.
+    validation: models of that sample; as many as ``samples`` if None.
+    required: share of the samples (of that which stays the same, if others are drawn for each generation) that a candidate has
+        to succeed on, beside the nominal model, to count as a success.
     racing: None runs every candidate on every sample. perturb: ranges.
 
     The samples of one generation cover every range evenly (`levade.engines.Perturbation.spread`); they follow from the seed of
@@ -48,6 +50,7 @@ class Robust:
     measure: Measure = "cvar"
     tail: float = 0.5
     redraw: Literal["never", "generation"] = "never"
+    validation: int | None = None
     required: float = 1.0
     racing: Racing | None = None
     perturb: Perturbation = Perturbation()
@@ -59,6 +62,10 @@ class Robust:
             raise LevadeError(f"robust.measure: {self.measure!r} is unknown; mean, cvar or worst")
         if self.redraw not in ("never", "generation"):
             raise LevadeError(f"robust.redraw: {self.redraw!r} is unknown; never or generation")
+        if self.validation is not None and self.redraw == "never":
+            raise LevadeError("robust.validation: with redraw: never all candidates run the same models; leave it out")
+        if self.validation is not None and not 1 <= self.validation <= 1000:
+            raise LevadeError(f"robust.validation: {self.validation} should be 1 to 1000; 20 is usual")
         for name in ("tail", "required"):
             value = getattr(self, name)
             if not (math.isfinite(value) and 0 <= value <= 1) or (name == "tail" and value == 0):
@@ -67,6 +74,11 @@ class Robust:
             raise LevadeError(
                 f"robust.racing.first: {self.racing.first} of {self.samples} samples leaves nothing to race for; fewer"
             )
+
+    @property
+    def fixed(self) -> int:
+        """Models of the sample that stays the same."""
+        return self.samples if self.validation is None else self.validation
 
     def rollouts(self, candidates: int) -> int:
         """Of so many candidates, the nominal ones among them."""

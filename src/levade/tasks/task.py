@@ -125,6 +125,8 @@ class Search:
         none, as plain CMA-ES has it. modes: search only over so many of the smoothest directions of each joint's weights;
         all if None. step_adaptation: see `levade.optimizers.CMAES`.
     aim: whether one candidate of each generation is aimed at the criteria: see `levade.optimizers.Aim`.
+    aimed: so many more candidates, beside the optimizer's own, are aimed from points near the best trial (`Aim.around`); the
+        best of them is told to the optimizer, instead of that one. Without ``aim``, none.
     restart: trials without a success after which the search starts anew, from the first stage, with other random numbers:
         whoever rolled to the wrong side seldom finds the way back. None goes on to the end of the budget.
     polish: trials to go on for after the first success, for a lower cost; None goes on to the end of the budget.
@@ -140,6 +142,7 @@ class Search:
     modes: int | None = None
     step_adaptation: Literal["csa", "tpa"] = "tpa"
     aim: bool = True
+    aimed: int = 0
     restart: int | None = None
     polish: int | None = 0
     settings: Mapping[str, float] = field(default_factory=dict)
@@ -283,6 +286,8 @@ def _check_search(search: Search) -> None:
         raise LevadeError(f"search.step: {search.step} should be a positive number of rad; 0.05 to 0.3 is usual")
     if not (math.isfinite(search.smoothness) and search.smoothness >= 0):
         raise LevadeError(f"search.smoothness: {search.smoothness} should be 0 or more, as a share of the horizon")
+    if not 0 <= search.aimed <= 100_000:
+        raise LevadeError(f"search.aimed: {search.aimed} should be 0 or more; 6 is usual")
     if search.restart is not None and search.restart < 1:
         raise LevadeError(f"search.restart: {search.restart} should be at least 1; leave it out to go on")
     if search.polish is not None and search.polish < 0:

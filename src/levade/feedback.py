@@ -1,0 +1,177 @@
+"""Feedback: what a stabiliser adds to the joint references, from what the robot senses.
+
+    column = sensed(quaternion, rate, joint_position, joint_velocity)          # (..., 6 + 2 joints)
+    feedback.correction(tick, column, last)                                    # (..., joints) [rad]
+
+A tick is a measurement. At tick j the deviation of what is sensed from ``reference[j]``, and the correction that is in force,
+are multiplied by ``gain[j]`` and bounded; the result is in force from tick j + 1 to tick j + 2: one period of latency. After
+the last gain the last one stays, and so does the last reference.
+
+Sensed are: the direction of gravity's opposite in trunk axes (3), which is attitude without yaw, the trunk's angular velocity
+in trunk axes (3) [rad/s], joint positions [rad] and velocities [rad/s]. Neither the trunk's place nor its velocity is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from levade.errors import LevadeError
+from levade.trajectory import Array, rotate
+
+ARRAYS: dict[str, tuple[str, ...]] = {
+    "feedback_gain": ("gains", "joints", "columns"),
+    "feedback_reference": ("ticks", "sensed"),
+}
+"""Arrays of a file with feedback -> shape, by name of the dimension; columns are the sensed ones and the joints."""
+
+META = ("rate", "period_steps", "bound", "sensed")
+"""Keys of a file's ``meta["feedback"]``."""
+
+
+@dataclass(frozen=True, eq=False)
+class Feedback:
+    """A stabiliser.
+
+    gain: (gains, joints, sensed + joints) [rad per unit sensed; rad/rad for the correction in force].
+    reference: (ticks, sensed), what is sensed on the motion itself. period: [s], from tick to tick; tick 0 is at 0 s.
+    bound: [rad], on each joint's correction.
+    """
+
+    gain: Array
+    reference: Array
+    period: float
+    bound: float
+
+    def correction(self, tick: int, measured: Array, last: Array) -> Array:
+        """(..., joints) [rad], from the next tick on. measured: (..., sensed). last: (..., joints) [rad], in force now."""
+        off = np.concatenate([measured - self.reference[min(tick, len(self.reference) - 1)], last], axis=-1)
+        gain = self.gain[min(tick, len(self.gain) - 1)]
+        # summed in one order for any number of runs: the bits of a run do not depend on those beside it
+        return np.clip(np.einsum("...c,jc->...j", off, gain), -self.bound, self.bound)
+
+    def steps(self, timestep: float) -> int:
+        """Physics steps in a period. Raises LevadeError if they do not make it up."""
+        steps = round(self.period / timestep)
+        if steps < 1 or abs(steps * timestep - self.period) > 1e-9:
+            raise LevadeError(
+                f"feedback: a period of {self.period:g} s is not a multiple of the time step, {timestep:g} s"
+            )
+        return steps
+
+    def reordered(self, order: Sequence[int]) -> Feedback:
+        """The same with the joints in another order."""
+        joints = self.gain.shape[1]
+        index = np.asarray(order)
+        sense = np.concatenate([np.arange(6), 6 + index, 6 + joints + index])
+        columns = np.concatenate([sense, 6 + 2 * joints + index])
+        return replace(self, gain=self.gain[:, index][:, :, columns], reference=self.reference[:, sense])
+
+    def arrays(self) -> dict[str, Array]:
+        """As in a motion file."""
+        return {"feedback_gain": self.gain, "feedback_reference": self.reference}
+
+    @classmethod
+    def of(cls, meta: Mapping[str, Any], arrays: Mapping[str, Array]) -> Feedback:
+        """From a motion file."""
+        return cls(
+            arrays["feedback_gain"], arrays["feedback_reference"], 1.0 / float(meta["rate"]), float(meta["bound"])
+        )
+
+
+def sensed(quaternion: Array, rate: Array, joint_position: Array, joint_velocity: Array) -> Array:
+    """What a robot senses, (..., 6 + 2 joints).
+
+    quaternion: (..., 4), trunk frame to world. rate: (..., 3) [rad/s], angular velocity in trunk axes, a gyroscope's.
+    joint_position, joint_velocity: (..., joints) [rad], [rad/s].
+    """
+    up = rotate(quaternion * np.array([1.0, -1.0, -1.0, -1.0]), np.array([0.0, 0.0, 1.0]))
+    return np.concatenate([up, rate, joint_position, joint_velocity], axis=-1)
+
+
+def names(joints: Sequence[str]) -> list[str]:
+    """What each sensed number is."""
+    return [
+        *(f"up/{axis}" for axis in "xyz"),
+        *(f"rate/{axis}" for axis in "xyz"),
+        *(f"{joint}/position" for joint in joints),
+        *(f"{joint}/velocity" for joint in joints),
+    ]
+
+
+@dataclass(frozen=True)
+class SensorErrors:
+    """How wrong a robot's sensors are; uniform within plus and minus each.
+
+    attitude: [rad] and angular velocity rate: [rad/s], constant through a run. joint: [rad], an encoder's offset, constant.
+    rate_noise: [rad/s] and joint_noise: [rad/s], of angular and joint velocities, another one each tick.
+    """
+
+    attitude: float = 0.01
+    rate: float = 0.02
+    joint: float = 0.005
+    rate_noise: float = 0.05
+    joint_noise: float = 0.1
+
+    def draw(self, runs: int, ticks: int, joints: int, *, seed: int | Sequence[int]) -> Array:
+        """What is added to what is sensed, (runs, ticks, 6 + 2 joints)."""
+        generator = np.random.default_rng(seed)
+        constant = np.array([self.attitude] * 3 + [self.rate] * 3 + [self.joint] * joints + [0.0] * joints)
+        changing = np.array([0.0] * 3 + [self.rate_noise] * 3 + [0.0] * joints + [self.joint_noise] * joints)
+        drawn = generator.uniform(-1.0, 1.0, (runs, ticks + 1, 6 + 2 * joints))
+        return constant * drawn[:, :1] + changing * drawn[:, 1:]
+
+
+class Correcting:
+    """Runs under feedback, tick by tick: keeps the corrections, which reach the servos late by each run's delay.
+
+    steps: of the roll-out. timestep: [s]. delay: (n,) [s]. lower, upper: (joints,) [rad]: no correction takes a reference out
+    of these, or further out. errors: (n, ticks, sensed), added to what is sensed; none if None.
+    """
+
+    def __init__(
+        self,
+        feedback: Feedback,
+        *,
+        steps: int,
+        timestep: float,
+        delay: Array,
+        lower: Array,
+        upper: Array,
+        errors: Array | None = None,
+    ) -> None:
+        self.feedback, self.errors = feedback, errors
+        self._steps, self.period = steps, feedback.steps(timestep)
+        self._lower, self._upper = lower, upper
+        n, joints = len(delay), feedback.gain.shape[1]
+        late = delay / timestep
+        self._whole = np.floor(late).astype(int)
+        self._part = (late - self._whole)[:, None, None]
+        self.corrections = np.zeros((n, steps, joints))
+
+    def __iter__(self) -> Iterator[tuple[int, slice]]:
+        """Each tick, and the steps from it to the next."""
+        for tick, first in enumerate(range(0, self._steps, self.period)):
+            yield tick, slice(first, min(first + self.period, self._steps))
+
+    def corrected(self, tick: int, rows: slice, measured: Array, told: Array) -> Array:
+        """What the servos are told in the steps from a tick to the next, (n, rows, joints) [rad].
+
+        measured: (n, sensed), at the tick. told: (n or 1, rows, joints), what they are told without feedback.
+        """
+        if self.errors is not None:
+            measured = measured + self.errors[:, min(tick, self.errors.shape[1] - 1)]
+        last = self.corrections[:, rows.start]
+        due = slice(rows.start + self.period, rows.start + 2 * self.period)
+        self.corrections[:, due] = self.feedback.correction(tick, measured, last)[:, None]
+        index = np.arange(rows.start, rows.stop)[None] - self._whole[:, None]
+        run = np.arange(len(index))[:, None]
+
+        def at(row: Array) -> Array:
+            return np.where((row >= 0)[..., None], self.corrections[run, np.maximum(row, 0)], 0.0)
+
+        added = (1 - self._part) * at(index) + self._part * at(index - 1)
+        return np.clip(told + added, np.minimum(self._lower, told), np.maximum(self._upper, told))

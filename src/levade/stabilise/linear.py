@@ -1,0 +1,201 @@
+"""The motion's linear model: how a small deviation at one tick goes on to the next, by differences of whole steps.
+
+Central differences over a tick, with changes as large as a robot's deviations are (2 cm, 0.02 rad), not the derivatives at a
+point: a contact that opens or closes within them counts in proportion.
+"""
+
+from __future__ import annotations
+
+import copy
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from mujoco.batch import Batch
+
+from levade.engines.engine import Layout
+from levade.engines.simulating import RESET_OFF, SENSORS_OFF, STATE, quiet
+from levade.feedback import sensed
+from levade.trajectory import Array, JointReference, rotate
+
+UNSENSED = 4
+"""Height and velocity of the trunk; after them come the states of the actuators."""
+
+
+@dataclass(frozen=True, eq=False)
+class Scales:
+    """How large a deviation is, by kind of quantity; of a robot of 0.6 m.
+
+    attitude, joint: [rad]. height: [m]. speed: [m/s]. rate, joint_speed: [rad/s]. drive: share of an actuator's largest state.
+    """
+
+    attitude: float
+    height: float
+    speed: float
+    rate: float
+    joint: float
+    joint_speed: float
+    drive: float = 0.05
+
+    def sized(self, size: float) -> Scales:
+        """For a robot of a size [m]: lengths as it, times as a pendulum's."""
+        f = size / 0.6
+        return Scales(
+            self.attitude,
+            self.height * f,
+            self.speed * f**0.5,
+            self.rate / f**0.5,
+            self.joint,
+            self.joint_speed / f**0.5,
+            self.drive,
+        )
+
+    def column(self, joints: int, drives: Array) -> Array:
+        """Of everything in a state, (sensed + 4 + drives,)."""
+        return np.concatenate(
+            [
+                np.repeat([self.attitude, self.rate], 3),
+                np.repeat([self.joint, self.joint_speed], joints),
+                [self.height],
+                np.full(3, self.speed),
+                self.drive * drives,
+            ]
+        )
+
+
+STEPS = Scales(attitude=0.02, height=0.01, speed=0.05, rate=0.2, joint=0.02, joint_speed=0.3)
+"""Of the differences."""
+
+
+@dataclass(frozen=True, eq=False)
+class Linear:
+    """``x[k+1] = a[k] x[k] + b[k] c[k]`` from tick to tick of the motion; the last one is that of its end, standing.
+
+    a: (ticks, states, states). b: (ticks, states, joints). x: deviation of what is sensed, then of the trunk's height [m], its
+    velocity in trunk axes [m/s], and the actuators' states. c: corrections [rad] in force.
+    reference: (ticks of the whole motion, sensed). state: likewise, (ticks, states). drives: (na,), largest state of each.
+    """
+
+    a: Array
+    b: Array
+    reference: Array
+    state: Array
+    drives: Array
+
+
+def linearise(
+    model: mujoco.MjModel,
+    layout: Layout,
+    start: tuple[Array, Array, Array],
+    reference: JointReference,
+    *,
+    period: int,
+    size: float = 0.6,
+    threads: int = 0,
+) -> Linear:
+    """Of a motion in MuJoCo. start: qpos, qvel, act. reference: of one trial. period: steps from tick to tick. size: [m], of
+    the robot.
+    """
+    model = copy.deepcopy(model)
+    model.opt.disableflags |= RESET_OFF | SENSORS_OFF
+    ctrl = np.zeros((1, reference.steps, model.nu))
+    ctrl[..., layout.ctrl_position] = reference.position
+    ctrl[..., layout.ctrl_velocity] = reference.velocity
+    rows = _rows(model, start, ctrl, period)
+    joints = reference.position.shape[2]
+    everything = Batch(model, len(rows), threads)
+    everything.state[:] = rows
+    state = _state(everything, layout)
+    drives = np.maximum(np.abs(state[:, 6 + 2 * joints + UNSENSED :]).max(axis=0, initial=0.0), 1e-3)
+    steps = STEPS.sized(size)
+    scale = np.concatenate([steps.column(joints, drives), np.full(joints, steps.joint)])
+    sides = _Sides(model, layout, steps, drives, threads)
+    moving = -(-reference.horizon_steps // period)
+    at = [*range(min(moving, len(rows) - 1)), *([len(rows) - 1] if reference.steps > reference.horizon_steps else [])]
+    a, b = [], []
+    for tick in at:
+        last = ctrl[:, -1:].repeat(period, axis=1)
+        told = np.concatenate([ctrl[:, tick * period : (tick + 1) * period], last], axis=1)[:, :period]
+        before, after = sides.differences(rows[tick], told)
+        # the direction of gravity is three numbers of two degrees of freedom: the smallest solution is meant
+        both = np.linalg.lstsq(before / scale, after, rcond=1e-8)[0] / scale[:, None]
+        a.append(both[:-joints].T)
+        b.append(both[-joints:].T)
+    return Linear(np.array(a), np.array(b), state[:, : 6 + 2 * joints], state, drives)
+
+
+def _rows(model: mujoco.MjModel, start: tuple[Array, Array, Array], ctrl: Array, period: int) -> Array:
+    """MuJoCo's states at the ticks of a motion, (ticks, size of a state)."""
+    data = mujoco.MjData(model)
+    data.qpos[:], data.qvel[:], data.act[:] = start
+    first = np.empty(mujoco.mj_stateSize(model, STATE))
+    mujoco.mj_getState(model, data, first, STATE)
+    batch = Batch(model, 1, 1)
+    batch.state[0] = first
+    with quiet():
+        after = batch.rollout(ctrl.shape[1], ctrl, record=[int(STATE)])[int(STATE)][0]
+    return np.concatenate([first[None], after])[: ctrl.shape[1] : period]
+
+
+def state_of(layout: Layout, qpos: Array, qvel: Array, act: Array | None = None) -> Array:
+    """(..., states) of MuJoCo's (..., nq), (..., nv) and (..., na)."""
+    root, rate = layout.root_qpos, layout.root_qvel
+    quaternion = qpos[..., root + 3 : root + 7]
+    inverse = quaternion * np.array([1.0, -1.0, -1.0, -1.0])
+    seen = sensed(
+        quaternion, qvel[..., rate + 3 : rate + 6], qpos[..., layout.joint_qpos], qvel[..., layout.joint_qvel]
+    )
+    parts = [seen, qpos[..., root + 2 : root + 3], rotate(inverse, qvel[..., rate : rate + 3])]
+    return np.concatenate(parts if act is None else [*parts, act], axis=-1)
+
+
+def _state(batch: Batch, layout: Layout) -> Array:
+    """(n, states) of the simulations as they are."""
+    fields = ["qpos", "qvel", *(["act"] if batch.model.na else [])]
+    return state_of(layout, *(batch.bind(name) for name in fields))
+
+
+class _Sides:
+    """Two simulations for each quantity, one with more of it and one with less."""
+
+    def __init__(self, model: mujoco.MjModel, layout: Layout, steps: Scales, drives: Array, threads: int) -> None:
+        self._model, self._layout, self._steps, self._drives = model, layout, steps, drives
+        self._qpos_of = np.arange(model.nq)[layout.joint_qpos]
+        self._qvel_of = np.arange(model.nv)[layout.joint_qvel]
+        self._joints = len(self._qpos_of)
+        self._count = 1 + 3 * 3 + 3 * self._joints + model.na
+        self._batch = Batch(model, 2 * self._count, threads)
+        self._sign = np.tile([1.0, -1.0], self._count)
+
+    def differences(self, row: Array, told: Array) -> tuple[Array, Array]:
+        """Between the two of each, (quantities, states + joints) before a tick, and (quantities, states) after it."""
+        batch, layout, joints, s = self._batch, self._layout, self._joints, self._steps
+        batch.state[:] = row
+        qpos, qvel = batch.bind("qpos"), batch.bind("qvel")
+        root, rate = layout.root_qpos, layout.root_qvel
+        quaternion = qpos[0, root + 3 : root + 7].copy()
+        ctrl = np.repeat(told, 2 * self._count, axis=0)
+        correction = np.zeros((2 * self._count, joints))
+        pairs = iter(np.arange(2 * self._count).reshape(-1, 2))
+        more = np.array([1.0, -1.0])
+        qpos[next(pairs), root + 2] += more * s.height
+        for axis in range(3):
+            unit = np.eye(3)[axis]
+            for one, sign in zip(next(pairs), more, strict=True):
+                mujoco.mju_quatIntegrate(qpos[one, root + 3 : root + 7], unit, float(sign * s.attitude))
+            qvel[next(pairs), rate : rate + 3] += more[:, None] * s.speed * rotate(quaternion, unit)
+            qvel[next(pairs), rate + 3 + axis] += more * s.rate
+        position = np.arange(self._model.nu)[layout.ctrl_position]
+        for joint in range(joints):
+            qpos[next(pairs), self._qpos_of[joint]] += more * s.joint
+            qvel[next(pairs), self._qvel_of[joint]] += more * s.joint_speed
+            pair = next(pairs)
+            correction[pair, joint] = more * s.joint
+            ctrl[pair, :, position[joint]] += (more * s.joint)[:, None]
+        for drive, largest in enumerate(self._drives):
+            batch.bind("act")[next(pairs), drive] += more * s.drive * largest
+        before = np.concatenate([_state(batch, layout), correction], axis=1)
+        with quiet():
+            batch.rollout(told.shape[1], ctrl, record=[])
+        after = _state(batch, layout)
+        return before[0::2] - before[1::2], after[0::2] - after[1::2]

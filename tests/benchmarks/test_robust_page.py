@@ -1,0 +1,50 @@
+"""docs/check.md says what the code says."""
+
+from __future__ import annotations
+
+import importlib.util
+from dataclasses import fields
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+from levade.check import Demands
+from levade.engines.perturbation import PARAMETERS
+from levade.tasks import Racing, Robust
+
+ROOT = Path(__file__).parents[2]
+PAGE = (ROOT / "docs" / "check.md").read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def script() -> ModuleType:
+    spec = importlib.util.spec_from_file_location("benchmarks_robust", ROOT / "benchmarks" / "robust.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_the_page_has_every_parameter_with_its_range_and_reason(script: ModuleType) -> None:
+    table = script.parameters()
+    assert table in PAGE
+    for name, about in PARAMETERS.items():
+        assert f"| `{name}` | {about.what} |" in table
+        assert about.why in table
+
+
+def test_the_page_has_every_demand_and_every_key_of_robust() -> None:
+    for field in fields(Demands):
+        assert f"`{field.name}`" in PAGE, field.name
+    for field in fields(Robust):
+        assert f"| `{field.name}` |" in PAGE, field.name
+    assert f"first: {Racing().first}, keep: {Racing().keep:g}" in PAGE
+
+
+def test_the_page_is_what_the_script_writes(script: ModuleType) -> None:
+    """But for the line about the machine."""
+    rows = script.kept()
+    made = [line for line in script.page(rows).splitlines() if not line.startswith("Made by")]
+    assert made == [line for line in PAGE.splitlines() if not line.startswith("Made by")]

@@ -1,0 +1,72 @@
+"""The built-in robust variants: the nominal tasks on robots that differ from the model, and nothing else of another kind."""
+
+from __future__ import annotations
+
+import pytest
+
+from levade.check import Subject, numerics, other_engines, perturbed
+from levade.engines import Perturbation
+from levade.motion import record
+from levade.solve import Objective, solve
+from levade.tasks import builtin_tasks, load_task
+
+VARIANTS = [name for name in builtin_tasks() if name.endswith("-robust")]
+OWN_CRITERIA = {"rearing-robust", "posture-recovery-robust"}
+"""Those that ask for what hardware needs, where the nominal task asks for what one exact model can do."""
+
+
+def test_every_variant_is_there() -> None:
+    assert set(VARIANTS) == {
+        *("rearing-robust", "posture-recovery-robust", "self-righting-robust", "squat-jump-robust"),
+    }
+
+
+@pytest.mark.parametrize("name", VARIANTS)
+def test_a_variant_has_the_robot_scene_start_and_five_times_the_budget_of_its_nominal_task(name: str) -> None:
+    variant, nominal = load_task(name), load_task(name.removesuffix("-robust"))
+    for key in ("robot", "scene", "physics", "start", "hold"):
+        assert getattr(variant, key) == getattr(nominal, key), key
+    assert variant.policy.groups == nominal.policy.groups
+    assert nominal.robust is None
+    assert variant.robust is not None
+    assert variant.robust.perturb == Perturbation()  # all that a check perturbs, and as much
+    assert variant.robust.required == 1.0
+    assert variant.search.trials <= 5 * nominal.search.trials
+    assert [stage.robust for stage in variant.stages] == [False, True]
+
+
+@pytest.mark.parametrize("name", sorted(set(VARIANTS) - OWN_CRITERIA))
+def test_a_variant_asks_for_the_same_motion(name: str) -> None:
+    variant, nominal = load_task(name), load_task(name.removesuffix("-robust"))
+    for key in ("horizon", "policy", "costs", "success"):
+        assert getattr(variant, key) == getattr(nominal, key), key
+
+
+@pytest.mark.parametrize("name", sorted(OWN_CRITERIA))
+def test_criteria_of_its_own_are_those_of_the_nominal_task_as_hardware_needs_them(name: str) -> None:
+    """0.1 rad and 5 cm, of the same targets, and of at least as many quantities."""
+    variant, nominal = load_task(name), load_task(name.removesuffix("-robust"))
+    for one in nominal.success.values():
+        assert any(
+            (one.quantity, one.target, one.at) == (other.quantity, other.target, other.at)
+            for other in variant.success.values()
+        )
+    for one in variant.success.values():
+        if one.target is not None:
+            assert one.tolerance == (0.05 if one.quantity == "height" else 0.1)
+        else:
+            assert (one.quantity, one.at) == ("speed", "end")
+
+
+@pytest.mark.slow
+def test_a_robust_search_finds_a_motion_that_holds_on_robots_it_has_not_seen() -> None:
+    task = load_task("rearing-robust")
+    solution = solve(objective := Objective(task, threads=0), seed=0)
+    assert solution.success
+    assert solution.trials <= 15_000
+    subject = Subject(record(objective, solution, seed=0))
+    found = perturbed(subject, Perturbation(), runs=500, seed=0)
+    assert found.share >= 0.95, found.errors
+    assert numerics(subject)["half time step"].success
+    ode = other_engines(subject)["ode"]
+    assert ode.success or ode.reason
