@@ -1,0 +1,54 @@
+"""Pages that scripts in benchmarks/ write are what they would write now; every built-in task has its picture."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+
+
+def script(name: str) -> ModuleType:
+    specification = importlib.util.spec_from_file_location(f"benchmarks_{name}", ROOT / "benchmarks" / f"{name}.py")
+    assert specification is not None
+    assert specification.loader is not None
+    module = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(module)
+    return module
+
+
+@pytest.mark.parametrize("name", ["gallery", "paper", "skills"])
+def test_a_page_is_what_its_script_writes(name: str) -> None:
+    """Not so after a change to a template, to results or to what a task asks: python benchmarks/NAME.py --write."""
+    module = script(name)
+    assert module.PAGE.read_text(encoding="utf-8") == module.page()
+
+
+def test_every_task_has_a_section_with_a_picture() -> None:
+    """python benchmarks/gallery.py --tasks NAME makes one."""
+    page = ROOT / "docs" / "gallery.md"
+    sections = {part.split("\n", 1)[0]: part for part in page.read_text(encoding="utf-8").split("\n## ")[1:]}
+    assert set(sections) == set(script("gallery").names())
+    for section in sections.values():
+        pictures = re.findall(r"!\[[^]]*\]\((.*?)\)", section)
+        assert pictures
+        for picture in pictures:
+            content = (page.parent / picture).read_bytes()
+            assert content.startswith(b"\x89PNG")
+            assert len(content) < 200_000
+        assert "success:\n" in section
+
+
+def test_failures_stay_in_the_table_of_robots() -> None:
+    cell = script("skills").cell
+    failure = {"task": "leap", "robot": "toy", "seed": 0, "success": False, "trials_to_success": None}
+    success = {**failure, "success": True, "trials_to_success": 48}
+    assert cell([], "leap", "toy") == "not run"
+    assert cell([failure, failure], "leap", "toy") == "**0 of 2**"
+    assert cell([failure, success, {**success, "trials_to_success": 24}], "leap", "toy") == "**2 of 3**; 36 (24 to 48)"
+    assert cell([success] * 9 + [failure], "leap", "toy") == "9 of 10; 48 (48 to 48)"
+    assert cell([{**failure, "refused": "why"}], "leap", "toy") == "refused"
