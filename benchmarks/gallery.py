@@ -82,6 +82,8 @@ def section(task: str, runs: list[dict[str, Any]]) -> str:
     lines = [f"## {task}", "", f"{yaml.safe_load(text)['description']}.", "", "```yaml"]
     lines += [*_block(text, "scene"), *_block(text, "start"), *_block(text, "horizon"), *_block(text, "hold")]
     lines += [*_block(text, "success"), "```", ""]
+    if not runs:
+        lines += ["No picture yet.", ""]
     for run in runs:
         where = "" if run["robot"] == OWN else f" --robot {run['robot']}"
         found = (
