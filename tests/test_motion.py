@@ -21,7 +21,14 @@ from levade.solve import Objective, Solution, solve
 from levade.tasks import load_task
 from levade.trajectory import rotate
 
-HERE = ["search.population=8", "search.trials=24", "hold=0.05"]
+HERE = [
+    "search.optimizer=cma",
+    "search.modes=null",
+    "search.smoothness=0.15",
+    "search.population=8",
+    "search.trials=24",
+    "hold=0.05",
+]
 
 # What docs/motion-file.md tells a stranger to do.
 REPLAY = """

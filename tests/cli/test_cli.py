@@ -17,7 +17,7 @@ from levade.cli import main
 from levade.motion import Motion
 from levade.optimizers import OPTIMIZERS
 
-QUICK = ["--set", "search.population=8", "--trials", "16", "--set", "horizon=0.06"]
+QUICK = ["--set", "search.optimizer=cma", "--set", "search.population=8", "--trials", "16", "--set", "horizon=0.06"]
 LOOSE = ["--set", "success.pitch.tolerance=9", "--set", "success.height.tolerance=9"]
 
 

@@ -18,7 +18,11 @@ from levade.tasks import load_task
 def directory(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A run that has not met its goal, and a copy of its motion beside it."""
     directory = tmp_path_factory.mktemp("runs") / "rearing"
-    run(load_task("rearing", changes=["search.population=8", "search.trials=16"]), seed=0, directory=directory)
+    run(
+        load_task("rearing", changes=["search.optimizer=cma", "search.population=8", "search.trials=16"]),
+        seed=0,
+        directory=directory,
+    )
     (directory / "other.npz").write_bytes((directory / "motion.npz").read_bytes())
     return directory
 

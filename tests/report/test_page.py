@@ -29,7 +29,9 @@ MINUS = "\N{MINUS SIGN}"
 def solved(tmp_path_factory: pytest.TempPathFactory) -> tuple[Motion, Path]:
     """A rearing after a short search, with a hold, and its progress.csv."""
     directory = tmp_path_factory.mktemp("rearing")
-    task = load_task("rearing", changes=["search.population=8", "search.trials=40", "hold=0.05"])
+    task = load_task(
+        "rearing", changes=["search.optimizer=cma", "search.population=8", "search.trials=40", "hold=0.05"]
+    )
     return run(task, seed=0, directory=directory).motion, directory / "progress.csv"
 
 

@@ -19,7 +19,13 @@ from levade.run import run
 from levade.tasks import load_task
 
 # small, and never done: a solve that goes on until someone stops it
-CHANGES = ["search.population=8", "search.trials=200000", "horizon=0.1", "success.height.tolerance=0"]
+CHANGES = [
+    "search.optimizer=cma",
+    "search.population=8",
+    "search.trials=200000",
+    "horizon=0.1",
+    "success.height.tolerance=0",
+]
 
 
 class Solving:

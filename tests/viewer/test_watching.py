@@ -18,7 +18,13 @@ from levade.solve import Generation, Objective
 from levade.tasks import load_task
 from levade.viewer.watching import Watch
 
-CHANGES = ["search.population=8", "search.trials=120", "horizon=0.1", "success.height.tolerance=0"]
+CHANGES = [
+    "search.optimizer=cma",
+    "search.population=8",
+    "search.trials=120",
+    "horizon=0.1",
+    "success.height.tolerance=0",
+]
 
 
 @pytest.fixture(scope="module")

@@ -94,7 +94,7 @@ def solve(
     seed: Annotated[int, typer.Option(min=0, help="Of the search; the same seed gives the same motion.")] = 0,
     trials: Annotated[int | None, typer.Option(help="Budget, instead of the task's.")] = None,
     optimizer: Annotated[
-        str | None, typer.Option(help="cma, pi2, pi2-cma, mppi, cem or random, instead of the task's.")
+        str | None, typer.Option(help="levade, cma, pi2, pi2-cma, mppi, cem or random, instead of the task's.")
     ] = None,
     engine: Annotated[str | None, typer.Option(help="mujoco or ode, instead of the task's.")] = None,
     change: Annotated[
