@@ -6,10 +6,8 @@ import dataclasses
 import json
 import math
 import os
-import signal
 import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +20,7 @@ from rich.text import Text
 
 from levade.bench import Plan, Progress, Summary, bench, plan_of, read, read_plan, report, summarise
 from levade.bench.table import SHORT_HEADINGS, by_case, legend, rows
+from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console
 from levade.document import parse_yaml
 from levade.errors import LevadeError
@@ -49,7 +48,7 @@ def bench_and_report(
         raise LevadeError(f"--format {format}: should be one of {', '.join(FORMATS)}")
     plan = _plan(file, directory, {name: value for name, value in options.items() if value is not None}, changes)
     others = [result for path in add for result in read(path)]
-    with _interruptible() as asked, _Display(console, quiet=as_json and not console.is_terminal) as display:
+    with stop_between() as asked, _Display(console, quiet=as_json and not console.is_terminal) as display:
 
         def watch(progress: Progress) -> None:
             display.update(progress)
@@ -163,20 +162,3 @@ class _Display:
             self._console.print(f"{progress.done} of {progress.total} runs")
         elif self._task is not None:
             self._bar.update(self._task, completed=progress.done, total=progress.total, refresh=True)
-
-
-@contextmanager
-def _interruptible() -> Iterator[Callable[[], bool]]:
-    """Ctrl-C and SIGTERM end the bench between two looks at its processes."""
-    asked = False
-
-    def ask(number: int, frame: object) -> None:
-        nonlocal asked
-        asked = True
-
-    before = {number: signal.signal(number, ask) for number in (signal.SIGINT, signal.SIGTERM)}
-    try:
-        yield lambda: asked
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)

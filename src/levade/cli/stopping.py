@@ -10,16 +10,16 @@ from types import FrameType
 
 
 @contextmanager
-def stop_between(parts: str) -> Iterator[Callable[[], bool]]:
+def stop_between(parts: str = "") -> Iterator[Callable[[], bool]]:
     """End the search after the part that is being simulated, so that nothing is half done: whether to stop.
 
-    parts: what the search goes through, as in "generation".
+    parts: what the search goes through, as in "generation": whoever asks twice is told what is waited for, if it is named.
     """
     asked = False
 
     def ask(number: int, frame: FrameType | None) -> None:
         nonlocal asked
-        if asked and number == signal.SIGINT:
+        if asked and parts and number == signal.SIGINT:
             print(f"levade: stopping after this {parts}", file=sys.stderr)
         asked = True
 
