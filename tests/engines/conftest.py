@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
+import mujoco
 import numpy as np
 import pytest
 
@@ -44,3 +45,26 @@ def wave() -> Callable[..., JointReference]:
         )
 
     return make
+
+
+@pytest.fixture(scope="session")
+def compile_in() -> Callable[[mujoco.MjSpec, Mapping[str, np.ndarray]], None]:
+    """Changes a model by the numbers of one run of a sample, but for its start and where ground and obstacles are."""
+
+    def change(spec: mujoco.MjSpec, v: Mapping[str, np.ndarray]) -> None:
+        for body in spec.bodies[1:]:
+            body.mass = body.mass * v["mass"][0]
+            body.inertia = body.inertia * v["mass"][0] * v["inertia"][0]
+            body.fullinertia[:] = body.fullinertia * v["mass"][0] * v["inertia"][0]
+        trunk = spec.body("trunk")
+        trunk.ipos = trunk.ipos + v["com"]
+        for geom in spec.geoms:
+            geom.friction[0] *= v["friction"][0]
+        for i, actuator in enumerate(spec.actuators):
+            actuator.forcerange = actuator.forcerange * v["torque_limit"][0]
+            actuator.gainprm[0] /= v["torque_limit"][0]
+            actuator.gainprm[4] *= v["kp"][i]
+            actuator.gainprm[6] *= v["kd"][i]
+            actuator.dynprm[0] *= v["torque_lag"][0]
+
+    return change

@@ -53,7 +53,7 @@ def test_the_nominal_version_is_the_engines_own(
 
 
 def test_a_version_is_a_model_compiled_with_its_values(
-    boxed: MujocoEngine, start: Start, wave: Callable[..., JointReference]
+    boxed: MujocoEngine, start: Start, wave: Callable[..., JointReference], compile_in: Callable[..., None]
 ) -> None:
     ensemble, steps = boxed.ensemble(), 60
     everything = Perturbation(latency=None).draw(ensemble.model, ensemble.joints, n=3, seed=1)
@@ -65,29 +65,16 @@ def test_a_version_is_a_model_compiled_with_its_values(
     for run in range(3):
         v = {name: values[run] for name, values in everything.values.items()}
         spec = mujoco.MjSpec.from_string(boxed.xml)
-        for body in spec.bodies[1:]:
-            body.mass = body.mass * v["mass"][0]
-            body.inertia = body.inertia * v["mass"][0] * v["inertia"][0]
-            body.fullinertia[:] = body.fullinertia * v["mass"][0] * v["inertia"][0]
-        trunk = spec.body("trunk")
-        trunk.ipos = trunk.ipos + v["com"]
+        compile_in(spec, v)
         angle = np.linalg.norm(v["ground_slope"])
         turn, product, turned = np.empty(4), np.empty(4), np.empty(3)
         mujoco.mju_axisAngle2Quat(turn, np.array([*(v["ground_slope"] / angle), 0.0]), angle)
         pivot = np.array([*start[0][:2], 0.0])
-        for geom in spec.geoms:
-            geom.friction[0] *= v["friction"][0]
         for name, moved in (("ground", [0.0, 0.0, v["ground_height"][0]]), ("box0", v["obstacle"])):
             geom = spec.geom(name)
             mujoco.mju_rotVecQuat(turned, geom.pos + moved - pivot, turn)
             mujoco.mju_mulQuat(product, turn, boxed.model.geom(name).quat)
             geom.pos, geom.quat = turned + pivot, product.copy()
-        for i, actuator in enumerate(spec.actuators):
-            actuator.forcerange = actuator.forcerange * v["torque_limit"][0]
-            actuator.gainprm[0] /= v["torque_limit"][0]
-            actuator.gainprm[4] *= v["kp"][i]
-            actuator.gainprm[6] *= v["kd"][i]
-            actuator.dynprm[0] *= v["torque_lag"][0]
         model = spec.compile()
         assert not np.allclose(model.dof_invweight0, boxed.model.dof_invweight0)
         data = mujoco.MjData(model)

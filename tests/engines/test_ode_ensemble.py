@@ -66,7 +66,7 @@ def test_the_nominal_version_is_the_engines_own(
 
 
 def test_a_version_is_a_model_compiled_with_its_values(
-    boxed: Engine, state: State, wave: Callable[..., JointReference]
+    boxed: Engine, state: State, wave: Callable[..., JointReference], compile_in: Callable[..., None]
 ) -> None:
     ensemble, steps, robot = boxed.ensemble(), 40, boxed.robot
     sample = Perturbation(latency=None).draw(ensemble.model, ensemble.joints, n=3, seed=1)
@@ -76,23 +76,10 @@ def test_a_version_is_a_model_compiled_with_its_values(
     for run in range(3):
         v = {name: values[run] for name, values in sample.values.items()}
         spec = mujoco.MjSpec.from_string(boxed.xml)
-        for body in spec.bodies[1:]:
-            body.mass = body.mass * v["mass"][0]
-            body.inertia = body.inertia * v["mass"][0] * v["inertia"][0]
-            body.fullinertia[:] = body.fullinertia * v["mass"][0] * v["inertia"][0]
-        trunk = spec.body("trunk")
-        trunk.ipos = trunk.ipos + v["com"]
-        for geom in spec.geoms:
-            geom.friction[0] *= v["friction"][0]
+        compile_in(spec, v)
         for name in ("ground", "box0"):
             geom, number = spec.geom(name), boxed.model.geom(name).id
             geom.pos, geom.quat = (variations.fields[f"geom_{what}"][run, number].copy() for what in ("pos", "quat"))
-        for i, actuator in enumerate(spec.actuators):
-            actuator.forcerange = actuator.forcerange * v["torque_limit"][0]
-            actuator.gainprm[0] /= v["torque_limit"][0]
-            actuator.gainprm[4] *= v["kp"][i]
-            actuator.gainprm[6] *= v["kd"][i]
-            actuator.dynprm[0] *= v["torque_lag"][0]
         stage = OdeStage(
             spec.to_xml(),
             boxed.assets,

@@ -129,17 +129,9 @@ class Ensemble:
         if feet or bodies:
             recorded.append("sensordata")
         out, diverged = self.record(variations, reference, recorded, feedback=feedback, sensor_errors=sensor_errors)
-        if len(reference.position) == 1 < len(variations):
-            shape = (len(variations), *reference.position.shape[1:])
-            reference = JointReference(
-                np.broadcast_to(reference.position, shape),
-                np.broadcast_to(reference.velocity, shape),
-                reference.timestep,
-                reference.horizon_steps,
-            )
         return self.layout.trajectories(
             out,
-            reference,
+            repeated(reference, len(variations)),
             limits=self._limits,
             trunk_com_offset=self._offset,
             legs=self._legs,
@@ -271,6 +263,19 @@ class Ensemble:
             batch.expand(name)[:n] = values
         with quiet():
             batch.set_const(np.arange(n))
+
+
+def repeated(reference: JointReference, n: int) -> JointReference:
+    """The same reference, of n trials if it is of one for all."""
+    if len(reference.position) == n:
+        return reference
+    shape = (n, *reference.position.shape[1:])
+    return JointReference(
+        np.broadcast_to(reference.position, shape),
+        np.broadcast_to(reference.velocity, shape),
+        reference.timestep,
+        reference.horizon_steps,
+    )
 
 
 def delayed(reference: JointReference, delay: Array) -> JointReference:

@@ -121,7 +121,7 @@ class OdeStage:
     ) -> Trajectories:
         """As `Engine.rollout`; start: qpos, qvel, act of the model."""
         asked = self.asked(reference.position, reference.velocity, feet=feet, bodies=bodies)
-        record = self._crew.run(start, asked.pop("position"), asked.pop("velocity"), **asked)
+        record = self._crew.run(start, **asked)
         return self.trajectories(record, reference, feet=feet, bodies=bodies)
 
     def asked(self, position: Array, velocity: Array, *, feet: bool, bodies: Sequence[str]) -> dict[str, Any]:

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from levade.engines.engine import Layout
-from levade.engines.ensemble import Ensemble, Variations, delayed
+from levade.engines.ensemble import Ensemble, Variations, delayed, repeated
 from levade.engines.ode.engine import OdeStage
 from levade.engines.ode.simulation import Record, Simulation
 from levade.engines.ode.skeleton import skeleton
@@ -49,28 +49,20 @@ class OdeEnsemble(Ensemble):
         if feedback is not None or sensor_errors is not None:
             raise LevadeError("feedback: the engine ode has no place for it yet; use the engine mujoco")
         n = len(variations)
-        shape = (n, *reference.position.shape[1:])
-        told = delayed(reference, variations.delay)
-        position, velocity = (np.broadcast_to(part, shape) for part in (told.position, told.velocity))
+        told = repeated(delayed(reference, variations.delay), n)
         same: dict[bytes, list[int]] = {}
         for run in range(n):
             same.setdefault(_key(variations, run), []).append(run)
         parts, order = [], []
         for key, runs in same.items():
             start = tuple(part[runs[0]] for part in (variations.qpos, variations.qvel, variations.act))
-            asked = self._stage.asked(position[runs], velocity[runs], feet=feet, bodies=bodies)
+            asked = self._stage.asked(told.position[runs], told.velocity[runs], feet=feet, bodies=bodies)
             parts.append(self._simulation(key, variations, runs[0]).run(*start, **asked))
             order += runs
         record = Record(**{name: np.concatenate([getattr(part, name) for part in parts]) for name in vars(parts[0])})
         back = np.argsort(order)
         record = Record(**{name: values[back] for name, values in vars(record).items()})
-        whole = JointReference(
-            np.broadcast_to(reference.position, shape),
-            np.broadcast_to(reference.velocity, shape),
-            reference.timestep,
-            reference.horizon_steps,
-        )
-        return self._stage.trajectories(record, whole, feet=feet, bodies=bodies)
+        return self._stage.trajectories(record, repeated(reference, n), feet=feet, bodies=bodies)
 
     def _simulation(self, key: bytes, variations: Variations, run: int) -> Simulation:
         """The worlds of a version."""
