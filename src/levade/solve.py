@@ -533,7 +533,7 @@ def make_optimizer(objective: Objective, seed: int, *, attempt: int = 0) -> Opti
         )
 
 
-def _forget_costs(optimizer: Optimizer | Informed, task: Task, *, hold: bool = False) -> None:
+def _forget_costs(optimizer: Optimizer, task: Task, *, hold: bool = False) -> None:
     """Costs are weighed by other weights from now on. hold: whether another part of the hold is simulated, too."""
     if isinstance(optimizer, Informed):
         optimizer.forget_costs(np.array([hold and looks_at_hold(criterion) for criterion in task.success.values()]))

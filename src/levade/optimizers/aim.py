@@ -13,6 +13,7 @@ of them are right indeed. The regression costs no trials of its own.
 from __future__ import annotations
 
 import itertools
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,11 +38,14 @@ class Aim:
 
     def __init__(self, factor: Array, *, memory: int = 400, neighbours: int = 120) -> None:
         self._factor, self._memory, self._neighbours = factor, memory, neighbours
-        with single_threaded():
-            self._inverse = np.linalg.pinv(factor, rcond=1e-8)
         self._candidates = np.empty((0, len(factor)))
         self._errors = np.empty((0, 0))
         self._cost = np.empty(0)
+
+    @cached_property
+    def _inverse(self) -> Array:
+        """(m, d), from candidates to the factor's coordinates."""
+        return np.asarray(np.linalg.pinv(self._factor, rcond=1e-8))
 
     def tell(self, candidates: Array, errors: Array, cost: Array) -> None:
         """What came of a generation.

@@ -37,10 +37,12 @@ class Finish:
     ) -> None:
         self._ending, self._count, self._generator = ending, count, generator
         self._known = np.isfinite(errors)
-        self._first = self._best = base
-        self._place = np.zeros(len(ending))  # of the best, along the directions
-        self._errors = errors[self._known]
-        self._steps, self._missed = np.zeros((1, len(ending))), self._errors[None]
+        self._base = base
+        self._steps, self._missed = (
+            np.zeros((1, len(ending))),
+            errors[self._known][None],
+        )  # of all trials, the base first
+        self._at = 0  # which of them is the best
         self._asked = PROBE * np.eye(len(ending))
         self._rounds = 0
         self.over = False
@@ -48,16 +50,16 @@ class Finish:
     @property
     def best(self) -> Array:
         """(d,), of all rounds."""
-        return self._best
+        return self._base + self._steps[self._at] @ self._ending
 
     @property
     def miss(self) -> float:
         """The largest error of the best, as a share of what is allowed."""
-        return float(np.abs(self._errors).max())
+        return float(np.abs(self._missed[self._at]).max())
 
     def ask(self) -> Array:
         """The next candidates, (n, d)."""
-        return self._first + self._asked @ self._ending
+        return self._base + self._asked @ self._ending
 
     def tell(self, errors: Array) -> None:
         """Errors (n, k) of the candidates just asked for."""
@@ -66,28 +68,26 @@ class Finish:
         self._steps = np.concatenate([self._steps, self._asked[usable]])
         self._missed = np.concatenate([self._missed, errors[usable]])
         before = self.miss
-        best = int(np.argmin(np.abs(self._missed).max(axis=1)))
-        self._place, self._errors = self._steps[best], self._missed[best]
-        self._best = self._first + self._place @ self._ending
+        self._at = int(np.argmin(np.abs(self._missed).max(axis=1)))
         self.over = self._rounds >= ROUNDS or (self._rounds > 0 and self.miss > 0.7 * before)
         if not self.over:
-            self._plan(best)
+            self._plan()
 
-    def _plan(self, best: int) -> None:
+    def _plan(self) -> None:
         """The next round, from all that is known."""
-        q = len(self._ending)
-        difference = np.delete(self._steps - self._place, best, axis=0)
-        change = np.delete(self._missed - self._errors, best, axis=0)
+        q, place, errors = len(self._ending), self._steps[self._at], self._missed[self._at]
+        difference = np.delete(self._steps - place, self._at, axis=0)
+        change = np.delete(self._missed - errors, self._at, axis=0)
         with single_threaded():
             length = np.linalg.norm(difference, axis=1, keepdims=True)
             weight = 1.0 / np.maximum(length, PROBE)  # the nearer, the more to be believed
             slope = ridge(difference * weight, change * weight)
-            step = corrected(np.zeros((1, q)), self._errors, slope, np.inf)
+            step = corrected(np.zeros((1, q)), errors, slope, np.inf)
             reach = float(np.abs(step).max())
             self.over = not np.isfinite(reach) or reach > FARTHEST
             spread = SPREAD * np.linalg.norm(step) / np.sqrt(q)
             drawn = step + spread * self._generator.standard_normal((self._count, q))
             drawn[0] = step[0]
             shares = np.resize(SHARES, self._count)[:, None]
-            self._asked = self._place + shares * corrected(drawn, self._errors, slope, np.inf)
+            self._asked = place + shares * corrected(drawn, errors, slope, np.inf)
         self._rounds += 1

@@ -22,8 +22,8 @@ class Levade:
 
     Each generation, some candidates are aimed (`levade.optimizers.aim`); the best of them, if it is among the best quarter of
     the others, becomes a part of the next generation. If it is the best of all so far, aimed candidates alone follow, for as
-    long as they go on to be. When the best trial misses by little, and by half as much as at the
-    last attempt, its ending is finished by least squares (`levade.optimizers.finish`).
+    long as they go on to be. When the best trial misses by little, and by half as much as at the last attempt, its ending is
+    finished by least squares (`levade.optimizers.finish`).
 
     mean, factor, step, seed, step_adaptation: as in `CMAES`. population: candidates of CMA-ES in a generation.
     aimed: how many more there are beside them. finish: errors, in tolerances, from which the ending is finished; 0 for never.

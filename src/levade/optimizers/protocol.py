@@ -37,32 +37,14 @@ class Optimizer(Protocol):
 
 
 @runtime_checkable
-class Informed(Protocol):
-    """An optimizer that also looks at how far candidates miss the criteria. Of its candidates, `ask` may return fewer."""
-
-    @property
-    def population(self) -> int:
-        """Candidates per generation, at most."""
-        ...
-
-    @property
-    def step(self) -> float:
-        """As of any `Optimizer`."""
-        ...
-
-    def ask(self) -> Array:
-        """The next candidates, (n, d), n up to `population`."""
-        ...
+class Informed(Optimizer, Protocol):
+    """An optimizer that also looks at how far candidates miss the criteria. ``population`` is the most that it asks for."""
 
     def tell(self, cost: Array, errors: Array | None = None) -> None:
         """Costs (n,) of the candidates just asked for.
 
         errors: (n, k), signed, as a share of what is allowed; NaN where unknown, all of a trial that diverged.
         """
-        ...
-
-    def scale_step(self, factor: float) -> None:
-        """As of any `Optimizer`."""
         ...
 
     def forget_costs(self, changed: NDArray[np.bool_]) -> None:
