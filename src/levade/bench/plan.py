@@ -136,9 +136,8 @@ def _variants(plan: Plan, task: str, robot: str | None) -> Iterator[tuple[str, T
         common.append(f"search.trials={plan.trials}")
     if plan.until == "budget":
         common.append("search.polish=null")
-    own = load_task(task, robot=robot).search.optimizer
     if not plan.optimizers:
-        yield own, _load(task, robot, common, "changes")
+        yield load_task(task, robot=robot).search.optimizer, _load(task, robot, common, "changes")
     for name in plan.optimizers:
         changes = plan.optimizers[name] if isinstance(plan.optimizers, Mapping) else None
         if changes:
