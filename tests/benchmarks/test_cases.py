@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
-import sys
-from pathlib import Path
+from collections.abc import Callable
 from types import ModuleType
 
 import pytest
@@ -13,18 +12,11 @@ from levade.bench import Result
 from levade.tasks import load_task
 
 pytest.importorskip("matplotlib")
-CASES = Path(__file__).parents[2] / "benchmarks" / "cases.py"
 
 
 @pytest.fixture(scope="module")
-def cases() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("cases", CASES)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules["cases"] = module
-    spec.loader.exec_module(module)
-    return module
+def cases(script: Callable[[str], ModuleType]) -> ModuleType:
+    return script("cases")
 
 
 def result(task: str, method: str, seed: int, trials: int | None, cost: float) -> Result:

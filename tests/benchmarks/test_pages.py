@@ -2,36 +2,25 @@
 
 from __future__ import annotations
 
-import importlib.util
 import re
-import sys
+from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
 import pytest
 
 ROOT = Path(__file__).parents[2]
-
-
-def script(name: str) -> ModuleType:
-    if str(ROOT / "benchmarks") not in sys.path:  # as when it is run: some scripts take from others
-        sys.path.append(str(ROOT / "benchmarks"))
-    specification = importlib.util.spec_from_file_location(f"benchmarks_{name}", ROOT / "benchmarks" / f"{name}.py")
-    assert specification is not None
-    assert specification.loader is not None
-    module = importlib.util.module_from_spec(specification)
-    specification.loader.exec_module(module)
-    return module
+Script = Callable[[str], ModuleType]
 
 
 @pytest.mark.parametrize("name", ["gallery", "paper", "skills"])
-def test_a_page_is_what_its_script_writes(name: str) -> None:
+def test_a_page_is_what_its_script_writes(script: Script, name: str) -> None:
     """Not so after a change to a template, to results or to what a task asks: python benchmarks/NAME.py --write."""
     module = script(name)
     assert module.PAGE.read_text(encoding="utf-8") == module.page()
 
 
-def test_every_task_has_a_section_with_a_picture_or_says_that_it_has_none() -> None:
+def test_every_task_has_a_section_with_a_picture_or_says_that_it_has_none(script: Script) -> None:
     """python benchmarks/gallery.py --tasks NAME makes one."""
     page = ROOT / "docs" / "gallery.md"
     sections = {part.split("\n", 1)[0]: part for part in page.read_text(encoding="utf-8").split("\n## ")[1:]}
@@ -46,7 +35,7 @@ def test_every_task_has_a_section_with_a_picture_or_says_that_it_has_none() -> N
         assert "success:\n" in section
 
 
-def test_failures_stay_in_the_table_of_robots() -> None:
+def test_failures_stay_in_the_table_of_robots(script: Script) -> None:
     cell = script("skills").cell
     failure = {"task": "leap", "robot": "toy", "seed": 0, "success": False, "trials_to_success": None}
     success = {**failure, "success": True, "trials_to_success": 48}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import importlib.util
+from collections.abc import Callable
 from dataclasses import fields
 from pathlib import Path
 from types import ModuleType
@@ -18,17 +18,12 @@ PAGE = (ROOT / "docs" / "check.md").read_text(encoding="utf-8")
 
 
 @pytest.fixture(scope="module")
-def script() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("benchmarks_robust", ROOT / "benchmarks" / "robust.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+def robust(script: Callable[[str], ModuleType]) -> ModuleType:
+    return script("robust")
 
 
-def test_the_page_has_every_parameter_with_its_range_and_reason(script: ModuleType) -> None:
-    table = script.parameters()
+def test_the_page_has_every_parameter_with_its_range_and_reason(robust: ModuleType) -> None:
+    table = robust.parameters()
     assert table in PAGE
     for name, about in PARAMETERS.items():
         assert f"| `{name}` | {about.what} |" in table
@@ -43,8 +38,8 @@ def test_the_page_has_every_demand_and_every_key_of_robust() -> None:
     assert f"first: {Racing().first}, keep: {Racing().keep:g}" in PAGE
 
 
-def test_the_page_is_what_the_script_writes(script: ModuleType) -> None:
+def test_the_page_is_what_the_script_writes(robust: ModuleType) -> None:
     """But for the line about the machine."""
-    rows = script.kept()
-    made = [line for line in script.page(rows).splitlines() if not line.startswith("Made by")]
+    rows = robust.kept()
+    made = [line for line in robust.page(rows).splitlines() if not line.startswith("Made by")]
     assert made == [line for line in PAGE.splitlines() if not line.startswith("Made by")]
