@@ -28,6 +28,7 @@ from levade.costs.risk import ranked_behind, risk
 from levade.engines import Variations, make_engine
 from levade.errors import LevadeError, did_you_mean
 from levade.optimizers import OPTIMIZERS, Informed, Optimizer, settings, takes_ending
+from levade.optimizers.blas import single_threaded
 from levade.policies import Ends, Follower, GaussianKernels, Group, Policy, smoothness_factor
 from levade.robots import Leg, Robot, load_robot, mirror_signs
 from levade.robust import Sampler, Samples
@@ -398,6 +399,7 @@ class _Search:
     robust: bool = False
 
 
+@single_threaded()
 def solve(
     task: Task | Objective,
     *,

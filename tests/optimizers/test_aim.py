@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from levade.optimizers.aim import WITHIN, Aim, corrected
+from levade.optimizers.aim import RIDGE, WITHIN, Aim, corrected, ridge
 
 
 def told(slope: np.ndarray, offset: np.ndarray, *, spread: float = 0.1, n: int = 60) -> Aim:
@@ -115,3 +115,13 @@ def test_points_are_moved_by_the_smallest_step(farthest: float) -> None:
     np.testing.assert_allclose((moved - drawn) @ across.T, 0, atol=1e-9)
     already = corrected(np.zeros((1, 6)), np.array([0.1, -0.2]), slope, farthest)
     np.testing.assert_allclose(already, 0, atol=1e-12)
+
+
+@pytest.mark.parametrize(("n", "m"), [(40, 12), (12, 40), (20, 20)])
+def test_ridge_is_least_squares_with_rows_added_that_ask_for_nothing(n: int, m: int) -> None:
+    generator = np.random.default_rng(2)
+    difference, change = generator.standard_normal((n, m)), generator.standard_normal((n, 3))
+    damping = RIDGE * (difference**2).sum(axis=1).mean()
+    added = np.vstack([difference, np.sqrt(damping) * np.eye(m)])
+    expected = np.linalg.lstsq(added, np.vstack([change, np.zeros((m, 3))]), rcond=None)[0]
+    np.testing.assert_allclose(ridge(difference, change), expected, rtol=1e-9, atol=1e-9)

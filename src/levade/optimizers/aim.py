@@ -121,7 +121,8 @@ class Aim:
             if usable.size < 2 * errors.shape[1]:
                 continue
             nearest = usable[np.argsort(length[usable], kind="stable")[: self._neighbours]]
-            weight = np.sqrt(1.0 / (length[nearest] / np.median(length[nearest]) + 0.1))[:, None]
+            middle = length[nearest[nearest.size // 2]]  # they are sorted
+            weight = np.sqrt(1.0 / (length[nearest] / middle + 0.1))[:, None]
             change = errors[np.ix_(nearest, columns)] - errors[best, columns]
             slope[:, columns] = ridge(coordinates[nearest] * weight, change * weight)
             farthest = max(farthest, 3.0 * np.sqrt(length[nearest].max()))
@@ -144,6 +145,12 @@ def corrected(drawn: Array, errors: Array, slope: Array, farthest: float) -> Arr
 
 def ridge(difference: Array, change: Array) -> Array:
     """(m, k), the slope J of errors. difference: (n, m). change: (n, k)."""
+    n, m = difference.shape
+    damping = RIDGE * np.vdot(difference, difference) / n
+    if m < n:  # the same in whichever space is smaller
+        normal = difference.T @ difference
+        normal[np.diag_indices_from(normal)] += damping
+        return np.asarray(np.linalg.solve(normal, difference.T @ change))
     gram = difference @ difference.T
-    gram[np.diag_indices_from(gram)] += RIDGE * np.trace(gram) / len(gram)
+    gram[np.diag_indices_from(gram)] += damping
     return np.asarray(difference.T @ np.linalg.solve(gram, change))

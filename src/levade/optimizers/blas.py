@@ -2,13 +2,25 @@
 
 from __future__ import annotations
 
-from contextlib import AbstractContextManager
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 
 from threadpoolctl import ThreadpoolController
 
 _libraries = ThreadpoolController()
+_within = ContextVar("within", default=False)
 
 
-def single_threaded() -> AbstractContextManager[object]:
-    """Within this context, numpy's linear algebra runs on one thread."""
-    return _libraries.limit(limits=1, user_api="blas")
+@contextmanager
+def single_threaded() -> Iterator[None]:
+    """Within this context, numpy's linear algebra runs on one thread; contexts within it cost nothing."""
+    if _within.get():
+        yield
+        return
+    token = _within.set(True)
+    try:
+        with _libraries.limit(limits=1, user_api="blas"):
+            yield
+    finally:
+        _within.reset(token)

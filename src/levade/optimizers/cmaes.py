@@ -6,6 +6,7 @@ the initial covariance of the candidates, up to ``step**2``.
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -75,6 +76,11 @@ class CMAES:
             self._search = cma.CMAEvolutionStrategy(np.zeros(self._factor.shape[1]), step, options)
         self._asked: list | None = None
 
+    @cached_property
+    def _inverse(self) -> Array:
+        """(m, d), from candidates less the first mean to the coordinates of the search."""
+        return np.asarray(np.linalg.pinv(self._factor, rcond=1e-8))
+
     @property
     def population(self) -> int:
         return int(self._search.popsize)
@@ -102,9 +108,8 @@ class CMAES:
 
     def inject(self, candidate: Array) -> None:
         """Make a candidate (d,) part of the next generation, in place of one of its own."""
-        deviation = candidate - self._mean
         with single_threaded():
-            self._search.inject([np.linalg.lstsq(self._factor, deviation, rcond=1e-8)[0]], force=True)
+            self._search.inject([self._inverse @ (candidate - self._mean)], force=True)
 
     def scale_step(self, factor: float) -> None:
         """Multiply the step size, as at the start of a stage."""

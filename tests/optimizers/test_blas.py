@@ -1,0 +1,28 @@
+"""Linear algebra on one thread, and as before when that is over."""
+
+from threadpoolctl import threadpool_info, threadpool_limits
+
+from levade.optimizers.blas import single_threaded
+
+
+def _threads() -> set[int]:
+    return {library["num_threads"] for library in threadpool_info() if library["user_api"] == "blas"}
+
+
+def test_contexts_within_each_other_end_with_the_outermost():
+    with threadpool_limits(limits=2, user_api="blas"):
+        with single_threaded():
+            with single_threaded():
+                assert _threads() == {1}
+            assert _threads() == {1}
+        assert _threads() == {2}
+
+
+def test_an_error_gives_the_threads_back():
+    with threadpool_limits(limits=2, user_api="blas"):
+        try:
+            with single_threaded():
+                raise ValueError
+        except ValueError:
+            pass
+        assert _threads() == {2}
