@@ -274,6 +274,10 @@ def _find(name_or_path: str) -> Path:
     raise LevadeError(f"no task {name_or_path!r}; {did_you_mean(name_or_path, tasks)} (or the path of a YAML file)")
 
 
+_OPEN = "search.settings."
+"""A table to which a change may add: what is left out of it has defaults that a task does not list."""
+
+
 def _apply(content: dict[str, Any], change: str) -> None:
     """Change the value at a path of nested tables and lists."""
     path, equals, text = change.partition("=")
@@ -284,10 +288,12 @@ def _apply(content: dict[str, Any], change: str) -> None:
     at: Any = content
     for i, key in enumerate([*parents, last]):
         keys = list(at) if isinstance(at, dict) else [str(n) for n in range(len(at))] if isinstance(at, list) else []
-        if key not in keys:
+        new = i == len(parents) and path.startswith(_OPEN)  # a wrong name there is told by the task itself
+        if key not in keys and not new:
             place = ".".join(parents[:i]) or "the task"
             if not keys:
-                raise LevadeError(f"--set {path}: {place} is a single value, {kind_of(at)}; set it as a whole")
+                what = "empty" if isinstance(at, (dict, list)) else f"a single value, {kind_of(at)}"
+                raise LevadeError(f"--set {path}: {place} is {what}; set it as a whole")
             raise LevadeError(f"--set {path}: no {key!r} in {place}; {did_you_mean(key, keys)}")
         index: Any = int(key) if isinstance(at, list) else key
         if i == len(parents):
