@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import json
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -14,8 +15,9 @@ from levade.engines import Perturbation
 from levade.engines.ode.library import load
 from levade.errors import LevadeError
 from levade.motion import ARRAYS, Motion
+from levade.optimizers import Centred
 from levade.run import CHECKPOINT, MOTION, PROGRESS, TASK, resume, run
-from levade.solve import Generation, Objective, Record, solve
+from levade.solve import Generation, Objective, Record, make_optimizer, solve
 from levade.tasks import Racing, Robust, load_task, task_to_yaml
 
 SMALL = [
@@ -26,7 +28,8 @@ SMALL = [
 FIXED = "robust={samples: 4, measure: cvar, racing: {first: 1, keep: 0.5}}"
 REDRAWN = "robust={samples: 3, measure: mean, redraw: generation, required: 0.5}"
 VALIDATED = "robust={samples: 2, measure: mean, redraw: generation, validation: 5}"
-BUDGET = {FIXED: 90, REDRAWN: 120, VALIDATED: 120}
+MEAN = "robust={samples: 2, measure: mean, redraw: generation, validation: 5, contender: mean}"
+BUDGET = {FIXED: 90, REDRAWN: 120, VALIDATED: 120, MEAN: 120}
 
 
 def objective(robust: str = FIXED, *more: str, threads: int = 1) -> Objective:
@@ -89,7 +92,7 @@ def test_samples_are_rollouts_of_the_perturbed_models_themselves(fixed: list[Gen
                 assert found.samples.terms[name][i, j] == term(alone)[0], name
 
 
-@pytest.mark.parametrize("robust", [FIXED, REDRAWN])
+@pytest.mark.parametrize("robust", [FIXED, REDRAWN, MEAN])
 def test_the_search_is_the_same_to_the_bit_for_any_number_of_threads_and_after_a_resume(
     robust: str, tmp_path: Path
 ) -> None:
@@ -155,6 +158,29 @@ def test_the_best_of_a_generation_is_compared_on_a_sample_of_its_own_size() -> N
         assert trials == 6 * (1 + 2) + 1 + 5 + verified
 
 
+def test_the_mean_of_a_generation_may_be_compared_in_place_of_its_best() -> None:
+    made, seen = objective(MEAN), generations(objective(MEAN))
+    assert made.sampler is not None
+    optimizer = make_optimizer(made, 2)
+    assert isinstance(optimizer, Centred)
+    fixed, compared = made.sampler.models(2, 0), 0
+    for generation in seen:  # the same search, told the same costs
+        mean = optimizer.mean
+        assert zlib.crc32(optimizer.ask().tobytes()) == generation.record.checksum
+        validated = generation.record.validated
+        assert (validated is None) == (generation.stage_name == "nominal")
+        if validated is not None:
+            again = made.evaluate(mean[None], hold_steps=5, models=fixed)
+            assert {name: v.tolist() for name, v in validated.terms.items()} == {
+                name: v.tolist() for name, v in again.terms.items()
+            }
+            compared += 1
+        optimizer.tell(generation.cost)
+    assert compared >= 2
+    with pytest.raises(LevadeError, match=r"robust.contender: mean, but search.optimizer levade has none"):
+        objective(MEAN, "search.optimizer=levade")
+
+
 def test_few_samples_cover_every_range_evenly() -> None:
     ensemble = objective().engine.ensemble()  # type: ignore[union-attr]
     sample = Perturbation(friction=(0.0 + 0.1, 1.1)).spread(ensemble.model, ensemble.joints, n=10, seed=1)
@@ -200,6 +226,8 @@ def test_tasks_keep_what_they_ask_for(tmp_path: Path) -> None:
         ("{samples: 0}", r"robust.samples: 0 should be 1 to 1000"),
         ("{measure: wurst}", r"robust.measure"),
         ("{validation: 9}", r"robust.validation: with redraw: never"),
+        ("{redraw: generation, contender: median}", r"robust.contender: should be 'best' or 'mean'"),
+        ("{contender: mean}", r"robust.contender: with redraw: never"),
         ("{redraw: generation, validation: 0}", r"robust.validation: 0 should be 1 to 1000"),
         ("{tail: 0}", r"robust.tail: 0.0 should be a share"),
         ("{samples: 2, racing: {first: 2}}", r"robust.racing.first: 2 of 2 samples leaves nothing to race for"),

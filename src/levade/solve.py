@@ -27,7 +27,7 @@ from levade.costs import DIVERGED, errors, evaluate, total
 from levade.costs.risk import ranked_behind, risk
 from levade.engines import Variations, make_engine
 from levade.errors import LevadeError, did_you_mean
-from levade.optimizers import OPTIMIZERS, Informed, Optimizer, settings, takes_ending
+from levade.optimizers import OPTIMIZERS, Centred, Informed, Optimizer, settings, takes_ending
 from levade.optimizers.blas import single_threaded
 from levade.policies import Ends, Follower, GaussianKernels, Group, Policy, smoothness_factor
 from levade.robots import Leg, Robot, load_robot, mirror_signs
@@ -284,7 +284,7 @@ class Record:
     """What the simulations of one generation said: enough to run through it again without them.
 
     checksum: of the candidates that the optimizer asked for. The rest as in `Evaluation`.
-    validated: of the generation's best alone, on the models that stay the same, where others are drawn for each generation.
+    validated: of its contender alone, on the models that stay the same, where others are drawn for each generation.
     """
 
     generation: int
@@ -440,7 +440,8 @@ def solve(
                 _forget_costs(optimizer, task)
             candidates = optimizer.ask()
             stage_weights = {**weights, **_stage_weights(task, stage, number)}
-            record, replayed = _evaluate(objective, candidates, search, stage_weights, earlier)
+            mean = optimizer.mean if isinstance(optimizer, Centred) else None
+            record, replayed = _evaluate(objective, candidates, search, stage_weights, earlier, mean=mean)
             cost = objective.cost(record.evaluation, stage_weights)
             if isinstance(optimizer, Informed):
                 optimizer.tell(cost, _missed(task, record.evaluation))
@@ -455,7 +456,7 @@ def solve(
             search.diverged += int(record.evaluation.diverged.sum())
             contenders, judged = candidates, record.evaluation
             if record.validated is not None:
-                contenders, judged = candidates[np.argmin(cost)][None], record.validated
+                contenders, judged = _contender(task, candidates, cost, mean), record.validated
             if search.trials_to_success is None and judged.success.any():
                 search.trials_to_success = search.trials
             _keep_best(search, objective, contenders, judged, weights)
@@ -525,7 +526,7 @@ def make_optimizer(objective: Objective, seed: int, *, attempt: int = 0) -> Opti
     if "step_adaptation" in settings(search.optimizer):
         own = {"step_adaptation": search.step_adaptation, **own}
     with _at("search.settings."):
-        return OPTIMIZERS[search.optimizer](
+        optimizer = OPTIMIZERS[search.optimizer](
             objective.initial_weights,
             factor=objective.factor,
             step=search.step,
@@ -533,6 +534,10 @@ def make_optimizer(objective: Objective, seed: int, *, attempt: int = 0) -> Opti
             population=search.population,
             **own,
         )
+    robust = objective.task.robust
+    if robust is not None and robust.contender == "mean" and not isinstance(optimizer, Centred):
+        raise LevadeError(f"robust.contender: mean, but search.optimizer {search.optimizer} has none; best, or cma")
+    return optimizer
 
 
 def _forget_costs(optimizer: Optimizer, task: Task, *, hold: bool = False) -> None:
@@ -616,7 +621,13 @@ def _try(
 
 
 def _evaluate(
-    objective: Objective, candidates: Array, search: _Search, weights: Mapping[str, float], earlier: deque[Record]
+    objective: Objective,
+    candidates: Array,
+    search: _Search,
+    weights: Mapping[str, float],
+    earlier: deque[Record],
+    *,
+    mean: Array | None,
 ) -> tuple[Record, bool]:
     """The record of a generation: an earlier one while there are any, else from simulation. weights: of the costs."""
     checksum = zlib.crc32(np.ascontiguousarray(candidates).tobytes())
@@ -624,7 +635,8 @@ def _evaluate(
     if not earlier:
         evaluation, validated = _try(search, objective, candidates, generation=number, race=weights), None
         if search.robust and objective.task.robust and objective.task.robust.redraw == "generation":
-            validated = _try(search, objective, candidates[np.argmin(objective.cost(evaluation, weights))][None])
+            contender = _contender(objective.task, candidates, objective.cost(evaluation, weights), mean)
+            validated = _try(search, objective, contender)
         return Record(number, checksum, evaluation, validated), False
     record = earlier.popleft()
     if (record.generation, record.checksum) != (number, checksum):
@@ -633,6 +645,13 @@ def _evaluate(
             " start anew in an empty directory"
         )
     return record, True
+
+
+def _contender(task: Task, candidates: Array, cost: Array, mean: Array | None) -> Array:
+    """(1, d), who of a generation is compared on the models that stay the same. mean: of its distribution."""
+    if mean is not None and task.robust is not None and task.robust.contender == "mean":
+        return mean[None]
+    return candidates[np.argmin(cost)][None]
 
 
 def _keep_best(

@@ -89,6 +89,12 @@ class CMAES:
     def step(self) -> float:
         return float(self._search.sigma)
 
+    @property
+    def mean(self) -> Array:
+        """(d,), of the distribution that candidates are drawn from."""
+        with single_threaded():
+            return self._mean + self._factor @ np.asarray(self._search.mean)
+
     def ask(self) -> Array:
         """The next candidates, (population, d)."""
         with single_threaded():

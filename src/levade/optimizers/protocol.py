@@ -37,6 +37,16 @@ class Optimizer(Protocol):
 
 
 @runtime_checkable
+class Centred(Optimizer, Protocol):
+    """An optimizer that draws candidates round a mean."""
+
+    @property
+    def mean(self) -> Array:
+        """(d,), of the distribution that candidates are drawn from; it moves when their costs are told."""
+        ...
+
+
+@runtime_checkable
 class Informed(Optimizer, Protocol):
     """An optimizer that also looks at how far candidates miss the criteria. ``population`` is the most that it asks for."""
 

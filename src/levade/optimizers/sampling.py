@@ -58,6 +58,12 @@ class Sampler(ABC):
         return self._population
 
     @property
+    def mean(self) -> Array:
+        """(d,), of the distribution that candidates are drawn from."""
+        with single_threaded():
+            return self._mean + self._factor @ self._centre
+
+    @property
     @abstractmethod
     def step(self) -> float:
         """Root mean square of the standard deviations in the coordinates z."""

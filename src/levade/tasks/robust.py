@@ -38,6 +38,8 @@ class Robust:
     redraw: "never" tries all candidates on the same models; "generation" draws new ones for each generation (the candidates of
         one share them), and compares the best of each with the best so far on one sample that stays the same.
     validation: models of that sample; as many as ``samples`` if None.
+    contender: who of a generation is compared on it: its "best", by the models of the generation, or the "mean" of the
+        distribution that its candidates are drawn from: near the end, luck on a few models is most of what sets the best apart.
     required: share of the samples (of that which stays the same, if others are drawn for each generation) that a candidate has
         to succeed on, beside the nominal model, to count as a success.
     racing: None runs every candidate on every sample. perturb: ranges.
@@ -51,6 +53,7 @@ class Robust:
     tail: float = 0.5
     redraw: Literal["never", "generation"] = "never"
     validation: int | None = None
+    contender: Literal["best", "mean"] = "best"
     required: float = 1.0
     racing: Racing | None = None
     perturb: Perturbation = Perturbation()
@@ -62,6 +65,10 @@ class Robust:
             raise LevadeError(f"robust.measure: {self.measure!r} is unknown; mean, cvar or worst")
         if self.redraw not in ("never", "generation"):
             raise LevadeError(f"robust.redraw: {self.redraw!r} is unknown; never or generation")
+        if self.contender not in ("best", "mean"):
+            raise LevadeError(f"robust.contender: {self.contender!r} is unknown; best or mean")
+        if self.contender == "mean" and self.redraw == "never":
+            raise LevadeError("robust.contender: with redraw: never every candidate is compared; leave it out")
         if self.validation is not None and self.redraw == "never":
             raise LevadeError("robust.validation: with redraw: never all candidates run the same models; leave it out")
         if self.validation is not None and not 1 <= self.validation <= 1000:
