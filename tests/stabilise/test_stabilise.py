@@ -51,9 +51,8 @@ def loop(motion: Motion, push: np.ndarray, *, clamp: bool = False) -> tuple[np.n
             last = due
             off = np.concatenate([sense(data) - reference[min(tick, len(reference) - 1)], last])
             due = np.clip(gain[min(tick, len(gain) - 1)] @ off, -about["bound"], about["bound"])
-        told = ctrl[0::2]
-        least, most = (lower, upper) if clamp else (np.minimum(told, lower), np.maximum(told, upper))
-        data.ctrl[0::2] = np.clip(told + last, least, most)
+        told = np.clip(ctrl[0::2], lower, upper) if clamp else ctrl[0::2]
+        data.ctrl[0::2] = np.clip(told + last, np.minimum(told, lower), np.maximum(told, upper))
         data.ctrl[1::2] = ctrl[1::2]
         mujoco.mj_step(model, data)
         qpos.append(data.qpos.copy())
