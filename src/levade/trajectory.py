@@ -85,6 +85,24 @@ class JointLimits:
             np.minimum(limit[..., joint], curve(joint_position[..., joint]), out=limit[..., joint])
         return limit
 
+    def angle_left(self, joint_position: Array) -> Array:
+        """[rad] to the nearer end of the range, negative beyond it; infinite without a range. (..., joints), as given."""
+        return np.minimum(joint_position - self.lower, self.upper - joint_position)
+
+    def speed_left(self, joint_velocity: Array) -> Array:
+        """What is left of the speed limit, as a share of it, negative beyond it; 1 without a limit. (..., joints)."""
+        return 1 - np.abs(joint_velocity) / self.velocity
+
+    def torque_speed_left(self, joint_torque: Array, joint_velocity: Array) -> Array:
+        """``1 - |torque| / stall_torque - |speed| / no_load_speed`` while driving; else 1, and without such a line.
+
+        A drive is beyond its line, and this negative, where its torque lags behind its speed. (..., joints), as given.
+        """
+        if self.stall_torque is None or self.no_load_speed is None:
+            return np.ones_like(joint_torque)
+        used = np.abs(joint_torque) / self.stall_torque + np.abs(joint_velocity) / self.no_load_speed
+        return 1 - np.where(joint_torque * joint_velocity > 0, used, 0.0)
+
 
 @dataclass(frozen=True, eq=False)
 class LegGeometry:

@@ -7,7 +7,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from levade.costs import Margins
+from levade.costs import Criterion, Margins
 from levade.errors import LevadeError
 from levade.robots import load_robot
 from levade.trajectory import JointLimits
@@ -50,6 +50,28 @@ def test_the_line_counts_while_driving_only(at_rest):
     assert Margins(torque_speed=0.1)(moved) == pytest.approx([4.0, 0.0])
     without = dataclasses.replace(LIMITS, stall_torque=None, no_load_speed=None)
     assert (Margins(torque_speed=0.1)(dataclasses.replace(moved, limits=without)) == 0).all()
+
+
+@pytest.mark.parametrize(
+    ("quantity", "expected"), [("angle_margin", 0.25), ("speed_margin", 0.3), ("torque_speed_margin", 0.15)]
+)
+def test_margins_are_criteria_too(at_rest, quantity, expected):
+    """What the tightest joint leaves at the tightest instant, of trial 0; trial 1 is at rest in the middle."""
+    angle, speed, torque = np.zeros((2, 25, 2)), np.zeros((2, 25, 2)), np.zeros((2, 25, 2))
+    angle[0, 7, 1], speed[0, 3], torque[0, 3] = -0.75, (7.0, 1e6), (100.0, -100.0)  # the second brakes, without a limit
+    moved = dataclasses.replace(at_rest, joint_position=angle, joint_velocity=speed, joint_torque=torque)
+    met, missed = (Criterion(quantity, minimum=expected + off, at="min") for off in (-0.01, 0.01))
+    assert met.error(moved)[0] == 0
+    assert missed.error(moved)[0] == pytest.approx(-0.01)
+    assert missed.holds(moved).tolist() == [False, True]
+
+
+def test_joints_without_limits_have_all_of_them_left(at_rest):
+    ends = np.full(2, np.inf)
+    none = JointLimits(-ends, ends, ends, ends)
+    free = dataclasses.replace(at_rest, limits=none, joint_velocity=np.full((2, 25, 2), 1e3))
+    for quantity in ("angle_margin", "speed_margin", "torque_speed_margin"):
+        assert Criterion(quantity, minimum=1.0, at="min").holds(free).all()
 
 
 def test_feet_keep_to_their_side(make):

@@ -132,3 +132,17 @@ def test_errors_say_what_would_be_right(config, message):
 def test_a_hold_is_needed_to_look_at_it(make):
     with pytest.raises(LevadeError, match="the motion ends at its horizon"):
         Criterion("height", minimum=0.0, at="hold").holds(make(hold_steps=0))
+
+
+def test_room_is_what_is_left_to_the_nearer_bound_at_the_worst_instant(make):
+    height = np.broadcast_to(np.array([0.0, 0.0, 0.5]), (2, 25, 3)).copy()
+    height[0, -3, 2], height[1, -1, 2] = 0.58, 0.35
+    level = np.broadcast_to(np.array([1.0, 0.0, 0.0, 0.0]), (2, 25, 4)).copy()
+    trial = make(2, trunk_position=height, trunk_quaternion=level)
+    offset = trial.trunk_com_position(slice(0, 1))[0, 0, 2] - 0.5
+    within = {"minimum": 0.4 + offset, "maximum": 0.6 + offset}
+    between = Criterion("height", at="hold", **within)
+    np.testing.assert_allclose(between.judge(trial)[0], [0.0, -0.05], atol=1e-12)
+    np.testing.assert_allclose(between.judge(trial)[1], [0.02, -0.05], atol=1e-12)
+    np.testing.assert_allclose(Criterion("height", at="max", **within).judge(trial)[1], [0.02, 0.1], atol=1e-12)
+    assert np.isnan(Criterion("height", target=0.5, tolerance=0.1).judge(trial)[1]).all()

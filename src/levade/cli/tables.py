@@ -54,7 +54,10 @@ def goal_table(meta: Mapping[str, Any]) -> Table:
             goal, result = f"{target:.4f} {unit}", f"{target + error:.4f} {unit}"
         else:
             low, high = criterion["minimum"], criterion["maximum"]
-            goal = " to ".join(["" if bound is None else f"{bound:.4f}" for bound in (low, high)]) + f" {unit}"
+            ends = [f"{bound:.4f}" for bound in (low, high) if bound is not None]
+            goal = (
+                "" if len(ends) == 2 else "at least " if high is None else "at most "
+            ) + f"{' to '.join(ends)} {unit}"
             result = "within" if error == 0 else f"{(low if error < 0 else high) + error:.4f} {unit}"
         met = abs(error) <= tolerance
         table.add_row(

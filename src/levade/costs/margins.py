@@ -50,24 +50,21 @@ class Margins:
         rows, limits = rows_over(trajectories, self.over), trajectories.limits
         missed = []
         if self.angle is not None:
-            at = trajectories.joint_position[:, rows]
-            left = np.minimum(at.min(axis=1) - limits.lower, limits.upper - at.max(axis=1))
-            missed.append(_shortfall(left, self.angle))
-        speed = np.abs(trajectories.joint_velocity[:, rows])
+            left = limits.angle_left(trajectories.joint_position[:, rows])
+            missed.append(_shortfall(left.min(axis=1), self.angle))
         if self.speed is not None:
-            missed.append(_shortfall(1 - speed.max(axis=1) / limits.velocity, self.speed))
-        if self.torque_speed is not None and limits.stall_torque is not None and limits.no_load_speed is not None:
-            torque = trajectories.joint_torque[:, rows]
-            used = np.abs(torque) / limits.stall_torque + speed / limits.no_load_speed
-            used = np.where(torque * trajectories.joint_velocity[:, rows] > 0, used, 0.0)
-            missed.append(_shortfall(1 - used.max(axis=1), self.torque_speed))
+            left = limits.speed_left(trajectories.joint_velocity[:, rows])
+            missed.append(_shortfall(left.min(axis=1), self.speed))
+        if self.torque_speed is not None:
+            left = limits.torque_speed_left(trajectories.joint_torque[:, rows], trajectories.joint_velocity[:, rows])
+            missed.append(_shortfall(left.min(axis=1), self.torque_speed))
         if self.midplane is not None:
             outward = [
                 leg.foot_position(trajectories.joint_position[:, rows])[..., 1] * (1.0 if leg.side == "left" else -1.0)
                 for leg in trajectories.legs
             ]
             missed += [_shortfall(side.min(axis=1, keepdims=True), self.midplane) for side in outward]
-        return np.ascontiguousarray(np.concatenate(missed, axis=1)).sum(axis=1) if missed else np.zeros(trajectories.n)
+        return np.ascontiguousarray(np.concatenate(missed, axis=1)).sum(axis=1)
 
 
 def _shortfall(left: Array, wanted: float) -> Array:

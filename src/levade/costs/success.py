@@ -19,7 +19,7 @@ from levade.trajectory import Array, LegGeometry, Trajectories, roll_pitch_yaw
 
 Quantity = Literal[
     "roll", "pitch", "yaw", "tilt", "x", "y", "height", "speed", "vertical_speed", "angular_speed", "lowest_foot",
-    "highest_foot",
+    "highest_foot", "angle_margin", "speed_margin", "torque_speed_margin",
 ]  # fmt: skip
 
 QUANTITIES: dict[str, str] = {
@@ -35,11 +35,15 @@ QUANTITIES: dict[str, str] = {
     "angular_speed": "rad/s",
     "lowest_foot": "m",
     "highest_foot": "m",
+    "angle_margin": "rad",
+    "speed_margin": "of limit",
+    "torque_speed_margin": "of limit",
 }
 """Quantity -> unit."""
 
 CIRCULAR = ("roll", "pitch", "yaw")
 OF_FEET = ("lowest_foot", "highest_foot")
+MARGINS = ("angle_margin", "speed_margin", "torque_speed_margin")
 
 Legs = str | tuple[str, ...]
 """Some of the legs: "all", "front", "hind", "left", "right", a leg's name, or several of these."""
@@ -57,6 +61,8 @@ class Criterion:
         x, y, height [m]: of its centre of mass, world axes.
         speed, vertical_speed [m/s]: of its centre of mass: norm, and upward component, of the velocity.
         angular_speed [rad/s]: norm of the angular velocity.
+        angle_margin [rad], speed_margin, torque_speed_margin [share of the limit]: what the joint that has least left
+            leaves of its range, its speed limit, its actuator's line (`levade.trajectory.JointLimits`).
         lowest_foot, highest_foot [m]: height over z = 0 of the sole that is lowest, or highest, among the ``legs``.
     target, tolerance: required value, and the distance from it that still counts. Angles wrap.
     minimum, maximum: required bounds, instead of a target.
@@ -101,10 +107,22 @@ class Criterion:
 
         Always finite: `levade.costs.DIVERGED` for trials that diverged.
         """
+        return self.judge(trajectories)[0]
+
+    def judge(self, trajectories: Trajectories) -> tuple[Array, Array]:
+        """`error`, and with it the room (n,) [SI] that each trial leaves to the nearer bound at its worst instant.
+
+        Room is negative beyond a bound, and NaN where a trial is broken or there is a target instead.
+        """
         with np.errstate(all="ignore"):  # of broken trials, see below
-            error = self._error(trajectories)
+            value = self._values(trajectories)
+            error, room = _worst(self._deviation(value)), np.full(len(value), np.nan)
+            if self.target is None:
+                low = np.inf if self.minimum is None else value - self.minimum
+                high = np.inf if self.maximum is None else self.maximum - value
+                room = np.minimum(low, high).min(axis=1)
             bad = trajectories.diverged | ~np.isfinite(error)
-            return np.where(bad, DIVERGED, within(error, DIVERGED))
+            return np.where(bad, DIVERGED, within(error, DIVERGED)), np.where(bad, np.nan, room)
 
     def holds(self, trajectories: Trajectories) -> NDArray[np.bool_]:
         """(n,) whether each trial meets the criterion; never one that diverged."""
@@ -114,22 +132,9 @@ class Criterion:
         """Whether errors, as `error` returns them, are within the tolerance; none is allowed beyond a bound."""
         return np.abs(error) <= (self.tolerance or 0.0)
 
-    def _error(self, trajectories: Trajectories) -> Array:
-        error = self.deviations(trajectories)
-        if error.shape[1] == 1:
-            return error[:, 0]
-        worst = np.argmax(np.abs(error), axis=1)[:, None]
-        return np.take_along_axis(error, worst, axis=1)[:, 0]
-
     def deviations(self, trajectories: Trajectories, rows: slice | None = None) -> Array:
         """(n, rows) signed errors: those at the criterion's instants, or at given rows instead."""
-        extreme = rows is None and self.at in ("max", "min")
-        if rows is None:
-            rows = slice(None) if self.at == "max" or self.at == "min" else rows_at(trajectories, self.at)
-        value = quantity_values(self.quantity, trajectories, rows, self.legs)
-        if extreme:
-            value = (value.max if self.at == "max" else value.min)(axis=1, keepdims=True)
-        return self._deviation(value)
+        return self._deviation(self._values(trajectories, rows))
 
     def _deviation(self, value: Array) -> Array:
         if self.target is not None:
@@ -137,6 +142,23 @@ class Criterion:
         low = -np.inf if self.minimum is None else self.minimum
         high = np.inf if self.maximum is None else self.maximum
         return value - np.clip(value, low, high)
+
+    def _values(self, trajectories: Trajectories, rows: slice | None = None) -> Array:
+        """(n, rows), the quantity at the criterion's instants, or at given rows instead."""
+        if rows is not None:
+            return quantity_values(self.quantity, trajectories, rows, self.legs)
+        if self.at in ("max", "min"):
+            value = quantity_values(self.quantity, trajectories, slice(None), self.legs)
+            return (value.max if self.at == "max" else value.min)(axis=1, keepdims=True)
+        return quantity_values(self.quantity, trajectories, rows_at(trajectories, self.at), self.legs)
+
+
+def _worst(deviation: Array) -> Array:
+    """(n,), the largest of (n, rows), with its sign."""
+    if deviation.shape[1] == 1:
+        return deviation[:, 0]
+    worst = np.argmax(np.abs(deviation), axis=1)[:, None]
+    return np.take_along_axis(deviation, worst, axis=1)[:, 0]
 
 
 def quantity_values(quantity: Quantity, trajectories: Trajectories, rows: slice, legs: Legs = "all") -> Array:
@@ -146,6 +168,8 @@ def quantity_values(quantity: Quantity, trajectories: Trajectories, rows: slice,
         return functools.reduce(np.minimum if quantity == "lowest_foot" else np.maximum, soles)
     if quantity in ("x", "y", "height"):
         return trajectories.trunk_com_position(rows)[..., ("x", "y", "height").index(quantity)]
+    if quantity in MARGINS:
+        return _margin(quantity, trajectories, rows)
     if quantity == "vertical_speed":
         return trajectories.trunk_com_velocity(rows)[..., 2]
     if quantity == "speed":
@@ -158,6 +182,18 @@ def quantity_values(quantity: Quantity, trajectories: Trajectories, rows: slice,
     if quantity == "tilt":
         return angle_between(world_up(quaternion), np.array([0.0, 0.0, 1.0]))
     return roll_pitch_yaw(quaternion)[..., 0 if quantity == "roll" else 2]
+
+
+def _margin(quantity: Quantity, trajectories: Trajectories, rows: slice) -> Array:
+    """(n, rows), of the joint that has least left."""
+    limits = trajectories.limits
+    if quantity == "angle_margin":
+        left = np.minimum(limits.angle_left(trajectories.joint_position[:, rows]), np.pi)  # a joint without a range
+    elif quantity == "speed_margin":
+        left = limits.speed_left(trajectories.joint_velocity[:, rows])
+    else:
+        left = limits.torque_speed_left(trajectories.joint_torque[:, rows], trajectories.joint_velocity[:, rows])
+    return left.min(axis=-1)
 
 
 def chosen_legs(trajectories: Trajectories, legs: Legs) -> list[LegGeometry]:
