@@ -436,7 +436,11 @@ def test_a_record_survives_json_to_the_bit() -> None:
         [random.normal(size=50) * 10.0 ** random.integers(-300, 300, size=50), [np.nan, -0.0, 1e12]]
     )
     evaluation = Evaluation(
-        {"a": numbers, "b": np.full(53, np.nan)}, {"c": numbers / 3}, random.random(53) < 0.5, random.random(53) < 0.5
+        {"a": numbers, "b": np.full(53, np.nan)},
+        {"c": numbers / 3},
+        random.random(53) < 0.5,
+        random.random(53) < 0.5,
+        room={"c": numbers / 7},
     )
     text = json.dumps(Record(7, 2**32 - 1, evaluation).to_json(), allow_nan=False)
     again = Record.from_json(json.loads(text))
@@ -445,6 +449,7 @@ def test_a_record_survives_json_to_the_bit() -> None:
         (evaluation.terms["a"], again.evaluation.terms["a"]),
         (evaluation.terms["b"], again.evaluation.terms["b"]),
         (evaluation.errors["c"], again.evaluation.errors["c"]),
+        (evaluation.room["c"], again.evaluation.room["c"]),
         (evaluation.success, again.evaluation.success),
         (evaluation.diverged, again.evaluation.diverged),
     ):

@@ -16,18 +16,18 @@ import zlib
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from levade.costs import DIVERGED, errors, evaluate, total
+from levade.costs import DIVERGED, evaluate, total
 from levade.costs.risk import ranked_behind, risk
 from levade.engines import Variations, make_engine
 from levade.errors import LevadeError, did_you_mean
-from levade.optimizers import OPTIMIZERS, Centred, Informed, Optimizer, settings, takes_ending
+from levade.optimizers import OPTIMIZERS, Centred, Informed, Optimizer, settings, takes
 from levade.optimizers.blas import single_threaded
 from levade.policies import Ends, Follower, GaussianKernels, Group, Policy, smoothness_factor
 from levade.robots import Leg, Robot, load_robot, mirror_signs
@@ -39,6 +39,9 @@ from levade.trajectory import Array, Trajectories
 ENDING = 0.25
 """Share of the horizon in which an optimizer may finish a motion, without a change to what comes before."""
 
+BESIDE_BOUND = 0.015
+"""[SI: m, rad, ...], as far inside a bound as the middle of a tolerance is inside the tolerance."""
+
 
 @dataclass(frozen=True)
 class Evaluation:
@@ -47,6 +50,7 @@ class Evaluation:
     terms: cost -> (n,), unweighted. errors: criterion -> (n,), SI. Both are NaN where the hold was not simulated and the
     cost or criterion looks at it. success, diverged: (n,). samples: what they did on perturbed models, if they were tried on
     any; a success is then one on enough of these, too. verified: roll-outs that it took to tell, beyond these.
+    room: criterion with bounds -> (n,), SI, what is left to the nearer one, negative beyond it; NaN as in ``errors``.
     """
 
     terms: Mapping[str, Array]
@@ -55,6 +59,7 @@ class Evaluation:
     diverged: NDArray[np.bool_]
     samples: Samples | None = None
     verified: int = 0
+    room: Mapping[str, Array] = field(default_factory=dict)
 
     @property
     def trials(self) -> int:
@@ -200,15 +205,18 @@ class Objective:
         if skip_hold:
             terms = {name: term for name, term in terms.items() if not looks_at_hold(term)}
             criteria = {name: criterion for name, criterion in criteria.items() if not looks_at_hold(criterion)}
-        values, off = evaluate(terms, trajectories), errors(criteria, trajectories)
-        met = ~trajectories.diverged
-        for name, criterion in criteria.items():
-            met &= criterion.met(off[name])
+        values, met = evaluate(terms, trajectories), ~trajectories.diverged
+        unknown = np.full(n, np.nan)
+        judged = {name: criterion.judge(trajectories) for name, criterion in criteria.items()}
+        for name, (off, _) in judged.items():
+            met &= criteria[name].met(off)
+        off, room = ({name: judged.get(name, (unknown, unknown))[i] for name in self.task.success} for i in (0, 1))
         return Evaluation(
-            {name: values.get(name, np.full(n, np.nan)) for name in self.terms},
-            {name: off.get(name, np.full(n, np.nan)) for name in self.task.success},
+            {name: values.get(name, unknown) for name in self.terms},
+            off,
             met,
             trajectories.diverged.copy(),
+            room={name: room[name] for name, criterion in self.task.success.items() if criterion.target is None},
         )
 
 
@@ -307,7 +315,8 @@ class Record:
 def _to_json(evaluation: Evaluation) -> dict[str, Any]:
     numbers = {
         key: {name: [None if np.isnan(v) else v for v in values.tolist()] for name, values in table.items()}
-        for key, table in (("terms", evaluation.terms), ("errors", evaluation.errors))
+        for key, table in (("terms", evaluation.terms), ("errors", evaluation.errors), ("room", evaluation.room))
+        if table
     }
     content = {**numbers, "success": evaluation.success.tolist(), "diverged": evaluation.diverged.tolist()}
     if evaluation.samples is not None:
@@ -316,12 +325,13 @@ def _to_json(evaluation: Evaluation) -> dict[str, Any]:
 
 
 def _from_json(content: Mapping[str, Any]) -> Evaluation:
-    terms, off = (
-        {name: np.array(values, dtype=float) for name, values in content[key].items()} for key in ("terms", "errors")
+    terms, off, room = (
+        {name: np.array(values, dtype=float) for name, values in content.get(key, {}).items()}
+        for key in ("terms", "errors", "room")
     )
     success, diverged = (np.array(content[key], dtype=bool) for key in ("success", "diverged"))
     samples = Samples.from_json(content["samples"]) if "samples" in content else None
-    return Evaluation(terms, off, success, diverged, samples, content.get("verified", 0))
+    return Evaluation(terms, off, success, diverged, samples, content.get("verified", 0), room)
 
 
 @dataclass(frozen=True)
@@ -521,8 +531,10 @@ def make_optimizer(objective: Objective, seed: int, *, attempt: int = 0) -> Opti
     """The task's optimizer, at the objective's initial weights; each attempt draws other random numbers."""
     search = objective.task.search
     own: dict[str, Any] = dict(search.settings)
-    if takes_ending(search.optimizer):
+    if takes(search.optimizer, "ending"):
         own["ending"] = objective.ending
+    if takes(search.optimizer, "one_sided"):
+        own["one_sided"] = np.array([criterion.target is None for criterion in objective.task.success.values()])
     if "step_adaptation" in settings(search.optimizer):
         own = {"step_adaptation": search.step_adaptation, **own}
     with _at("search.settings."):
@@ -559,8 +571,16 @@ def _stage_weights(task: Task, stage: Stage, generation: int) -> dict[str, float
 
 
 def _missed(task: Task, evaluation: Evaluation) -> Array:
-    """(n, k), errors as a share of what is allowed; NaN where unknown, all of a trial that diverged."""
-    shares = [off / (task.success[name].tolerance or 1.0) for name, off in evaluation.errors.items()]
+    """(n, k), errors as a share of what is allowed; NaN where unknown, all of a trial that diverged.
+
+    Of a criterion with bounds, 1 is the bound, and what is farther inside is less.
+    """
+    shares = [
+        1.0 - evaluation.room[name] / BESIDE_BOUND
+        if name in evaluation.room
+        else off / (task.success[name].tolerance or 1.0)
+        for name, off in evaluation.errors.items()
+    ]
     missed = np.stack(shares, axis=1) if shares else np.empty((len(evaluation.success), 0))
     return np.where(evaluation.diverged[:, None], np.nan, missed)
 

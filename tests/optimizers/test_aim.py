@@ -43,6 +43,17 @@ def test_errors_far_beyond_what_any_trial_makes_up_for_vanish() -> None:
     assert np.abs(around(told(slope, offset, spread=0.5))[0] @ slope + offset).max() < 0.5
 
 
+def test_what_is_inside_a_bound_is_left_there_and_what_is_beyond_is_brought_inside() -> None:
+    """Two errors of bounds, each of a direction of its own; and the same as errors of tolerances, which are."""
+    slope, one_sided = np.eye(3)[:, :2], np.array([True, True])
+    still = np.zeros((1, 3))
+    moved = corrected(still, np.array([-50.0, 3.0]), slope, np.inf, one_sided)
+    np.testing.assert_allclose(moved, [[0.0, WITHIN - 3.0, 0.0]], atol=1e-6)
+    np.testing.assert_allclose(
+        corrected(still, np.array([-50.0, 3.0]), slope, np.inf), [[50.0 - WITHIN, WITHIN - 3.0, 0.0]], atol=1e-6
+    )
+
+
 def test_candidates_are_none_without_enough_trials_and_repeat_with_the_same_random_numbers() -> None:
     slope = np.random.default_rng(0).standard_normal((20, 3))
     assert around(Aim(np.eye(20))).shape == (0, 20)

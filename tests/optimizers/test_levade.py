@@ -53,6 +53,26 @@ def test_tight_tolerances_take_a_fraction_of_the_trials_of_cma_es(seed: int) -> 
     assert aimed < 0.4 * plain
 
 
+@pytest.mark.parametrize("kind", ["aimed", "finish"])
+def test_errors_of_bounds_need_not_vanish(kind: str) -> None:
+    """One error within a tolerance, three at most 1; no motion has all four small, for two are opposites but for 100."""
+    generator = np.random.default_rng(0)
+    slope = 300 * generator.standard_normal((D, 4))
+    slope[:, 3] = -slope[:, 2]
+    offset, one_sided = np.array([30.0, 20.0, 20.0, -120.0]), np.array([False, True, True, True])
+    own = {"aimed": 6, "finish": 0.0} if kind == "aimed" else {"aimed": 0, "finish": 200.0, "ending": ENDING}
+    optimizer = Levade(np.zeros(D), step=0.01, seed=0, population=12, one_sided=one_sided, **own)
+    trials = 0
+    while trials < 120:
+        x = optimizer.ask()
+        trials += len(x)
+        errors = x @ slope + offset
+        if ((errors <= 1).all(axis=1) & (errors[:, 0] >= -1)).any():
+            return
+        optimizer.tell(np.square(np.where(one_sided, np.maximum(errors, 0), errors)).sum(axis=1), errors)
+    raise AssertionError("no candidate was right within 120 trials")
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_what_the_ending_can_mend_is_mended_at_the_second_look(seed: int) -> None:
     """A generation of CMA-ES, one of probes, one of steps."""

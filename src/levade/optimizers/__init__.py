@@ -29,7 +29,7 @@ OPTIMIZERS = {
 }
 """Name on the command line and in task files -> class."""
 
-_COMMON = ("mean", "factor", "step", "seed", "population", "ending")
+_COMMON = ("mean", "factor", "step", "seed", "population", "ending", "one_sided")
 
 
 def settings(optimizer: str) -> tuple[str, ...]:
@@ -37,9 +37,9 @@ def settings(optimizer: str) -> tuple[str, ...]:
     return tuple(name for name in inspect.signature(OPTIMIZERS[optimizer]).parameters if name not in _COMMON)
 
 
-def takes_ending(optimizer: str) -> bool:
-    """Whether it is to be told by which directions the last part of a motion can be changed alone (`Levade`)."""
-    return "ending" in inspect.signature(OPTIMIZERS[optimizer]).parameters
+def takes(optimizer: str, parameter: str) -> bool:
+    """Whether it is to be told of something beside what all take: `Levade` of ``ending`` and ``one_sided``."""
+    return parameter in inspect.signature(OPTIMIZERS[optimizer]).parameters
 
 
 __all__ = [
@@ -55,5 +55,5 @@ __all__ = [
     "Optimizer",
     "RandomSearch",
     "settings",
-    "takes_ending",
+    "takes",
 ]

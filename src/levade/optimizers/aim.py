@@ -33,11 +33,19 @@ class Aim:
     """Remembers trials and proposes candidates.
 
     factor: (d, m), the optimizer's: distances are measured, and points drawn, in its coordinates.
+    one_sided: (k,), which of the errors are of a bound, with 1 at it and less inside: they cannot be too small. None for none.
     memory: how many of the latest trials to choose from. neighbours: how many of them, nearest to the best, to regress on.
     """
 
-    def __init__(self, factor: Array, *, memory: int = 400, neighbours: int = 120) -> None:
-        self._factor, self._memory, self._neighbours = factor, memory, neighbours
+    def __init__(
+        self,
+        factor: Array,
+        *,
+        one_sided: NDArray[np.bool_] | None = None,
+        memory: int = 400,
+        neighbours: int = 120,
+    ) -> None:
+        self._factor, self._one_sided, self._memory, self._neighbours = factor, one_sided, memory, neighbours
         self._candidates = np.empty((0, len(factor)))
         self._errors = np.empty((0, 0))
         self._cost = np.empty(0)
@@ -99,10 +107,11 @@ class Aim:
                 return none
             slope, farthest = fitted
             # where the best has nothing to make up for, it need not be tried again
-            first = SPREADS[-1] if (np.abs(errors[best]) <= WITHIN).all() else 0.0
+            one_sided = None if self._one_sided is None else self._one_sided[looked_at]
+            first = SPREADS[-1] if not unwanted(errors[best], one_sided).any() else 0.0
             spread = np.array([first, *itertools.islice(itertools.cycle(SPREADS), count - 1)])
             drawn = step * spread[:, None] * generator.standard_normal((count, coordinates.shape[1]))
-            return self._candidates[best] + corrected(drawn, errors[best], slope, farthest) @ self._factor.T
+            return self._candidates[best] + corrected(drawn, errors[best], slope, farthest, one_sided) @ self._factor.T
 
     def _slope(self, coordinates: Array, errors: Array, best: int) -> tuple[Array, float] | None:
         """(m, k), the slope of the errors near the best trial, and how far it may be trusted; None with too few trials.
@@ -129,16 +138,29 @@ class Aim:
         return (slope, farthest) if farthest > 0 else None
 
 
-def corrected(drawn: Array, errors: Array, slope: Array, farthest: float) -> Array:
+def sizes(errors: Array, one_sided: NDArray[np.bool_] | None) -> Array:
+    """How large errors (..., k) are; of those that are ``one_sided`` only what is above 0 counts."""
+    size = np.abs(errors)
+    return size if one_sided is None else np.where(one_sided, np.maximum(errors, 0.0), size)
+
+
+def unwanted(errors: Array, one_sided: NDArray[np.bool_] | None) -> Array:
+    """What is beyond `WITHIN` of errors (..., k), those that are ``one_sided`` above it only."""
+    low = -WITHIN if one_sided is None else np.where(one_sided, -np.inf, -WITHIN)
+    return errors - np.clip(errors, low, WITHIN)
+
+
+def corrected(
+    drawn: Array, errors: Array, slope: Array, farthest: float, one_sided: NDArray[np.bool_] | None = None
+) -> Array:
     """Points (n, m), each moved by the smallest step after which no errors are predicted, within ``farthest`` of the origin.
 
-    errors: (k,) at the origin. slope: (m, k).
+    errors: (k,) at the origin. slope: (m, k). one_sided: (k,), see `Aim`.
     """
-    predicted = errors + drawn @ slope
-    unwanted = predicted - np.clip(predicted, -WITHIN, WITHIN)
+    excess = unwanted(errors + drawn @ slope, one_sided)
     normal = slope.T @ slope
     normal[np.diag_indices_from(normal)] += 1e-9 * np.trace(normal) + np.finfo(float).tiny  # safe to solve with
-    moved = drawn - np.linalg.solve(normal, unwanted.T).T @ slope.T
+    moved = drawn - np.linalg.solve(normal, excess.T).T @ slope.T
     reach = np.linalg.norm(moved, axis=1, keepdims=True)
     return np.asarray(moved * np.minimum(farthest / np.maximum(reach, np.finfo(float).tiny), 1.0))
 

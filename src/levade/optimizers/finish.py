@@ -8,8 +8,9 @@ predict to be right follow; the trials of one round serve the regression of the 
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
-from levade.optimizers.aim import corrected, ridge
+from levade.optimizers.aim import corrected, ridge, sizes
 from levade.optimizers.blas import single_threaded
 from levade.trajectory import Array
 
@@ -29,14 +30,22 @@ class Finish:
     """One attempt, round by round: `ask`, `tell`, until it is `over`.
 
     base: (d,). errors: its own, (k,), as a share of what is allowed; NaN where unknown. ending: (q, d), directions whose
-    largest weight is 1. count: candidates of each round after the probes.
+    largest weight is 1. count: candidates of each round after the probes. one_sided: (k,), as in `Aim`.
     """
 
     def __init__(
-        self, base: Array, errors: Array, ending: Array, *, count: int, generator: np.random.Generator
+        self,
+        base: Array,
+        errors: Array,
+        ending: Array,
+        *,
+        count: int,
+        generator: np.random.Generator,
+        one_sided: NDArray[np.bool_] | None = None,
     ) -> None:
         self._ending, self._count, self._generator = ending, count, generator
         self._known = np.isfinite(errors)
+        self._one_sided = None if one_sided is None else one_sided[self._known]
         self._base = base
         self._steps, self._missed = (
             np.zeros((1, len(ending))),
@@ -55,7 +64,7 @@ class Finish:
     @property
     def miss(self) -> float:
         """The largest error of the best, as a share of what is allowed."""
-        return float(np.abs(self._missed[self._at]).max())
+        return float(sizes(self._missed[self._at], self._one_sided).max())
 
     def ask(self) -> Array:
         """The next candidates, (n, d)."""
@@ -68,7 +77,7 @@ class Finish:
         self._steps = np.concatenate([self._steps, self._asked[usable]])
         self._missed = np.concatenate([self._missed, errors[usable]])
         before = self.miss
-        self._at = int(np.argmin(np.abs(self._missed).max(axis=1)))
+        self._at = int(np.argmin(sizes(self._missed, self._one_sided).max(axis=1)))
         self.over = self._rounds >= ROUNDS or (self._rounds > 0 and self.miss > 0.7 * before)
         if not self.over:
             self._plan()
@@ -82,12 +91,12 @@ class Finish:
             length = np.linalg.norm(difference, axis=1, keepdims=True)
             weight = 1.0 / np.maximum(length, PROBE)  # the nearer, the more to be believed
             slope = ridge(difference * weight, change * weight)
-            step = corrected(np.zeros((1, q)), errors, slope, np.inf)
+            step = corrected(np.zeros((1, q)), errors, slope, np.inf, self._one_sided)
             reach = float(np.abs(step).max())
             self.over = not np.isfinite(reach) or reach > FARTHEST
             spread = SPREAD * np.linalg.norm(step) / np.sqrt(q)
             drawn = step + spread * self._generator.standard_normal((self._count, q))
             drawn[0] = step[0]
             shares = np.resize(SHARES, self._count)[:, None]
-            self._asked = place + shares * corrected(drawn, errors, slope, np.inf)
+            self._asked = place + shares * corrected(drawn, errors, slope, np.inf, self._one_sided)
         self._rounds += 1

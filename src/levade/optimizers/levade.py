@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from levade.errors import LevadeError
-from levade.optimizers.aim import WITHIN, Aim
+from levade.optimizers.aim import WITHIN, Aim, sizes
 from levade.optimizers.cmaes import CMAES
 from levade.optimizers.finish import Finish
 from levade.trajectory import Array
@@ -28,6 +28,7 @@ class Levade:
     mean, factor, step, seed, step_adaptation: as in `CMAES`. population: candidates of CMA-ES in a generation.
     aimed: how many more there are beside them. finish: errors, in tolerances, from which the ending is finished; 0 for never.
     ending: (q, d), directions that change the last part of a motion only; None where there are none.
+    one_sided: (k,), which of the errors are of a bound: 1 at it, less inside, the less the farther. None where none are.
     """
 
     def __init__(
@@ -42,6 +43,7 @@ class Levade:
         aimed: int = 6,
         finish: float = 40.0,
         ending: Array | None = None,
+        one_sided: NDArray[np.bool_] | None = None,
     ) -> None:
         if aimed < 0 or aimed != int(aimed):
             raise LevadeError(f"aimed: {aimed:g} should be a whole number, 0 or more; 6 is usual")
@@ -53,7 +55,9 @@ class Levade:
         self._count, self._finish_at = int(aimed), finish
         self._ending = None if ending is None or finish == 0 else ending
         self._generator = np.random.default_rng((*(seed if isinstance(seed, tuple) else (seed,)), _TAG))
-        self._aim = Aim(np.eye(len(mean)) if factor is None else np.asarray(factor, dtype=np.float64))
+        self._one_sided = one_sided if one_sided is not None and one_sided.any() else None
+        own = np.eye(len(mean)) if factor is None else np.asarray(factor, dtype=np.float64)
+        self._aim = Aim(own, one_sided=self._one_sided)
         self._carried: Array | None = None
         self._finish: Finish | None = None
         self._attempt_below = np.inf
@@ -142,7 +146,9 @@ class Levade:
         if self._ending is None or best is None:
             return
         base, errors = best
-        miss = np.nanmax(np.abs(errors))
+        miss = np.nanmax(sizes(errors, self._one_sided))
         if WITHIN < miss <= min(self._finish_at, self._attempt_below):
             count = max(self._count, 1)
-            self._finish = Finish(base, errors, self._ending, count=count, generator=self._generator)
+            self._finish = Finish(
+                base, errors, self._ending, count=count, generator=self._generator, one_sided=self._one_sided
+            )
