@@ -264,6 +264,14 @@ def test_every_unit_has_its_size(unit: str) -> None:
             {"hold": 1, "costs": {"position": {"weight": 1, "z": 1, "at": "end"}}, "stages": [{"hold": False}]},
             "stages.0.hold: False, but every cost of the task looks at the hold; say hold: true",
         ),
+        (
+            {
+                "hold": 1,
+                "costs": {"position": {"weight": 1, "z": 1}, "margins": {"weight": 1, "speed": 0.1}},
+                "stages": [{"hold": False}],
+            },
+            "costs.margins: looks at the hold, which no stage simulates, and so counts nowhere; let it look at the horizon",
+        ),
         ({"search": {"optimizer": "cmaes"}}, "search.optimizer: no optimizer 'cmaes'; did you mean cma?"),
         ({"search": {"settings": {"aim": 6}}}, "search.settings: no 'aim' for levade; did you mean aimed?"),
         (

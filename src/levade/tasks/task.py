@@ -221,6 +221,14 @@ class Task:
             if not (math.isfinite(stage.step) and stage.step > 0):
                 raise LevadeError(f"{where}.step: {stage.step} should be a positive factor on the step size")
 
+        if self.hold_steps and not any(stage.hold for stage in self.stages):
+            for name, cost in self.costs.items():
+                if looks_at_hold(cost.term):
+                    raise LevadeError(
+                        f"costs.{name}: looks at the hold, which no stage simulates, and so counts nowhere; let it look at"
+                        " the horizon (at: horizon or over: horizon), or give a stage hold: true or a number of seconds"
+                    )
+
         for i, change in enumerate(self.search.changes):
             _check_change(f"search.changes.{i}", change, self.costs)
 
