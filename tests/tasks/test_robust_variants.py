@@ -74,6 +74,22 @@ def test_within_the_limits_is_the_robust_rearing_with_margins() -> None:
     assert variant.robust.perturb == Perturbation()
 
 
+def test_self_righting_within_the_limits_is_the_robust_one_that_keeps_them() -> None:
+    variant, robust = load_task("self-righting-within-limits"), load_task("self-righting-robust")
+    for key in ("robot", "scene", "physics", "start", "horizon", "hold", "policy"):
+        assert getattr(variant, key) == getattr(robust, key), key
+    costs, success = dict(variant.costs), dict(variant.success)
+    assert isinstance(costs.pop("margins").term, Margins)
+    assert costs == robust.costs
+    kept = [success.pop(name) for name in ("range", "speeds", "line")]
+    assert success == robust.success
+    assert {one.quantity for one in kept} == {"angle_margin", "speed_margin", "torque_speed_margin"}
+    assert all((one.minimum, one.at) == (0, "min") for one in kept)
+    assert variant.search.trials == robust.search.trials
+    assert variant.robust is not None
+    assert variant.robust.perturb == Perturbation()
+
+
 @pytest.mark.slow
 def test_a_robust_search_finds_a_motion_that_holds_on_robots_it_has_not_seen() -> None:
     task = load_task("rearing-robust")
