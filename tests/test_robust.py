@@ -15,7 +15,6 @@ from levade.engines import Perturbation
 from levade.engines.ode.library import load
 from levade.errors import LevadeError
 from levade.motion import ARRAYS, Motion
-from levade.optimizers import Centred
 from levade.run import CHECKPOINT, MOTION, PROGRESS, TASK, resume, run
 from levade.solve import Generation, Objective, Record, make_optimizer, solve
 from levade.tasks import Racing, Robust, load_task, task_to_yaml
@@ -162,7 +161,6 @@ def test_the_mean_of_a_generation_may_be_compared_in_place_of_its_best() -> None
     made, seen = objective(MEAN), generations(objective(MEAN))
     assert made.sampler is not None
     optimizer = make_optimizer(made, 2)
-    assert isinstance(optimizer, Centred)
     fixed, compared = made.sampler.models(2, 0), 0
     for generation in seen:  # the same search, told the same costs
         mean = optimizer.mean
@@ -177,8 +175,6 @@ def test_the_mean_of_a_generation_may_be_compared_in_place_of_its_best() -> None
             compared += 1
         optimizer.tell(generation.cost)
     assert compared >= 2
-    with pytest.raises(LevadeError, match=r"robust.contender: mean, but search.optimizer levade has none"):
-        objective(MEAN, "search.optimizer=levade")
 
 
 def test_few_samples_cover_every_range_evenly() -> None:

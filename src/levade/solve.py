@@ -27,7 +27,7 @@ from levade.costs import DIVERGED, evaluate, total
 from levade.costs.risk import ranked_behind, risk
 from levade.engines import Variations, make_engine
 from levade.errors import LevadeError, did_you_mean
-from levade.optimizers import OPTIMIZERS, Centred, Informed, Optimizer, settings, takes
+from levade.optimizers import OPTIMIZERS, Informed, Optimizer, settings, takes
 from levade.optimizers.blas import single_threaded
 from levade.policies import Ends, Follower, GaussianKernels, Group, Policy, smoothness_factor
 from levade.robots import Leg, Robot, load_robot, mirror_signs
@@ -450,7 +450,8 @@ def solve(
                 _forget_costs(optimizer, task)
             candidates = optimizer.ask()
             stage_weights = {**weights, **_stage_weights(task, stage, number)}
-            mean = optimizer.mean if isinstance(optimizer, Centred) else None
+            by_mean = task.robust is not None and task.robust.contender == "mean"
+            mean = optimizer.mean if by_mean else None
             record, replayed = _evaluate(objective, candidates, search, stage_weights, earlier, mean=mean)
             cost = objective.cost(record.evaluation, stage_weights)
             if isinstance(optimizer, Informed):
@@ -466,7 +467,7 @@ def solve(
             search.diverged += int(record.evaluation.diverged.sum())
             contenders, judged = candidates, record.evaluation
             if record.validated is not None:
-                contenders, judged = _contender(task, candidates, cost, mean), record.validated
+                contenders, judged = _contender(candidates, cost, mean), record.validated
             if search.trials_to_success is None and judged.success.any():
                 search.trials_to_success = search.trials
             _keep_best(search, objective, contenders, judged, weights)
@@ -546,9 +547,6 @@ def make_optimizer(objective: Objective, seed: int, *, attempt: int = 0) -> Opti
             population=search.population,
             **own,
         )
-    robust = objective.task.robust
-    if robust is not None and robust.contender == "mean" and not isinstance(optimizer, Centred):
-        raise LevadeError(f"robust.contender: mean, but search.optimizer {search.optimizer} has none; best, or cma")
     return optimizer
 
 
@@ -655,7 +653,7 @@ def _evaluate(
     if not earlier:
         evaluation, validated = _try(search, objective, candidates, generation=number, race=weights), None
         if search.robust and objective.task.robust and objective.task.robust.redraw == "generation":
-            contender = _contender(objective.task, candidates, objective.cost(evaluation, weights), mean)
+            contender = _contender(candidates, objective.cost(evaluation, weights), mean)
             validated = _try(search, objective, contender)
         return Record(number, checksum, evaluation, validated), False
     record = earlier.popleft()
@@ -667,11 +665,9 @@ def _evaluate(
     return record, True
 
 
-def _contender(task: Task, candidates: Array, cost: Array, mean: Array | None) -> Array:
-    """(1, d), who of a generation is compared on the models that stay the same. mean: of its distribution."""
-    if mean is not None and task.robust is not None and task.robust.contender == "mean":
-        return mean[None]
-    return candidates[np.argmin(cost)][None]
+def _contender(candidates: Array, cost: Array, mean: Array | None) -> Array:
+    """(1, d), who of a generation is compared on the models that stay the same: its distribution's mean, where given."""
+    return (candidates[np.argmin(cost)] if mean is None else mean)[None]
 
 
 def _keep_best(

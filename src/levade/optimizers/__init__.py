@@ -15,7 +15,7 @@ from levade.optimizers.cmaes import CMAES
 from levade.optimizers.levade import Levade
 from levade.optimizers.mppi import MPPI
 from levade.optimizers.pi2 import PI2, PI2CMA
-from levade.optimizers.protocol import Centred, Informed, Optimizer
+from levade.optimizers.protocol import Informed, Optimizer
 from levade.optimizers.random_search import RandomSearch
 
 OPTIMIZERS = {
@@ -49,7 +49,6 @@ __all__ = [
     "OPTIMIZERS",
     "PI2",
     "PI2CMA",
-    "Centred",
     "Informed",
     "Levade",
     "Optimizer",

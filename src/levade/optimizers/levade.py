@@ -75,6 +75,11 @@ class Levade:
     def step(self) -> float:
         return self._cma.step
 
+    @property
+    def mean(self) -> Array:
+        """(d,), of the distribution of CMA-ES."""
+        return self._cma.mean
+
     def ask(self) -> Array:
         """The next candidates, (n, d) with n up to `population`."""
         if self._finish is not None:

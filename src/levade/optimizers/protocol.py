@@ -23,6 +23,11 @@ class Optimizer(Protocol):
         """Current step size: standard deviation of the candidates along the widest direction at the start, scaled."""
         ...
 
+    @property
+    def mean(self) -> Array:
+        """(d,), of the distribution that candidates are drawn from; it moves when their costs are told."""
+        ...
+
     def ask(self) -> Array:
         """The next candidates, (population, d)."""
         ...
@@ -33,16 +38,6 @@ class Optimizer(Protocol):
 
     def scale_step(self, factor: float) -> None:
         """Multiply the step size, as at the start of a stage."""
-        ...
-
-
-@runtime_checkable
-class Centred(Optimizer, Protocol):
-    """An optimizer that draws candidates round a mean."""
-
-    @property
-    def mean(self) -> Array:
-        """(d,), of the distribution that candidates are drawn from; it moves when their costs are told."""
         ...
 
 
