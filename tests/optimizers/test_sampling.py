@@ -262,3 +262,14 @@ def test_tell_before_ask_and_costs_that_do_not_fit(name: str) -> None:
 def test_wrong_arguments(name: str, options: dict, message: str) -> None:
     with pytest.raises(LevadeError, match=message):
         OPTIMIZERS[name](np.zeros(4), **({"step": 0.1, "seed": 0} | options))
+
+
+@pytest.mark.parametrize("name", OPTIMIZERS)
+def test_candidates_are_drawn_round_the_mean(name: str) -> None:
+    """Before and after it has moved; the average of 4000 of them is within five standard errors of it."""
+    optimizer = OPTIMIZERS[name](np.arange(5.0), step=0.3, seed=0, population=4000)
+    for _ in range(2):
+        mean, x = optimizer.mean, optimizer.ask()
+        assert (np.abs(x.mean(axis=0) - mean) < 5 * x.std(axis=0) / np.sqrt(len(x))).all()
+        optimizer.tell(np.square(x - 10).sum(axis=1))
+    assert (np.square(optimizer.mean - 10).sum() < np.square(np.arange(5) - 10).sum()) == (name != "random")
