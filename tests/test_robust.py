@@ -177,6 +177,19 @@ def test_the_mean_of_a_generation_may_be_compared_in_place_of_its_best() -> None
     assert compared >= 2
 
 
+def test_a_search_starts_anew_on_the_nominal_model_only() -> None:
+    """Each nominal stage has two generations of six: it starts anew after one, or goes on with other models."""
+    never = "success={pitch: {target: 1.5, tolerance: 0.1}}"
+    names = {
+        restart: [g.stage_name for g in generations(objective(FIXED, never, f"search.restart={restart}"))]
+        for restart in (6, 18)
+    }
+    assert set(names[6]) == {"nominal"}
+    assert len(names[6]) == 90 // 6
+    assert names[18][:2] == ["nominal", "nominal"]
+    assert set(names[18][2:]) == {"robust"}
+
+
 def test_few_samples_cover_every_range_evenly() -> None:
     ensemble = objective().engine.ensemble()  # type: ignore[union-attr]
     sample = Perturbation(friction=(0.0 + 0.1, 1.1)).spread(ensemble.model, ensemble.joints, n=10, seed=1)

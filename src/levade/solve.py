@@ -594,9 +594,14 @@ def _enter(search: _Search, objective: Objective, stage: Stage, optimizer: Optim
 
 
 def _hopeless(task: Task, search: _Search) -> bool:
-    """Whether the search has gone on for so long without a success that it had better start anew."""
+    """Whether the search has gone on for so long without a success that it had better start anew.
+
+    Where candidates are tried on perturbed models, a motion of the nominal model has been found: it goes on from there.
+    """
     restart = task.search.restart
-    return restart is not None and search.trials_to_success is None and search.attempt_trials >= restart
+    if restart is None or search.trials_to_success is not None or search.robust:
+        return False
+    return search.attempt_trials >= restart
 
 
 def _ends(stage: Stage, search: _Search, evaluation: Evaluation) -> bool:

@@ -125,7 +125,8 @@ class Search:
         none, as plain CMA-ES has it. modes: search only over so many of the smoothest directions of each joint's weights;
         all if None. step_adaptation: see `levade.optimizers.CMAES`.
     restart: trials without a success after which the search starts anew, from the first stage, with other random numbers:
-        whoever rolled to the wrong side seldom finds the way back. None goes on to the end of the budget.
+        whoever rolled to the wrong side seldom finds the way back. Not once candidates are tried on perturbed models. None
+        goes on to the end of the budget.
     polish: trials to go on for after the first success, for a lower cost; None goes on to the end of the budget.
     settings: numbers that only this optimizer takes, such as {elite: 0.2}; see its class in `levade.optimizers`.
     changes: of the costs' weights on the way.
