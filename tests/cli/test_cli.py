@@ -16,6 +16,7 @@ from levade import __version__
 from levade.cli import main
 from levade.motion import Motion
 from levade.optimizers import OPTIMIZERS
+from levade.report.summary import summary_data
 
 QUICK = ["--set", "search.optimizer=cma", "--set", "search.population=8", "--trials", "16", "--set", "horizon=0.06"]
 LOOSE = ["--set", "success.pitch.tolerance=9", "--set", "success.height.tolerance=9"]
@@ -158,6 +159,17 @@ def test_solve_says_by_its_status_whether_it_succeeded(run, tmp_path: Path, extr
     for word in ("criterion", "goal", "result", "pitch", "height", "torque", "speed", "angle"):
         assert word in out
     assert Motion.load(tmp_path / "rearing" / "motion.npz").meta["success"] is (status == 0)
+
+
+def test_a_robust_search_without_success_says_that_the_model_alone_does_it(run) -> None:
+    """A quarter turn at the start is nothing that standing still makes up for."""
+    turned = "robust={samples: 2, perturb: {start_attitude: [1.5, 1.6]}}"
+    stand = ["success={height: {target: 0.57, tolerance: 5 cm}}", "stages=[{name: full}]", turned]
+    code, out, _ = run("solve", "rearing", *QUICK, "--trials", "48", *(word for s in stand for word in ("--set", s)))
+    assert code == 1
+    assert "All of this is met on the model, but not on enough of the robots that differ from it.\nNo success" in out
+    motion = Motion.load("rearing/motion.npz")
+    assert summary_data(motion)["verdict"] == "met on the model, but not on enough robots that differ from it"
 
 
 @pytest.mark.parametrize(("extra", "status"), [(LOOSE, 0), ([], 1)])

@@ -109,6 +109,12 @@ def _tell(console: Console, outcome: Outcome) -> None:
     elif outcome.motion.meta["success"]:
         console.print(f"[green]Success[/] at trial {first}; {spent}.")
     else:
+        task = outcome.motion.meta["task"]
+        met = all(
+            abs(outcome.motion.meta["errors"][name]) <= (c["tolerance"] or 0.0) for name, c in task["success"].items()
+        )
+        if met and task["robust"] is not None:
+            console.print("All of this is met on the model, but not on enough of the robots that differ from it.")
         console.print(
             f"[red]No success[/] within {spent}. Another --seed or more --trials may find one;"
             f" {directory}/progress.csv shows how the search went."

@@ -78,6 +78,8 @@ def _verdict(motion: Motion, criteria: list[dict[str, Any]]) -> str:
         return "the simulation diverged"
     if not criteria:
         return "nothing was required"
+    if not missed and not motion.meta["success"]:  # of a robust search
+        return "met on the model, but not on enough robots that differ from it"
     if not missed:
         return "every criterion met" if len(criteria) > 1 else "its criterion met"
     return f"{missed} of {len(criteria)} criteria missed" if len(criteria) > 1 else "its criterion missed"
