@@ -260,7 +260,9 @@ def verdict(
     asked_for = [row for row in runs if row.optimizer == "levade" and row.seed < SEEDS]
     if len(asked_for) < ours.runs:
         (first,) = summarise(asked_for)
-        said.append(f"Of these, seeds 0 to {SEEDS - 1}: {first.successes} of {first.runs}, median {number(first.median)}.")
+        said.append(
+            f"Of these, seeds 0 to {SEEDS - 1}: {first.successes} of {first.runs}, median {number(first.median)}."
+        )
     if case.cheapest:
         peers = [row for row in runs if row.optimizer in PEERS]
         if peers:
