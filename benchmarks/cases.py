@@ -257,12 +257,6 @@ def verdict(
         said.append(
             f"**Median {number(median)}**: missed by {number(median - case.median)} ({median / case.median:.1f} times)."
         )
-    asked_for = [row for row in runs if row.optimizer == "levade" and row.seed < SEEDS]
-    if len(asked_for) < ours.runs:
-        (first,) = summarise(asked_for)
-        said.append(
-            f"Of these, seeds 0 to {SEEDS - 1}: {first.successes} of {first.runs}, median {number(first.median)}."
-        )
     if case.cheapest:
         peers = [row for row in runs if row.optimizer in PEERS]
         if peers:

@@ -284,6 +284,16 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
     return Motion(meta, engine.xml, arrays, dict(engine.assets))
 
 
+def meets(meta: Mapping[str, Any], name: str) -> bool:
+    """Whether the motion meets a criterion of its task on the model, by the numbers in its file."""
+    return abs(meta["errors"][name]) <= (meta["task"]["success"][name]["tolerance"] or 0.0)
+
+
+def met_on_the_model_only(meta: Mapping[str, Any]) -> bool:
+    """Whether it meets every criterion on the model and still is no success: one of a robust search."""
+    return not (meta["success"] or meta["diverged"]) and all(meets(meta, name) for name in meta["task"]["success"])
+
+
 def cost_weights(meta: Mapping[str, Any]) -> dict[str, float]:
     """Cost -> the weight that a motion's ``meta["cost"]`` has it with: the task's, unless changed on the way."""
     return meta.get("cost_weights") or {name: cost["weight"] for name, cost in meta["task"]["costs"].items()}

@@ -316,7 +316,6 @@ def _to_json(evaluation: Evaluation) -> dict[str, Any]:
     numbers = {
         key: {name: [None if np.isnan(v) else v for v in values.tolist()] for name, values in table.items()}
         for key, table in (("terms", evaluation.terms), ("errors", evaluation.errors), ("room", evaluation.room))
-        if table
     }
     content = {**numbers, "success": evaluation.success.tolist(), "diverged": evaluation.diverged.tolist()}
     if evaluation.samples is not None:
@@ -326,7 +325,7 @@ def _to_json(evaluation: Evaluation) -> dict[str, Any]:
 
 def _from_json(content: Mapping[str, Any]) -> Evaluation:
     terms, off, room = (
-        {name: np.array(values, dtype=float) for name, values in content.get(key, {}).items()}
+        {name: np.array(values, dtype=float) for name, values in content[key].items()}
         for key in ("terms", "errors", "room")
     )
     success, diverged = (np.array(content[key], dtype=bool) for key in ("success", "diverged"))

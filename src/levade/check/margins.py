@@ -57,9 +57,7 @@ def margins(subject: Subject, demands: Demands) -> dict[str, Margin]:
     power = np.abs(torque * speed)
     at_limit = (np.abs(torque) >= limits.torque * (1 - 1e-9)).mean(axis=0)
     found = {
-        "position": _least(
-            "rad", joints, np.minimum(angle - limits.lower, limits.upper - angle).min(axis=0), demands.position
-        ),
+        "position": _least("rad", joints, limits.angle_left(angle).min(axis=0), demands.position),
         "speed": _least("share of limit", joints, _left(np.abs(speed).max(axis=0), limits.velocity), demands.speed),
         "torque": _least(
             "share of limit",

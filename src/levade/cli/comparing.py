@@ -10,7 +10,7 @@ from rich.table import Table
 from rich.text import Text
 
 from levade.cli.tables import quantity_unit, signed
-from levade.motion import Motion, cost_weights
+from levade.motion import Motion, cost_weights, meets
 
 
 def comparison_table(motions: Mapping[str, Motion]) -> Table:
@@ -50,8 +50,8 @@ def _error(meta: Mapping[str, Any], name: str) -> Text | str:
     if name not in meta["errors"]:
         return ""
     criterion, error = meta["task"]["success"][name], meta["errors"][name]
-    met = abs(error) <= (criterion["tolerance"] or 0.0)
-    return Text(f"{signed(error)} {quantity_unit(criterion['quantity'])}", style="green" if met else "red")
+    style = "green" if meets(meta, name) else "red"
+    return Text(f"{signed(error)} {quantity_unit(criterion['quantity'])}", style=style)
 
 
 def _weighted(meta: Mapping[str, Any], name: str) -> str:

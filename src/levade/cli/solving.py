@@ -15,6 +15,7 @@ from levade.cli.inspecting import tell_warnings
 from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console, motion_summary
 from levade.cli.watching import Watching, watched
+from levade.motion import met_on_the_model_only
 from levade.run import Outcome, read_run, resume, run, unfinished
 from levade.solve import Generation, Objective
 from levade.tasks import load_task
@@ -109,11 +110,7 @@ def _tell(console: Console, outcome: Outcome) -> None:
     elif outcome.motion.meta["success"]:
         console.print(f"[green]Success[/] at trial {first}; {spent}.")
     else:
-        task = outcome.motion.meta["task"]
-        met = all(
-            abs(outcome.motion.meta["errors"][name]) <= (c["tolerance"] or 0.0) for name, c in task["success"].items()
-        )
-        if met and task["robust"] is not None:
+        if met_on_the_model_only(outcome.motion.meta):
             console.print("All of this is met on the model, but not on enough of the robots that differ from it.")
         console.print(
             f"[red]No success[/] within {spent}. Another --seed or more --trials may find one;"

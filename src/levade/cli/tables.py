@@ -11,7 +11,7 @@ from rich.table import Table
 from rich.text import Text
 
 from levade.costs.success import QUANTITIES
-from levade.motion import Motion
+from levade.motion import Motion, meets
 
 _WIDE = 200
 """Columns, where the output is no terminal: nothing is wrapped there."""
@@ -55,11 +55,10 @@ def goal_table(meta: Mapping[str, Any]) -> Table:
         else:
             low, high = criterion["minimum"], criterion["maximum"]
             ends = [f"{bound:.4f}" for bound in (low, high) if bound is not None]
-            goal = (
-                "" if len(ends) == 2 else "at least " if high is None else "at most "
-            ) + f"{' to '.join(ends)} {unit}"
+            side = "" if len(ends) == 2 else "at least " if high is None else "at most "
+            goal = f"{side}{' to '.join(ends)} {unit}"
             result = "within" if error == 0 else f"{(low if error < 0 else high) + error:.4f} {unit}"
-        met = abs(error) <= tolerance
+        met = meets(meta, name)
         table.add_row(
             name + when[criterion["at"]] if name == criterion["quantity"] else name,
             goal,

@@ -15,7 +15,7 @@ import numpy as np
 
 from levade.costs.success import CIRCULAR, QUANTITIES
 from levade.errors import LevadeError
-from levade.motion import Motion, cost_weights
+from levade.motion import Motion, cost_weights, met_on_the_model_only
 from levade.tasks import builtin_tasks, load_task, task_from_dict, task_to_dict, task_to_yaml
 
 WHEN = {
@@ -78,7 +78,7 @@ def _verdict(motion: Motion, criteria: list[dict[str, Any]]) -> str:
         return "the simulation diverged"
     if not criteria:
         return "nothing was required"
-    if not missed and not motion.meta["success"]:  # of a robust search
+    if met_on_the_model_only(motion.meta):
         return "met on the model, but not on enough robots that differ from it"
     if not missed:
         return "every criterion met" if len(criteria) > 1 else "its criterion met"
