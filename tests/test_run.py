@@ -19,10 +19,11 @@ import numpy as np
 import pytest
 
 import levade.run as run_module
+from levade.cli import main
 from levade.errors import LevadeError
 from levade.motion import ARRAYS, Motion
 from levade.optimizers import OPTIMIZERS
-from levade.run import CHECKPOINT, MOTION, PROGRESS, TASK, Outcome, read_run, resume, run, unfinished
+from levade.run import CHECKPOINT, MOTION, PROGRESS, TASK, Outcome, damage, read_run, resume, run, unfinished
 from levade.solve import Generation, Objective
 from levade.tasks import load_task
 
@@ -142,8 +143,31 @@ def test_a_line_that_was_cut_off_is_computed_anew(
     with (tmp_path / PROGRESS).open("a") as file:
         file.write("6,4")
     assert len(read_run(tmp_path)[2]) == 5 - (cut > 1)  # without its line break a line is whole
+    assert damage(tmp_path) is None
     resume(tmp_path)
     assert_same_end(tmp_path, whole)
+
+
+@pytest.mark.parametrize("broken", [1, 3])
+def test_a_damaged_line_is_told_and_what_follows_computed_anew(
+    objective: Objective, whole: Outcome, tmp_path: Path, broken: int, capfd: pytest.CaptureFixture[str]
+) -> None:
+    run(objective, seed=3, directory=tmp_path, observe=stop_after(5))
+    path = tmp_path / CHECKPOINT
+    lines = path.read_text().splitlines()
+    lines[broken] = lines[broken].replace('"success"', '"succes"')
+    path.write_text("".join(line + "\n" for line in lines))
+    assert len(read_run(tmp_path)[2]) == broken - 1
+    with pytest.raises(LevadeError, match="holds an interrupted run"):
+        unfinished(tmp_path)
+    with pytest.raises(SystemExit):
+        main(["solve", "--resume", str(tmp_path)])
+    told = " ".join(capfd.readouterr().out.split())
+    assert (
+        f"line {broken + 1} of 6 is damaged; what was recorded from generation {broken} on is simulated again" in told
+    )
+    assert_same_end(tmp_path, whole)
+    assert damage(tmp_path) is None
 
 
 @pytest.mark.parametrize(

@@ -149,7 +149,7 @@ def unfinished(directory: Path) -> None:
         _, header, records = read_run(directory)
     except LevadeError:
         return
-    if records and not _finished(directory):
+    if (records or damage(directory)) and not _finished(directory):
         raise LevadeError(
             f"{directory}: holds an interrupted run (seed {header['seed']}, {len(records)} generations); go on with it:"
             f" levade solve --resume {directory}, replace it: --force, or write elsewhere: --out DIR"
@@ -175,6 +175,19 @@ def read_run(directory: Path) -> tuple[Task, dict[str, Any], list[Record]]:
     except (ValueError, LookupError, TypeError):
         raise LevadeError(f"{directory / CHECKPOINT}: damaged, its first line is no header; start anew") from None
     return task, header, list(_records(lines[1:]))
+
+
+def damage(directory: Path) -> str | None:
+    """What of a run's checkpoint cannot be read, in words; None if nothing. A last line that was cut off is no damage."""
+    text = (directory / CHECKPOINT).read_text(encoding="utf-8", errors="replace").removesuffix(_END)
+    lines = text[: text.rfind("\n") + 1].splitlines()[1:]
+    whole = sum(1 for _ in _records(lines))
+    if whole >= len(lines):
+        return None
+    return (
+        f"{directory / CHECKPOINT}: line {whole + 2} of {len(lines) + 1} is damaged; what was recorded from generation"
+        f" {whole + 1} on is simulated again"
+    )
 
 
 def _records(lines: list[str]) -> Iterator[Record]:

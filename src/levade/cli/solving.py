@@ -16,7 +16,7 @@ from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console, motion_summary
 from levade.cli.watching import Watching, watched
 from levade.motion import met_on_the_model_only
-from levade.run import Outcome, read_run, resume, run, unfinished
+from levade.run import Outcome, damage, read_run, resume, run, unfinished
 from levade.solve import Generation, Objective
 from levade.tasks import load_task
 
@@ -44,6 +44,8 @@ def solve_and_report(
         seed, out = int(header["seed"]), resume_from
         objective = Objective(chosen, threads=threads)
         go = functools.partial(resume, out, objective=objective)
+        if (harm := damage(out)) is not None:
+            console.print(f"[yellow]warning:[/] {escape(harm)}", soft_wrap=True)
     else:
         assert task is not None
         chosen = load_task(task, robot=robot, changes=changes)
