@@ -308,7 +308,7 @@ def page(rows: list[dict[str, Any]]) -> str:
         "@SHARE@": f"{100 * (Demands().share or 0):g} %",
         "@PARAMETERS@": parameters(),
         "@NUMBERS@": str(sum(values.shape[1] for values in drawn.values.values())),
-        **{f"@{name}@": f"{getattr(default, name):g}" for name in ("samples", "tail", "required")},
+        **{f"@{name}@": f"{getattr(default, name):g}" for name in ("samples", "tail", "required", "starts")},
         **{f"@{name}@": str(getattr(default, name)) for name in ("measure", "redraw")},
         "@VARIANTS@": variants(),
         "@TABLE@": table(rows),

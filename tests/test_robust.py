@@ -28,7 +28,8 @@ FIXED = "robust={samples: 4, measure: cvar, racing: {first: 1, keep: 0.5}}"
 REDRAWN = "robust={samples: 3, measure: mean, redraw: generation, required: 0.5}"
 VALIDATED = "robust={samples: 2, measure: mean, redraw: generation, validation: 5}"
 MEAN = "robust={samples: 2, measure: mean, redraw: generation, validation: 5, contender: mean}"
-BUDGET = {FIXED: 90, REDRAWN: 120, VALIDATED: 120, MEAN: 120}
+STARTS = "robust={samples: 3, measure: mean, redraw: generation, validation: 20, starts: 3}"
+BUDGET = {FIXED: 90, REDRAWN: 120, VALIDATED: 120, MEAN: 120, STARTS: 250}
 
 
 def objective(robust: str = FIXED, *more: str, threads: int = 1) -> Objective:
@@ -91,7 +92,7 @@ def test_samples_are_rollouts_of_the_perturbed_models_themselves(fixed: list[Gen
                 assert found.samples.terms[name][i, j] == term(alone)[0], name
 
 
-@pytest.mark.parametrize("robust", [FIXED, REDRAWN, MEAN])
+@pytest.mark.parametrize("robust", [FIXED, REDRAWN, MEAN, STARTS])
 def test_the_search_is_the_same_to_the_bit_for_any_number_of_threads_and_after_a_resume(
     robust: str, tmp_path: Path
 ) -> None:
@@ -190,6 +191,71 @@ def test_a_search_starts_anew_on_the_nominal_model_only() -> None:
     assert set(names[18][2:]) == {"robust"}
 
 
+BARELY = ("success={pitch: {target: 0, tolerance: 0.02}}", "search.step=0.03")
+
+
+def test_of_several_motions_of_the_nominal_model_the_one_that_holds_on_most_others_goes_on() -> None:
+    """Each is found by a search of its own, of two generations here; the robust stage begins around the best of them."""
+    made = objective(STARTS, *BARELY)
+    seen = generations(made)
+    assert made.sampler is not None
+    assert [g.stage_name for g in seen] == ["nominal"] * 6 + ["robust"] * (len(seen) - 6)
+    assert [g.record.validated is None for g in seen[:6]] == [True, False] * 3
+    assert [g.trials for g in seen[:6]] == [6, 33, 39, 66, 72, 99]  # 1 + 20 for a motion, beside six candidates
+    found = []
+    for attempt in range(3):
+        optimizer = make_optimizer(made, 2, attempt=attempt)
+        for generation in seen[2 * attempt : 2 * attempt + 2]:
+            candidates = optimizer.ask()
+            assert zlib.crc32(candidates.tobytes()) == generation.record.checksum
+            optimizer.tell(generation.cost)
+        start = candidates[np.argmin(generation.cost)]
+        share = made.evaluate(start[None], models=made.sampler.models(2, 0)).samples
+        assert share is not None
+        found.append((share.share[0], start))
+    shares = [share for share, _ in found]
+    assert len(set(shares)) == 3
+    best = found[int(np.argmax(shares))][1]
+    around = make_optimizer(made, 2, attempt=3, mean=best).ask()
+    assert zlib.crc32(around.tobytes()) == seen[6].record.checksum
+
+
+def test_a_search_that_is_given_up_counts_as_a_start_and_one_motion_is_enough() -> None:
+    """Of three searches those that meet nothing within one generation are given up; without any the next one begins."""
+    hard = "stages=[{name: nominal, robust: false, promote: {pitch: 1e-5}}, {name: robust}]"
+    seen = generations(objective(STARTS, *BARELY, hard, "search.restart=6"))
+    assert {g.stage_name for g in seen} == {"nominal"}
+    easy = hard.replace("1e-5", "0.0005")
+    seen = generations(objective(STARTS, *BARELY, easy, "search.restart=6", "search.trials=400"))
+    nominal = [g for g in seen if g.stage_name == "nominal"]
+    assert sum(g.record.validated is not None for g in nominal) in (1, 2)
+    assert len(nominal) >= 3
+    assert seen[-1].stage_name == "robust"
+
+
+def test_a_motion_to_start_from_that_holds_on_all_is_a_success() -> None:
+    seen = generations(objective(STARTS, "search.polish=0"))
+    assert len(seen) == 2
+    assert seen[-1].best.success
+    assert seen[-1].trials_to_success == seen[-1].trials == 12 + 21
+
+
+def test_an_interrupted_search_keeps_the_start_that_holds_best() -> None:
+    made, at = objective(STARTS, *BARELY), []
+
+    def stop(generation: Generation) -> None:
+        at.append(generation)
+        if len(at) == 5:
+            raise KeyboardInterrupt
+
+    solution = solve(made, seed=2, observe=stop)
+    assert made.sampler is not None
+    kept = made.evaluate(solution.best.weights[None], models=made.sampler.models(2, 0)).samples
+    starts = [g.record.validated.samples.share[0] for g in at if g.record.validated and g.record.validated.samples]
+    assert kept is not None
+    assert kept.share[0] == max(starts)
+
+
 def test_few_samples_cover_every_range_evenly() -> None:
     ensemble = objective().engine.ensemble()  # type: ignore[union-attr]
     sample = Perturbation(friction=(0.0 + 0.1, 1.1)).spread(ensemble.model, ensemble.joints, n=10, seed=1)
@@ -238,6 +304,7 @@ def test_tasks_keep_what_they_ask_for(tmp_path: Path) -> None:
         ("{redraw: generation, contender: median}", r"robust.contender: should be 'best' or 'mean'"),
         ("{contender: mean}", r"robust.contender: with redraw: never"),
         ("{redraw: generation, validation: 0}", r"robust.validation: 0 should be 1 to 1000"),
+        ("{starts: 0}", r"robust.starts: 0 should be 1 to 1000"),
         ("{tail: 0}", r"robust.tail: 0.0 should be a share"),
         ("{samples: 2, racing: {first: 2}}", r"robust.racing.first: 2 of 2 samples leaves nothing to race for"),
         ("{racing: {first: 1, keep: 0}}", r"robust.racing.keep: 0.0 should be a share"),
@@ -248,6 +315,17 @@ def test_mistakes_are_told_in_one_line(robust: str, message: str) -> None:
     with pytest.raises(LevadeError, match=message):
         load_task("rearing", changes=[*SMALL, f"robust={robust}"])
     assert Racing(first=0).keep == 0.5
+
+
+@pytest.mark.parametrize(
+    ("stages", "missing"),
+    [("[{name: robust}]", "the first stage is not robust: false"), ("[{robust: false}]", "no stage is robust")],
+)
+def test_starts_need_stages_of_both_kinds(stages: str, missing: str) -> None:
+    with pytest.raises(
+        LevadeError, match=f"robust.starts: 3 motions of the nominal model to start from, but {missing}"
+    ):
+        load_task("rearing", changes=[*SMALL, f"stages={stages}", STARTS])
 
 
 def test_another_engine_has_its_own_perturbed_models() -> None:

@@ -292,7 +292,8 @@ class Record:
     """What the simulations of one generation said: enough to run through it again without them.
 
     checksum: of the candidates that the optimizer asked for. The rest as in `Evaluation`.
-    validated: of its contender alone, on the models that stay the same, where others are drawn for each generation.
+    validated: of its contender alone, on the models that stay the same, where others are drawn for each generation, or the
+    contender is one of several motions of the nominal model to start from.
     """
 
     generation: int
@@ -406,6 +407,18 @@ class _Search:
     hold_steps: int = 0
     seed: int = 0
     robust: bool = False
+    starts: list[_Start] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class _Start:
+    """A motion of the nominal model that the robust stages may start from, success and cost on the models that stay the same.
+
+    share: of these that it succeeds on.
+    """
+
+    trial: Trial
+    share: float
 
 
 @single_threaded()
@@ -464,9 +477,14 @@ def solve(
             search.stage_trials += spent
             search.attempt_trials += spent
             search.diverged += int(record.evaluation.diverged.sum())
-            contenders, judged = candidates, record.evaluation
-            if record.validated is not None:
+            contenders, judged, start = candidates, record.evaluation, None
+            if record.validated is not None and search.robust:
                 contenders, judged = _contender(candidates, cost, mean), record.validated
+            elif record.validated is not None:
+                first = _first_to_end(stage, cost, record.evaluation)
+                start = _start(objective, candidates[first], record.validated, weights)
+                if start.trial.success:
+                    contenders, judged = candidates[first : first + 1], record.validated
             if search.trials_to_success is None and judged.success.any():
                 search.trials_to_success = search.trials
             _keep_best(search, objective, contenders, judged, weights)
@@ -494,11 +512,17 @@ def solve(
             if since is not None and polish is not None and since >= polish:
                 stopped = "success"
                 break
-            if _hopeless(task, search):
-                search.attempt, search.attempt_trials = search.attempt + 1, 0
-                optimizer = make_optimizer(objective, seed, attempt=search.attempt)
-                following = 0
-            elif search.stage + 1 < len(stages) and _ends(stage, search, record.evaluation):
+            search.starts += [start] if start is not None else []
+            if _hopeless(task, search) or start is not None:
+                if search.starts and search.attempt + 1 >= _starts(task):
+                    start = _best(search.starts)
+                    search.best, following = start.trial, _first_robust(stages)
+                    optimizer = make_optimizer(objective, seed, attempt=search.attempt + 1, mean=start.trial.weights)
+                else:
+                    search.attempt, search.attempt_trials = search.attempt + 1, 0
+                    optimizer = make_optimizer(objective, seed, attempt=search.attempt)
+                    following = 0
+            elif search.stage + 1 < len(stages) and _ends(stage, search.stage_trials, record.evaluation):
                 following = search.stage + 1
             else:
                 continue
@@ -511,6 +535,8 @@ def solve(
         stopped = "interrupted"
     if search.best is None:
         _keep_best(search, objective, objective.initial_weights[None], None, weights)
+    elif search.starts and not search.robust and not search.best.success:
+        search.best = _best(search.starts).trial
     if search.hold_steps != task.hold_steps or search.robust != (task.robust is not None):
         search.robust = task.robust is not None
         _reconsider(search, objective, weights, task.hold_steps)
@@ -527,8 +553,8 @@ def solve(
     )
 
 
-def make_optimizer(objective: Objective, seed: int, *, attempt: int = 0) -> Optimizer:
-    """The task's optimizer, at the objective's initial weights; each attempt draws other random numbers."""
+def make_optimizer(objective: Objective, seed: int, *, attempt: int = 0, mean: Array | None = None) -> Optimizer:
+    """The task's optimizer, around the objective's initial weights, or a mean (d,); each attempt draws other numbers."""
     search = objective.task.search
     own: dict[str, Any] = dict(search.settings)
     if takes(search.optimizer, "ending"):
@@ -539,7 +565,7 @@ def make_optimizer(objective: Objective, seed: int, *, attempt: int = 0) -> Opti
         own = {"step_adaptation": search.step_adaptation, **own}
     with _at("search.settings."):
         optimizer = OPTIMIZERS[search.optimizer](
-            objective.initial_weights,
+            objective.initial_weights if mean is None else mean,
             factor=objective.factor,
             step=search.step,
             seed=(seed, attempt) if attempt else seed,
@@ -603,22 +629,53 @@ def _hopeless(task: Task, search: _Search) -> bool:
     return search.attempt_trials >= restart
 
 
-def _ends(stage: Stage, search: _Search, evaluation: Evaluation) -> bool:
-    if stage.trials is not None and search.stage_trials >= stage.trials:
+def _ends(stage: Stage, trials: int, evaluation: Evaluation) -> bool:
+    """Whether a stage ends with a generation; trials: that it took so far."""
+    if stage.trials is not None and trials >= stage.trials:
         return True
-    if not stage.promote:
-        return False
+    return bool(stage.promote) and bool(_promoted(stage, evaluation).any())
+
+
+def _promoted(stage: Stage, evaluation: Evaluation) -> NDArray[np.bool_]:
     within = ~evaluation.diverged
     for name, tolerance in stage.promote.items():
         within = within & (np.abs(evaluation.errors[name]) <= tolerance)  # nan, of what was not simulated, never is
-    return bool(within.any())
+    return within
+
+
+def _first_to_end(stage: Stage, cost: Array, evaluation: Evaluation) -> int:
+    """The cheapest of those candidates that end a stage; of all, where it ended for its trials."""
+    within = _promoted(stage, evaluation)
+    return int(np.argmin(np.where(within, cost, np.inf) if within.any() else cost))
+
+
+def _starts(task: Task) -> int:
+    return 1 if task.robust is None else task.robust.starts
+
+
+def _first_robust(stages: tuple[Stage, ...]) -> int:
+    return next(i for i, stage in enumerate(stages) if stage.robust)
+
+
+def _start(objective: Objective, candidate: Array, validated: Evaluation, weights: Mapping[str, float]) -> _Start:
+    assert validated.samples is not None
+    cost = float(objective.cost(validated, weights)[0])
+    return _Start(_trial(candidate, cost, validated, 0), float(validated.samples.share[0]))
+
+
+def _best(starts: list[_Start]) -> _Start:
+    return min(starts, key=lambda start: (not start.trial.success, -start.share, start.trial.cost))
 
 
 def _most(search: _Search, task: Task, optimizer: Optimizer) -> int:
     """Trials that a generation may take; one that has to be looked at more closely takes a few more."""
-    if task.robust is None or not search.robust:
+    if task.robust is None:
         return optimizer.population
-    validated = 1 + task.robust.fixed if task.robust.redraw == "generation" else 0
+    validated = 1 + task.robust.fixed
+    if not search.robust:
+        return optimizer.population + (validated if task.robust.starts > 1 else 0)
+    if task.robust.redraw == "never":
+        validated = 0
     return task.robust.rollouts(optimizer.population) + validated
 
 
@@ -659,6 +716,15 @@ def _evaluate(
         if search.robust and objective.task.robust and objective.task.robust.redraw == "generation":
             contender = _contender(candidates, objective.cost(evaluation, weights), mean)
             validated = _try(search, objective, contender)
+        elif _to_start_from(objective.task, search, evaluation):
+            stage = objective.task.stages[search.stage]
+            first = _first_to_end(stage, objective.cost(evaluation, weights), evaluation)
+            validated = _try(
+                replace(search, robust=True),
+                objective,
+                candidates[first : first + 1],
+                hold_steps=objective.task.hold_steps,
+            )
         return Record(number, checksum, evaluation, validated), False
     record = earlier.popleft()
     if (record.generation, record.checksum) != (number, checksum):
@@ -667,6 +733,14 @@ def _evaluate(
             " start anew in an empty directory"
         )
     return record, True
+
+
+def _to_start_from(task: Task, search: _Search, evaluation: Evaluation) -> bool:
+    """Whether a generation ends the stages of the nominal model, with a motion that is one of several to start from."""
+    stages, following = task.stages, search.stage + 1
+    if _starts(task) == 1 or search.robust or following != _first_robust(stages):
+        return False
+    return _ends(stages[search.stage], search.stage_trials + evaluation.trials, evaluation)
 
 
 def _contender(candidates: Array, cost: Array, mean: Array | None) -> Array:
@@ -688,13 +762,18 @@ def _keep_best(
     first = np.lexsort((cost, ~evaluation.success))[0]
     best = search.best
     if best is None or (not evaluation.success[first], float(cost[first])) < (not best.success, best.cost):
-        search.best = Trial(
-            weights=candidates[first].copy(),
-            cost=float(cost[first]),
-            terms={name: float(values[first]) for name, values in evaluation.terms.items()},
-            errors={name: float(values[first]) for name, values in evaluation.errors.items()},
-            success=bool(evaluation.success[first]),
-        )
+        search.best = _trial(candidates[first], float(cost[first]), evaluation, first)
+
+
+def _trial(candidate: Array, cost: float, evaluation: Evaluation, i: int) -> Trial:
+    """Candidate ``i`` of an evaluation."""
+    return Trial(
+        weights=candidate.copy(),
+        cost=cost,
+        terms={name: float(values[i]) for name, values in evaluation.terms.items()},
+        errors={name: float(values[i]) for name, values in evaluation.errors.items()},
+        success=bool(evaluation.success[i]),
+    )
 
 
 def _weigh_anew(search: _Search, objective: Objective, weights: Mapping[str, float]) -> None:

@@ -42,6 +42,8 @@ class Robust:
         distribution that its candidates are drawn from: near the end, luck on a few models is most of what sets the best apart.
     required: share of the samples (of that which stays the same, if others are drawn for each generation) that a candidate has
         to succeed on, beside the nominal model, to count as a success.
+    starts: motions of the nominal model, each from a search of its own, of which that one goes on to the robust stages which
+        succeeds on most of the models that stay the same. Motions that look alike on one model differ widely on others.
     racing: None runs every candidate on every sample. perturb: ranges.
 
     The samples of one generation cover every range evenly (`levade.engines.Perturbation.spread`); they follow from the seed of
@@ -55,6 +57,7 @@ class Robust:
     validation: int | None = None
     contender: Literal["best", "mean"] = "best"
     required: float = 1.0
+    starts: int = 1
     racing: Racing | None = None
     perturb: Perturbation = Perturbation()
 
@@ -77,6 +80,8 @@ class Robust:
             value = getattr(self, name)
             if not (math.isfinite(value) and 0 <= value <= 1) or (name == "tail" and value == 0):
                 raise LevadeError(f"robust.{name}: {value} should be a share, up to 1")
+        if not 1 <= self.starts <= 1000:
+            raise LevadeError(f"robust.starts: {self.starts} should be 1 to 1000; 8 is usual")
         if self.racing is not None and self.racing.first >= self.samples:
             raise LevadeError(
                 f"robust.racing.first: {self.racing.first} of {self.samples} samples leaves nothing to race for; fewer"

@@ -230,6 +230,14 @@ class Task:
                         " the horizon (at: horizon or over: horizon), or give a stage hold: true or a number of seconds"
                     )
 
+        if self.robust is not None and self.robust.starts > 1:
+            robust = [stage.robust for stage in self.stages]
+            if robust[0] or not any(robust):
+                missing = "the first stage is not robust: false" if robust[0] else "no stage is robust"
+                raise LevadeError(
+                    f"robust.starts: {self.robust.starts} motions of the nominal model to start from, but {missing}; give"
+                    " stages of both kinds, or leave starts out"
+                )
         for i, change in enumerate(self.search.changes):
             _check_change(f"search.changes.{i}", change, self.costs)
 
