@@ -215,6 +215,8 @@ def test_of_several_motions_of_the_nominal_model_the_one_that_holds_on_most_othe
         found.append((share.share[0], start))
     shares = [share for share, _ in found]
     assert len(set(shares)) == 3
+    assert [len(g.starts) for g in seen[:6]] == [0, 1, 1, 2, 2, 3]
+    assert seen[-1].starts == tuple(shares)
     best = found[int(np.argmax(shares))][1]
     around = make_optimizer(made, 2, attempt=3, mean=best).ask()
     assert zlib.crc32(around.tobytes()) == seen[6].record.checksum

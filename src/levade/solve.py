@@ -353,6 +353,7 @@ class Generation:
     trials: spent so far.
     trials_to_success: trials spent when one first met every criterion. replayed: whether it came from a record.
     weights: of the best trial's cost. changes: of the weights, that hold or are still to come.
+    starts: shares of the models that stay the same, on which motions of the nominal model to start from succeed; found so far.
     """
 
     generation: int
@@ -368,6 +369,7 @@ class Generation:
     replayed: bool
     weights: Mapping[str, float]
     changes: tuple[Change, ...]
+    starts: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -487,6 +489,7 @@ def solve(
                     contenders, judged = candidates[first : first + 1], record.validated
             if search.trials_to_success is None and judged.success.any():
                 search.trials_to_success = search.trials
+            search.starts += [start] if start is not None else []
             _keep_best(search, objective, contenders, judged, weights)
             assert search.best is not None
             if observe is not None:
@@ -505,6 +508,7 @@ def solve(
                         replayed=replayed,
                         weights=weights,
                         changes=task.search.changes,
+                        starts=tuple(start.share for start in search.starts),
                     )
                 )
             polish = task.search.polish
@@ -512,7 +516,6 @@ def solve(
             if since is not None and polish is not None and since >= polish:
                 stopped = "success"
                 break
-            search.starts += [start] if start is not None else []
             if _hopeless(task, search) or start is not None:
                 if search.starts and search.attempt + 1 >= _starts(task):
                     start = _best(search.starts)

@@ -62,7 +62,7 @@ class Display:
                 f"{name} {value:+.3g}" for name, value in generation.best.errors.items() if value == value
             )
             self._console.print(
-                f"trial {generation.trials}, stage {escape(generation.stage_name)}:"
+                f"trial {generation.trials}, {escape(_stage(generation))}:"
                 f" best cost {generation.best.cost:.4g}; errors: {errors}"
             )
 
@@ -83,7 +83,7 @@ class Display:
         head = Table.grid(padding=(0, 3))
         head.add_row(
             f"generation {g.generation}",
-            f"stage {g.stage_name}",
+            escape(_stage(g)),
             f"best cost {g.best.cost:.4g}",
             f"step {g.step:.3g}",
             f"diverged {g.diverged}",
@@ -96,6 +96,12 @@ class Display:
             return 0.0
         (t0, n0), (t1, n1) = self._recent[0], self._recent[-1]
         return (n1 - n0) / max(t1 - t0, 1e-9)
+
+
+def _stage(g: Generation) -> str:
+    """With how many motions to start from there are, where several are looked for."""
+    found = f", best of {len(g.starts)} starts holds on {max(g.starts):.0%}" if g.starts else ""
+    return f"stage {g.stage_name}{found}"
 
 
 def _criteria(task: Task, g: Generation) -> Table:
