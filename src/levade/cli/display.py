@@ -100,7 +100,7 @@ class Display:
 
 def _stage(g: Generation) -> str:
     """With how many motions to start from there are, where several are looked for."""
-    found = f", best of {len(g.starts)} starts holds on {max(g.starts):.0%}" if g.starts else ""
+    found = f", best of {len(g.starts)} starts holds on {max(g.starts):.0%} of models" if g.starts else ""
     return f"stage {g.stage_name}{found}"
 
 
