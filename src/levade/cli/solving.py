@@ -107,13 +107,13 @@ def _tell(console: Console, outcome: Outcome) -> None:
         console.print(part)
     first = solution.trials_to_success
     spent = f"{solution.trials} trials in {outcome.wall:.1f} s"
+    if met_on_the_model_only(outcome.motion.meta):
+        console.print("All of this is met on the model, but not on enough of the robots that differ from it.")
     if solution.stopped == "interrupted":
         console.print(f"[yellow]Interrupted[/] after {spent}. To go on: levade solve --resume {directory}")
     elif outcome.motion.meta["success"]:
         console.print(f"[green]Success[/] at trial {first}; {spent}.")
     else:
-        if met_on_the_model_only(outcome.motion.meta):
-            console.print("All of this is met on the model, but not on enough of the robots that differ from it.")
         console.print(
             f"[red]No success[/] within {spent}. Another --seed or more --trials may find one;"
             f" {directory}/progress.csv shows how the search went."
