@@ -47,6 +47,11 @@ class Samples:
         """(n,) successes of all m samples; those not run count as failures."""
         return (self.success & self.known).mean(axis=1)
 
+    @property
+    def attainable(self) -> Array:
+        """(n,) the share if all those not run succeed."""
+        return (self.success | ~self.known).mean(axis=1)
+
     def to_json(self) -> dict[str, Any]:
         terms = {
             name: [[None if np.isnan(v) else v for v in row] for row in t.tolist()] for name, t in self.terms.items()

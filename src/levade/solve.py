@@ -43,6 +43,10 @@ BESIDE_BOUND = 0.015
 """[SI: m, rad, ...], as far inside a bound as the middle of a tolerance is inside the tolerance."""
 
 
+_AT_ONCE = 20
+"""Models together on which a candidate is simulated through the hold."""
+
+
 @dataclass(frozen=True)
 class Evaluation:
     """What n trials achieved.
@@ -132,21 +136,23 @@ class Objective:
         hold_steps: int | None = None,
         models: Variations | None = None,
         race: Mapping[str, float] | None = None,
+        through: bool = True,
     ) -> Evaluation:
         """Simulate and judge trials (n, d).
 
         hold_steps: how much of the hold to simulate; all of it if None. With less, those trials that meet every criterion
-        so far are simulated again through all of it, to see whether they succeed.
+        so far are simulated again through all of it, to see whether they succeed. through: or not; then none does.
         models: perturbed models to try the candidates on as well, as the task's ``robust`` says. race: weights of the costs by
         which candidates are left behind after a few of the models; None runs all on all.
         """
         full = self.task.hold_steps
         hold_steps = full if hold_steps is None else hold_steps
         result = self._judge(self.rollout(weights, hold_steps=hold_steps), skip_hold=full > 0 == hold_steps)
-        if hold_steps < full:
+        if hold_steps < full and not through:
+            result.success[:] = False
+        elif hold_steps < full:
             for trial in np.flatnonzero(result.success):
-                through = self._judge(self.rollout(weights[trial : trial + 1]))
-                result.success[trial] = through.success[0]
+                result.success[trial] = self._judge(self.rollout(weights[trial : trial + 1])).success[0]
         return result if models is None else self._on_models(result, weights, hold_steps, models, race)
 
     def cost(self, evaluation: Evaluation, weights: Mapping[str, float]) -> Array:
@@ -194,10 +200,14 @@ class Objective:
         success = nominal.success & robust.enough(samples.share)
         verified = 0
         for trial in np.flatnonzero(success) if hold_steps < full else ():
-            through = Samples.none(self.terms, len(weights), len(models))
-            run(through, np.array([trial]), columns, full)
-            success[trial] = robust.enough(through.share)[trial]
-            verified += len(models)
+            whole = Samples.none(self.terms, len(weights), len(models))
+            for first in range(0, len(models), _AT_ONCE):  # no more of them than it takes to tell
+                part = columns[first : first + _AT_ONCE]
+                run(whole, np.array([trial]), part, full)
+                verified += len(part)
+                success[trial] = robust.enough(whole.attainable)[trial]
+                if not success[trial]:
+                    break
         return replace(result, success=success, verified=verified)
 
     def _judge(self, trajectories: Trajectories, *, skip_hold: bool = False) -> Evaluation:
@@ -679,6 +689,8 @@ def _most(search: _Search, task: Task, optimizer: Optimizer) -> int:
         return optimizer.population + (validated if task.robust.starts > 1 else 0)
     if task.robust.redraw == "never":
         validated = 0
+    elif search.hold_steps < task.hold_steps:
+        validated += task.robust.fixed
     return task.robust.rollouts(optimizer.population) + validated
 
 
@@ -695,7 +707,9 @@ def _try(
     hold_steps = search.hold_steps if hold_steps is None else hold_steps
     if objective.sampler is not None and search.robust:
         models = objective.sampler.models(search.seed, generation)
-        return objective.evaluate(candidates, hold_steps=hold_steps, models=models, race=race)
+        robust = objective.task.robust
+        contend = generation == 0 or robust is None or robust.redraw == "never"  # those that may count as successes
+        return objective.evaluate(candidates, hold_steps=hold_steps, models=models, race=race, through=contend)
     evaluation = objective.evaluate(candidates, hold_steps=hold_steps)
     if objective.sampler is not None:  # what is yet to be tried on other models has not succeeded
         evaluation.success[:] = False
