@@ -235,6 +235,28 @@ def test_a_search_that_is_given_up_counts_as_a_start_and_one_motion_is_enough() 
     assert seen[-1].stage_name == "robust"
 
 
+def test_where_the_best_start_leads_nowhere_as_many_are_looked_for_again() -> None:
+    """The last stage has 30 trials: it ends in its first generation of 6 + 3 * 6 + 21. The second round starts from new motions
+    and those of the first that have not been started from, while the budget lasts for as much again; the best of all is kept.
+    """
+    stages = "stages=[{name: nominal, robust: false, trials: 12, hold: false}, {name: robust, hold: 0.01, trials: 30}]"
+    made = objective(STARTS, *BARELY, stages, "search.trials=420")
+    seen = generations(made)
+    names = [g.stage_name for g in seen]
+    assert names == ["nominal"] * 6 + ["robust"] + ["nominal"] * 6 + ["robust"] * (len(seen) - 13)
+    assert len(seen) > 14  # nothing is left for a third round: it goes on
+    first = sorted(g.record.validated.samples.share[0] for g in seen[:6] if g.record.validated)  # type: ignore[union-attr]
+    shares = [g.best.share for g in seen]
+    assert seen[7].starts == tuple(reversed(first[:2]))
+    assert len(seen[12].starts) == 5
+    assert all(a <= b for a, b in itertools.pairwise(share for share in shares if share is not None))
+    assert made.sampler is not None
+    around = make_optimizer(made, 2, attempt=3, mean=None).ask()
+    assert zlib.crc32(around.tobytes()) == seen[7].record.checksum
+    solution = solve(made, seed=2)
+    assert solution.best.share == max(share for share in shares if share is not None)
+
+
 def test_a_motion_to_start_from_that_holds_on_all_is_a_success() -> None:
     seen = generations(objective(STARTS, "search.polish=0"))
     assert len(seen) == 2

@@ -346,13 +346,17 @@ def _from_json(content: Mapping[str, Any]) -> Evaluation:
 
 @dataclass(frozen=True)
 class Trial:
-    """One trial and what it achieved: cost, by the task's own weights, as changed so far; terms, unweighted; errors, SI."""
+    """One trial and what it achieved: cost, by the task's own weights, as changed so far; terms, unweighted; errors, SI.
+
+    share: of the perturbed models that it succeeds on; None where it was not tried on any.
+    """
 
     weights: Array
     cost: float
     terms: Mapping[str, float]
     errors: Mapping[str, float]
     success: bool
+    share: float | None = None
 
 
 @dataclass(frozen=True)
@@ -363,7 +367,8 @@ class Generation:
     trials: spent so far.
     trials_to_success: trials spent when one first met every criterion. replayed: whether it came from a record.
     weights: of the best trial's cost. changes: of the weights, that hold or are still to come.
-    starts: shares of the models that stay the same, on which motions of the nominal model to start from succeed; found so far.
+    starts: shares of the models that stay the same, on which motions of the nominal model to start from succeed; found so
+        far and not yet started from in vain.
     """
 
     generation: int
@@ -419,18 +424,12 @@ class _Search:
     hold_steps: int = 0
     seed: int = 0
     robust: bool = False
-    starts: list[_Start] = field(default_factory=list)
-
-
-@dataclass(frozen=True)
-class _Start:
-    """A motion of the nominal model that the robust stages may start from, success and cost on the models that stay the same.
-
-    share: of these that it succeeds on.
-    """
-
-    trial: Trial
-    share: float
+    starts: list[Trial] = field(default_factory=list)
+    """Motions of the nominal model that the robust stages may start from, judged on the models that stay the same."""
+    rounds: int = 1
+    """How often as many of them as the task says have been looked for."""
+    kept: Trial | None = None
+    """The best of the rounds before."""
 
 
 @single_threaded()
@@ -494,8 +493,9 @@ def solve(
                 contenders, judged = _contender(candidates, cost, mean), record.validated
             elif record.validated is not None:
                 first = _first_to_end(stage, cost, record.evaluation)
-                start = _start(objective, candidates[first], record.validated, weights)
-                if start.trial.success:
+                cost_there = float(objective.cost(record.validated, weights)[0])
+                start = _trial(candidates[first], cost_there, record.validated, 0)
+                if start.success:
                     contenders, judged = candidates[first : first + 1], record.validated
             if search.trials_to_success is None and judged.success.any():
                 search.trials_to_success = search.trials
@@ -512,13 +512,13 @@ def solve(
                         cost=cost,
                         step=optimizer.step,
                         diverged=int(record.evaluation.diverged.sum()),
-                        best=search.best,
+                        best=_better(search.kept, search.best),
                         trials_to_success=search.trials_to_success,
                         record=record,
                         replayed=replayed,
                         weights=weights,
                         changes=task.search.changes,
-                        starts=tuple(start.share for start in search.starts),
+                        starts=tuple(start.share or 0.0 for start in search.starts),
                     )
                 )
             polish = task.search.polish
@@ -527,14 +527,16 @@ def solve(
                 stopped = "success"
                 break
             if _hopeless(task, search) or start is not None:
-                if search.starts and search.attempt + 1 >= _starts(task):
-                    start = _best(search.starts)
-                    search.best, following = start.trial, _first_robust(stages)
-                    optimizer = make_optimizer(objective, seed, attempt=search.attempt + 1, mean=start.trial.weights)
+                if search.starts and search.attempt + 1 >= _starts(task) * search.rounds:
+                    search.best, following = min(search.starts, key=_rank), _first_robust(stages)
+                    mean = search.best.weights
+                    optimizer = make_optimizer(objective, seed, attempt=search.attempt + 1, mean=mean)
                 else:
-                    search.attempt, search.attempt_trials = search.attempt + 1, 0
-                    optimizer = make_optimizer(objective, seed, attempt=search.attempt)
-                    following = 0
+                    optimizer, following = _anew(search, objective), 0
+            elif _in_vain(task, search):
+                search.rounds, search.kept = search.rounds + 1, _better(search.kept, search.best)
+                search.starts = sorted(search.starts, key=_rank)[1:]
+                optimizer, following = _anew(search, objective), 0
             elif search.stage + 1 < len(stages) and _ends(stage, search.stage_trials, record.evaluation):
                 following = search.stage + 1
             else:
@@ -544,18 +546,20 @@ def solve(
             _forget_costs(optimizer, task, hold=search.hold_steps != before[0])
             if (search.hold_steps, search.robust) != before:
                 _reconsider(search, objective, weights, search.hold_steps)
+            if search.robust:
+                search.best = _better(search.kept, search.best)
     except KeyboardInterrupt:
         stopped = "interrupted"
     if search.best is None:
         _keep_best(search, objective, objective.initial_weights[None], None, weights)
     elif search.starts and not search.robust and not search.best.success:
-        search.best = _best(search.starts).trial
+        search.best = min(search.starts, key=_rank)
     if search.hold_steps != task.hold_steps or search.robust != (task.robust is not None):
         search.robust = task.robust is not None
         _reconsider(search, objective, weights, task.hold_steps)
     assert search.best is not None
     return Solution(
-        best=search.best,
+        best=_better(search.kept, search.best),
         trials=search.trials,
         generations=search.generations,
         trials_to_success=search.trials_to_success,
@@ -670,14 +674,30 @@ def _first_robust(stages: tuple[Stage, ...]) -> int:
     return next(i for i, stage in enumerate(stages) if stage.robust)
 
 
-def _start(objective: Objective, candidate: Array, validated: Evaluation, weights: Mapping[str, float]) -> _Start:
-    assert validated.samples is not None
-    cost = float(objective.cost(validated, weights)[0])
-    return _Start(_trial(candidate, cost, validated, 0), float(validated.samples.share[0]))
+def _in_vain(task: Task, search: _Search) -> bool:
+    """Whether the last stage of a search from several starts has spent what it may without a success, and as much is left
+    as it and the search for starts have taken.
+    """
+    stage, trials = task.stages[search.stage], task.search.trials
+    if _starts(task) == 1 or search.stage + 1 < len(task.stages) or stage.trials is None:
+        return False
+    spent = search.trials_to_success is None and search.stage_trials >= stage.trials
+    return spent and trials - search.trials >= search.trials / search.rounds
 
 
-def _best(starts: list[_Start]) -> _Start:
-    return min(starts, key=lambda start: (not start.trial.success, -start.share, start.trial.cost))
+def _anew(search: _Search, objective: Objective) -> Optimizer:
+    """The optimizer of the next attempt."""
+    search.attempt, search.attempt_trials = search.attempt + 1, 0
+    return make_optimizer(objective, search.seed, attempt=search.attempt)
+
+
+def _rank(trial: Trial) -> tuple[bool, float, float]:
+    """Less is better: success first, then the share of perturbed models that it succeeds on, then cost."""
+    return not trial.success, -(trial.share or 0.0), trial.cost
+
+
+def _better(one: Trial | None, other: Trial) -> Trial:
+    return other if one is None or _rank(other) <= _rank(one) else one
 
 
 def _most(search: _Search, task: Task, optimizer: Optimizer) -> int:
@@ -772,14 +792,15 @@ def _keep_best(
     evaluation: Evaluation | None,
     weights: Mapping[str, float],
 ) -> None:
-    """Keep the best trial of all: success first, then the task's cost."""
+    """Keep the best trial of all, by its rank."""
     if evaluation is None:
         evaluation = _try(search, objective, candidates)
     cost = objective.cost(evaluation, weights)
-    first = np.lexsort((cost, ~evaluation.success))[0]
-    best = search.best
-    if best is None or (not evaluation.success[first], float(cost[first])) < (not best.success, best.cost):
-        search.best = _trial(candidates[first], float(cost[first]), evaluation, first)
+    share = np.zeros(len(cost)) if evaluation.samples is None else evaluation.samples.share
+    first = np.lexsort((cost, -share, ~evaluation.success))[0]
+    trial = _trial(candidates[first], float(cost[first]), evaluation, first)
+    if search.best is None or _rank(trial) < _rank(search.best):
+        search.best = trial
 
 
 def _trial(candidate: Array, cost: float, evaluation: Evaluation, i: int) -> Trial:
@@ -790,18 +811,21 @@ def _trial(candidate: Array, cost: float, evaluation: Evaluation, i: int) -> Tri
         terms={name: float(values[i]) for name, values in evaluation.terms.items()},
         errors={name: float(values[i]) for name, values in evaluation.errors.items()},
         success=bool(evaluation.success[i]),
+        share=None if evaluation.samples is None else float(evaluation.samples.share[i]),
     )
 
 
 def _weigh_anew(search: _Search, objective: Objective, weights: Mapping[str, float]) -> None:
     """What the best trial costs by other weights: those that it will be compared with are weighed by them, too."""
-    best = search.best
-    if best is None:
-        return
-    one = {name: np.array([value]) for name, value in best.terms.items()}
-    diverged = np.array([any(value >= DIVERGED for value in best.terms.values())])
-    cost = objective.cost(Evaluation(one, {}, np.array([best.success]), diverged), weights)
-    search.best = replace(best, cost=float(cost[0]))
+
+    def weighed(trial: Trial) -> Trial:
+        one = {name: np.array([value]) for name, value in trial.terms.items()}
+        diverged = np.array([any(value >= DIVERGED for value in trial.terms.values())])
+        cost = objective.cost(Evaluation(one, {}, np.array([trial.success]), diverged), weights)
+        return replace(trial, cost=float(cost[0]))
+
+    search.best, search.kept = (None if trial is None else weighed(trial) for trial in (search.best, search.kept))
+    search.starts = [weighed(start) for start in search.starts]
 
 
 def _reconsider(search: _Search, objective: Objective, weights: Mapping[str, float], hold_steps: int) -> None:

@@ -84,7 +84,8 @@ class Cost:
 class Stage:
     """A part of the search with a cost of its own.
 
-    trials: budget of the stage; what is left if None.
+    trials: budget of the stage; what is left if None. Of the last one, only where there are several `Robust.starts`: after so
+        many trials without a success, as many starts again are looked for, while the budget lasts for another such round.
     promote: criterion -> tolerance: the stage ends when one trial is within all of them.
     weights: cost -> weight, instead of the task's.
     hold: how much of the hold is simulated: all (true), none (false), or the first so many seconds. With less than all,
