@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 import time
@@ -132,13 +133,16 @@ class Faulty:
     start: np.ndarray | None = None
     freeze_at: int | None = None
     nan_at: int | None = None
+    jump_at: int | None = None
     sent: list[tuple[np.ndarray, ...]] = field(default_factory=list)
 
     def read(self) -> tuple[np.ndarray, np.ndarray]:
         row = len(self.sent) if self.freeze_at is None else min(len(self.sent), self.freeze_at)
         position = self.motion.expected[min(row, len(self.motion.expected) - 1)].copy()
         if self.start is not None:
-            position = self.start
+            position = self.start.copy()
+        if self.jump_at is not None and len(self.sent) >= self.jump_at:
+            position[2] += 0.4
         if self.nan_at is not None and len(self.sent) >= self.nan_at:
             position[4] = np.nan
         return position, np.zeros(12)
@@ -160,8 +164,7 @@ def test_it_does_not_begin_far_from_the_start(motion: Played) -> None:
     robot = Faulty(motion, start=motion.start_position + np.eye(12)[7] * 0.6)
     with pytest.raises(Stopped, match=r"lh_hfe is at .* before the ramp: bring it near the start first"):
         play(motion, robot, wait=no_clock)
-    assert damps(motion, robot)
-    assert len(robot.sent) == 500
+    assert robot.sent == []  # the robot may stand, held by its own controller
 
 
 def test_it_does_not_begin_if_the_ramp_did_not_get_there(motion: Played) -> None:
@@ -196,6 +199,29 @@ def test_it_stops_at_readings_that_are_no_numbers_and_at_exceptions(motion: Play
     assert damps(motion, robot)
 
 
+def test_it_stops_in_the_ramp_and_in_the_hold_too(motion: Played) -> None:
+    robot = Faulty(motion, start=motion.start_position, jump_at=200)
+    with pytest.raises(Stopped, match=r"lf_kfe .* within 0.3 in the ramp at 0.400 s"):
+        play(motion, robot, ramp=0.8, start_tolerance=0.3, wait=no_clock)
+    assert len(robot.sent) == 200 + 500
+    assert damps(motion, robot)
+    for fault, message in (({"nan_at": 160}, "should be 12 numbers"), ({"jump_at": 160}, "in the hold at 0.018 s")):
+        robot = Faulty(motion, **fault)
+        with pytest.raises(Stopped, match=message):
+            play(motion, robot, ramp=0.0, hold=1.0, wait=no_clock)
+        assert len(robot.sent) == 160 + 500  # 151 rows, nine of the hold
+        assert damps(motion, robot)
+
+
+@pytest.mark.parametrize("name", ["ramp", "start_tolerance", "tolerance", "hold"])
+@pytest.mark.parametrize("value", [float("nan"), float("inf"), -1.0])
+def test_times_and_tolerances_are_numbers(motion: Played, name: str, value: float) -> None:
+    robot = Faulty(motion)
+    with pytest.raises(ValueError, match=f"{name}: .* should be a number, 0 or more"):
+        play(motion, robot, wait=no_clock, **{name: value})
+    assert robot.sent == []
+
+
 def test_it_stops_when_it_is_late(motion: Played) -> None:
     with pytest.raises(Stopped, match="the loop is 30 ms late; 500 Hz is too fast for it"):
         play(motion, Faulty(motion), ramp=0.0, wait=lambda instant: 0.03 if instant > 0.1 else 0.0)
@@ -209,7 +235,7 @@ def test_what_it_sends_is_within_the_limits(motion: Played) -> None:
         torque_limit=np.full(12, 50.0),
     )
     robot = Faulty(motion)
-    play(narrow, robot, ramp=0.2, tolerance=9.0, wait=no_clock)
+    play(narrow, robot, ramp=0.2, start_tolerance=9.0, tolerance=9.0, wait=no_clock)  # it does not follow the ramp
     position, _, torque = (np.array(values) for values in list(zip(*robot.sent, strict=True))[:3])
     sent = position[100:]
     assert (sent >= narrow.lower).all()
@@ -280,7 +306,8 @@ def test_its_command_line(
     export(rearing, "csv", tmp_path)
     for arguments, message in (
         (["motion.csv"], "give one of --dry-run and --robot"),
-        (["motion.csv", "--dry-run", "--ramp", "-1"], "should not be negative"),
+        (["motion.csv", "--dry-run", "--ramp", "-1"], "should be numbers, 0 or more"),
+        (["motion.csv", "--dry-run", "--tolerance", "nan"], "should be numbers, 0 or more"),
     ):
         with pytest.raises(SystemExit) as exit_:
             main(arguments)
@@ -302,3 +329,47 @@ def test_its_command_line(
     (tmp_path / "motion.csv").write_text("\n".join(lines[:100]) + "\n")
     assert main(["motion.csv", "--dry-run"]) == 2
     assert "not 151 rows of numbers" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "message"),
+    [
+        ("motion.csv", "", "motion.csv: not a whole table; export the motion again"),
+        ("motion.csv", "a,b\n1,2\n3", "motion.csv: not a whole table; export the motion again"),
+        ("motion.csv", "a,b\n1,2\n", r"motion.csv: has no 'command/lf_haa/position'; give motion.csv or motion.json"),
+        ("meta.json", "[]", "motion.csv: it, or a file beside it, is damaged .*; export the motion again"),
+    ],
+)
+def test_files_that_are_not_of_an_export_are_said(
+    rearing: Motion, tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str, content: str, message: str
+) -> None:
+    export(rearing, "csv", tmp_path)
+    (tmp_path / name).write_text(content)
+    assert main([str(tmp_path / "motion.csv"), "--dry-run"]) == 2
+    said = capsys.readouterr().err
+    assert re.search(message, said)
+    assert said.count("\n") == 1
+
+
+def test_classes_that_are_no_robots_are_said(
+    rearing: Motion, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    export(rearing, "csv", tmp_path)
+    (tmp_path / "not_robots.py").write_text(
+        "import numpy as np\n"
+        "class Wanting:\n    def __init__(self, address): pass\n"
+        "class Mute:\n    def read(self): return np.zeros(12), np.zeros(12)\n"
+        "class Short(Mute):\n"
+        "    def read(self): return np.zeros(12), np.zeros(3)\n"
+        "    def write(self, *command): pass\n"
+        "class Interrupted(Short):\n    def read(self): raise KeyboardInterrupt\n"
+    )
+    for kind, status, message in (
+        ("Wanting", 2, "--robot not_robots:Wanting: cannot be made (TypeError: "),
+        ("Mute", 2, "--robot not_robots:Mute: has no method write; it needs read and write"),
+        ("Short", 1, "stopped: the robot reads [0.0, 0.0, 0.0] as velocity; should be 12 numbers"),
+        ("Interrupted", 1, "stopped: interrupted"),
+    ):
+        assert main(["motion.csv", "--robot", f"not_robots:{kind}"]) == status
+        assert message in capsys.readouterr().err

@@ -20,11 +20,12 @@ methods; arrays are in the order of `Motion.joints`, SI units:
 A motion with a stabiliser (`feedback` in its meta; feedback.npz beside motion.csv) corrects the positions by what the robot
 senses, from the first row on; --no-feedback plays it without.
 
-What happens, at the rate of the file: the joints have to be near the start already; they are led from where they are to
-the start within the ramp, and have to be there; then every row is sent at its time, positions clamped to the joints'
-ranges and torques to their limits. If a joint is further from where the simulation had it than the tolerance, or a reading
-is not a number, or the loop comes too late, the motion is stopped: the drives only damp, for a second. Then it is your
-controller's turn again. The attitude and height of the trunk are not looked at: that is yours to do before.
+What happens, at the rate of the file: the joints have to be near the start already, or nothing is sent at all; they are led
+from where they are to the start within the ramp, and have to be there; then every row is sent at its time, positions clamped
+to the joints' ranges and torques to their limits. If a joint is further from where the simulation had it than the tolerance
+(in the ramp: from where it is led than the start tolerance), or a reading is not a number, or the loop comes too late, the
+motion is stopped: the drives only damp, for a second. Then it is your controller's turn again. The attitude and height of the
+trunk are not looked at: that is yours to do before.
 
 Exit status: 0 played to the end, 1 stopped, 2 the input is wrong.
 """
@@ -123,8 +124,19 @@ class Motion:
 
     @classmethod
     def load(cls, path: str | Path) -> Motion:
-        """Read motion.json, or motion.csv and the meta.json beside it. Raises OSError, ValueError or KeyError."""
-        path = Path(path)
+        """Read motion.json, or motion.csv and the meta.json beside it. Raises OSError or ValueError."""
+        try:
+            return cls._load(Path(path))
+        except (OSError, ValueError):
+            raise
+        except KeyError as error:
+            raise ValueError(f"{path}: has no {error}; give motion.csv or motion.json, as exported") from None
+        except Exception as error:
+            what = f"{type(error).__name__}: {error}".rstrip(": ")
+            raise ValueError(f"{path}: it, or a file beside it, is damaged ({what}); export the motion again") from None
+
+    @classmethod
+    def _load(cls, path: Path) -> Motion:
         if path.suffix == ".json":
             content = json.loads(path.read_text(encoding="utf-8"))
             meta, command = content["meta"], content["command"]
@@ -135,8 +147,11 @@ class Motion:
             meta = json.loads(path.with_name("meta.json").read_text(encoding="utf-8"))
             with path.open(encoding="utf-8", newline="") as file:
                 lines = csv.reader(file)
-                header = next(lines)
-                table = np.array([line for line in lines if line], dtype=float)
+                header = next(lines, [])
+                rows = [line for line in lines if line]
+            if not header or any(len(row) != len(header) for row in rows):
+                raise ValueError(f"{path}: not a whole table; export the motion again")
+            table = np.array(rows, dtype=float).reshape(len(rows), len(header))
             place = {name: i for i, name in enumerate(header)}
             pick = lambda what, name: table[:, [place[f"{what}/{joint}/{name}"] for joint in meta["joints"]]]  # noqa: E731
             arrays = {name: pick("command", name) for name in ("position", "velocity", "torque")}
@@ -189,31 +204,36 @@ def play(
     feedback: bool = True,
     wait: Callable[[float], float] | None = None,
 ) -> float:
-    """Play a motion. Returns the largest tracking error [rad]. Raises Stopped.
+    """Play a motion. Returns the largest tracking error [rad]. Raises Stopped, and ValueError of times and tolerances.
 
     ramp: [s], from the present joint positions to the start; 0 for none. start_tolerance: [rad], how far the joints may be
-    from the start before the ramp. tolerance: [rad], how far from where the simulation had them, from the end of the ramp
-    on. hold: [s], for which the last row is sent on after the end.
+    from the start before the ramp (else nothing is sent), and in it from where they are led. tolerance: [rad], how far from
+    where the simulation had them, from the end of the ramp on. hold: [s], for which the last row is sent on after the end.
     feedback: whether to use the motion's stabiliser, if it has one; the robot then needs ``read_trunk``. The tolerance
     is wider by the correction in force.
     wait: called before each tick with its time [s] since the first; returns how late it is [s]. By default the clock.
     """
+    for name, value in {"ramp": ramp, "start_tolerance": start_tolerance, "tolerance": tolerance, "hold": hold}.items():
+        if not 0.0 <= value < np.inf:
+            raise ValueError(f"{name}: {value} should be a number, 0 or more")
     late = wait or clock()
     zero = np.zeros(len(motion.joints))
     position, torque = motion.clamped()
     correcting = _Correcting(motion, robot) if feedback and motion.feedback is not None else None
     start = np.clip(motion.start_position, motion.lower, motion.upper)
+    present, _ = _read(
+        motion, robot
+    )  # nothing is sent if the motion does not begin: the robot's own controller holds it
+    _check(motion, present, motion.start_position, start_tolerance, "before the ramp: bring it near the start first")
+    ticks, worst, led = round(ramp * motion.rate), 0.0, present
     try:
-        present, _ = _read(motion, robot)
-        _check(
-            motion, present, motion.start_position, start_tolerance, "before the ramp: bring it near the start first"
-        )
-        ticks, tick, worst = round(ramp * motion.rate), 0, 0.0
         for tick in range(ticks):
             _on_time(late(tick / motion.rate), motion.rate)
+            _check(motion, _read(motion, robot)[0], led, start_tolerance, f"in the ramp at {tick / motion.rate:.3f} s")
             s = (tick + 1) / ticks
             share = s * s * (3.0 - 2.0 * s)
-            robot.write(present + share * (start - present), zero, share * motion.start_torque, motion.kp, motion.kd)
+            led = present + share * (start - present)
+            robot.write(led, zero, share * motion.start_torque, motion.kp, motion.kd)
         for row in range(len(position)):
             _on_time(late((ticks + row) / motion.rate), motion.rate)
             now, going = _read(motion, robot)
@@ -225,7 +245,15 @@ def play(
         for tick in range(round(hold * motion.rate)):
             row = len(position) + tick
             _on_time(late((ticks + row) / motion.rate), motion.rate)
-            added = zero if correcting is None else correcting(row, *_read(motion, robot))
+            now, going = _read(motion, robot)
+            added = zero if correcting is None else correcting(row, now, going)
+            _check(
+                motion,
+                now,
+                motion.expected[-1],
+                tolerance + np.abs(added),
+                f"in the hold at {tick / motion.rate:.3f} s",
+            )
             sent = np.clip(position[-1] + added, motion.lower, motion.upper)
             robot.write(sent, zero, torque[-1], motion.kp, motion.kd)
     except BaseException:
@@ -256,8 +284,10 @@ class _Correcting:
                     f"the robot's trunk reads {quaternion.tolist()}, {rate.tolist()}; should be 4 and 3 numbers"
                 )
             length = float(np.linalg.norm(quaternion))
-            if not (abs(length - 1.0) < 0.01 and np.isfinite(rate).all()):
+            if not abs(length - 1.0) < 0.01:
                 raise Stopped(f"the robot's trunk reads {quaternion.tolist()}; should be a unit quaternion")
+            if not np.isfinite(rate).all():
+                raise Stopped(f"the robot's trunk turns at {rate.tolist()}; should be 3 numbers")
             self._last = self._due
             seen = sensed(quaternion / length, rate, position, velocity)
             self._due = self._feedback.correction(row // self._rows, seen, self._last)
@@ -266,8 +296,9 @@ class _Correcting:
 
 def _read(motion: Motion, robot: Robot) -> tuple[Array, Array]:
     position, velocity = (np.asarray(values, dtype=float) for values in robot.read())
-    if position.shape != (len(motion.joints),) or not (np.isfinite(position).all() and np.isfinite(velocity).all()):
-        raise Stopped(f"the robot reads {position.tolist()}; should be {len(motion.joints)} numbers")
+    for what, values in (("position", position), ("velocity", velocity)):
+        if values.shape != (len(motion.joints),) or not np.isfinite(values).all():
+            raise Stopped(f"the robot reads {values.tolist()} as {what}; should be {len(motion.joints)} numbers")
     return position, velocity
 
 
@@ -275,7 +306,7 @@ def _check(motion: Motion, position: Array, expected: Array, tolerance: float | 
     off = np.abs(position - expected)
     allowed = np.broadcast_to(tolerance, off.shape)
     joint = int(np.argmax(off - allowed))
-    if off[joint] > allowed[joint]:
+    if not off[joint] <= allowed[joint]:
         raise Stopped(
             f"{motion.joints[joint]} is at {position[joint]:.3f} rad, should be at {expected[joint]:.3f} within"
             f" {allowed[joint]:g}"
@@ -342,13 +373,15 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     if options.dry_run == (options.robot is not None):
         parser.error("give one of --dry-run and --robot MODULE:CLASS")
-    if min(options.ramp, options.hold, options.tolerance, options.start_tolerance) < 0:
-        parser.error("--ramp, --hold and tolerances should not be negative")
+    if not all(0 <= v < np.inf for v in (options.ramp, options.hold, options.tolerance, options.start_tolerance)):
+        parser.error("--ramp, --hold and tolerances should be numbers, 0 or more")
     try:
         motion = Motion.load(options.motion)
         robot: Any = StandIn(motion, options.ramp) if options.dry_run else _load_robot(options.robot)
-    except (OSError, ValueError, LookupError, ImportError, AttributeError) as error:
-        print(f"player: {type(error).__name__}: {error}", file=sys.stderr)
+        if motion.feedback is not None and not (options.dry_run or options.no_feedback):
+            _Correcting(motion, robot)
+    except (OSError, ValueError, Stopped) as error:
+        print(f"player: {error}", file=sys.stderr)
         return 2
     position, torque = motion.clamped()
     changed = int((position != motion.position).sum() + (torque != motion.torque).sum())
@@ -372,8 +405,8 @@ def main(arguments: list[str] | None = None) -> int:
             feedback=not (options.no_feedback or options.dry_run),
             wait=(lambda instant: 0.0) if options.dry_run else None,
         )
-    except Stopped as stopped:
-        print(f"player: stopped: {stopped}", file=sys.stderr)
+    except (Stopped, KeyboardInterrupt) as stopped:
+        print(f"player: stopped: {str(stopped) or 'interrupted'}", file=sys.stderr)
         return 1
     print(f"played to the end; largest tracking error {worst:.4f} rad")
     return 0
@@ -384,7 +417,14 @@ def _load_robot(name: str) -> Any:
     if not kind:
         raise ValueError(f"--robot {name}: should be MODULE:CLASS, such as my_robot:MyRobot")
     sys.path.insert(0, str(Path.cwd()))
-    return getattr(importlib.import_module(module), kind)()
+    try:
+        robot = getattr(importlib.import_module(module), kind)()
+    except Exception as error:  # whatever the robot's own code raises
+        raise ValueError(f"--robot {name}: cannot be made ({type(error).__name__}: {error})") from error
+    for method in ("read", "write"):
+        if not callable(getattr(robot, method, None)):
+            raise ValueError(f"--robot {name}: has no method {method}; it needs read and write")
+    return robot
 
 
 if __name__ == "__main__":
