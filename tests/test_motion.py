@@ -15,8 +15,10 @@ import mujoco
 import numpy as np
 import pytest
 
+from levade.check import Subject
 from levade.errors import LevadeError
 from levade.motion import ARRAYS, LATER, META, Motion, record
+from levade.replay import replay_in
 from levade.solve import Objective, Solution, solve
 from levade.tasks import load_task
 from levade.trajectory import rotate
@@ -282,6 +284,10 @@ class Boom:
         (lambda c: c.update(trunk_position=c["trunk_position"][:, :2]), r"trunk_position has the shape \(175, 2\)"),
         (lambda c: c.update(qpos0=c["qpos0"][None]), r"qpos0 has the shape \(1, 19\), should be \(nq\)"),
         (lambda c: c.update(qpos0=c["qpos0"].astype(str)), "qpos0 is of <U.*, should be floating-point numbers"),
+        (
+            lambda c: c["joint_position"].fill(np.nan),
+            "joint_position has values that are no numbers; the file is damaged",
+        ),
         (lambda c: c.update(weights=np.array([Boom()])), "cannot be read as a motion; damaged, or not a motion.npz"),
     ],
 )
@@ -290,6 +296,26 @@ def test_files_that_are_not_quite_motions(file: Path, change: Callable, message:
     with pytest.raises(LevadeError, match=f"^{re.escape(str(file))}: ({message})") as caught:
         Motion.load(file)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda c: c.update(qpos0=c["qpos0"][:5]), "motion: qpos0 has 5 numbers, its model 19; the file is damaged"),
+        (lambda c: c.update(ctrl=c["ctrl"][:, 1:]), "motion: ctrl has 23 numbers, its model 24; the file is damaged"),
+        (
+            lambda c: c.update(model_xml=np.array("<mujoco><nothing/></mujoco>")),
+            "motion: MuJoCo .* does not take its model: ",
+        ),
+    ],
+)
+def test_arrays_are_those_of_the_model(file: Path, change: Callable, message: str) -> None:
+    rewrite(file, change)
+    motion = Motion.load(file)
+    for use in (motion.compiled, lambda: Subject(motion), lambda: replay_in("mujoco", motion)):
+        with pytest.raises(LevadeError, match=message) as caught:
+            use()
+        assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize(

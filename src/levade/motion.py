@@ -29,6 +29,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+import mujoco
 import numpy as np
 
 from levade.costs import errors, evaluate, success
@@ -126,6 +127,22 @@ class Motion:
         meta = self.meta.get("feedback")
         return None if meta is None else Feedback.of(meta, self.arrays)
 
+    def compiled(self) -> mujoco.MjModel:
+        """The model. Raises LevadeError if MuJoCo does not take it, or the arrays are not of it."""
+        try:
+            model = mujoco.MjModel.from_xml_string(self.model_xml, dict(self.assets))
+        except ValueError as error:
+            what = " ".join(str(error).split())
+            raise LevadeError(
+                f"motion: MuJoCo {mujoco.__version__} does not take its model: {what}; the file is damaged"
+            ) from None
+        for name, size in (("qpos0", model.nq), ("qvel0", model.nv), ("act0", model.na), ("ctrl", model.nu)):
+            if self[name].shape[-1] != size:
+                raise LevadeError(
+                    f"motion: {name} has {self[name].shape[-1]} numbers, its model {size}; the file is damaged"
+                )
+        return model
+
     def stabilised(self, feedback: Feedback | None, **about: Any) -> Motion:
         """The same motion with a stabiliser, or without. about: what its meta says beside what it is."""
         arrays = {name: self.arrays[name] for name in ARRAYS}
@@ -197,6 +214,8 @@ class Motion:
                 f"{path}: its meta lacks {', '.join(lacking[:3]) or 'a schema'}; not made by levade solve"
             )
         _check_shapes(path, content)
+        if not meta["diverged"]:
+            _check_numbers(path, content)
         if "feedback" in meta:
             _check_feedback(path, meta["feedback"], content)
         assets = {name[6:]: content[name].tobytes() for name in content if name.startswith("asset:")}
@@ -339,6 +358,12 @@ def _check_feedback(path: Path, meta: Any, content: Mapping[str, Array]) -> None
     _check_arrays(
         path, content, FEEDBACK_ARRAYS, {"joints": joints, "sensed": 6 + 2 * joints, "columns": 6 + 3 * joints}
     )
+
+
+def _check_numbers(path: Path, content: Mapping[str, Array]) -> None:
+    for name in ARRAYS:
+        if content[name].dtype.kind == "f" and not np.isfinite(content[name]).all():
+            raise LevadeError(f"{path}: {name} has values that are no numbers; the file is damaged")
 
 
 def _check_arrays(

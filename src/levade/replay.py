@@ -122,7 +122,7 @@ def _in_ode(motion: Motion, names: Names, task: Task, reference: JointReference,
 
 
 def _in_mujoco(motion: Motion, names: Names, reference: JointReference) -> Trajectories:
-    model = mujoco.MjModel.from_xml_string(motion.model_xml, dict(motion.assets))
+    model = motion.compiled()
     model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
     layout, batch = Layout(names, model), Batch(model, 1, 1)
     data = mujoco.MjData(model)

@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
+import subprocess
+import sys
+import time
 from pathlib import Path
 
 import pytest
 
+from levade.check import check
 from levade.cli import main
-from levade.motion import record
+from levade.motion import Motion, record
 from levade.solve import Objective, solve
 from levade.tasks import load_task
 
@@ -73,6 +79,38 @@ def test_another_tasks_criteria_can_be_used(motion: Path, capsys: pytest.Capture
     assert content["perturbed"]["successes"] == 0
 
 
+def test_what_is_not_demanded_is_measured(motion: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    off = [word for name in ("share", "numerics", "engines") for word in ("--demand", f"{name}=null")]
+    code, out, _ = run(capsys, str(motion), "--runs", "4", "--perturb", "ground_height=[-1, 1]", *off)
+    assert code == 0
+    assert out.count("not demanded") >= 3
+
+
+def test_a_check_that_is_interrupted_keeps_the_runs_that_were_made(motion: Path, tmp_path: Path) -> None:
+    """The real thing: a signal within some hundred thousand runs."""
+    written = tmp_path / "certificate.json"
+    process = subprocess.Popen(
+        [sys.executable, "-m", "levade", "check", str(motion), "--runs=200000", "--threads=1", f"--out={written}"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "COLUMNS": "200"},
+    )
+    while not list(tmp_path.iterdir()):  # the place to write at is there once everything is read
+        time.sleep(0.05)
+    time.sleep(3.0)
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=100)
+    assert (process.returncode, err) == (1, "")
+    found = json.loads(written.read_text(encoding="utf-8"))
+    runs = found["perturbed"]["runs"]
+    assert f"Interrupted after {runs} of 200000 perturbed runs; nothing else was checked." in out
+    assert (found["interrupted"], found["passed"], found["numerics"]) == (True, False, {})
+    assert 64 <= runs < 200_000
+    whole = check(Motion.load(motion), runs=64, threads=1, stopping=lambda: True)
+    assert (whole.perturbed.runs, whole.passed) == (64, False)
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
@@ -82,7 +120,11 @@ def test_another_tasks_criteria_can_be_used(motion: Path, capsys: pytest.Capture
         (["--perturb", "friction=3"], "perturb.friction: should be"),
         (["--perturb", "com=[-1 s, 1 s]"], "perturb.com.0: '-1 s' is a duration, but this is a length"),
         (["--demand", "share=2"], "demand.share: 2.0 should be a share"),
-        (["--runs", "0"], "check: 0 runs; 1 or more"),
+        (["--perturb", "friction="], "--perturb friction=: no value; give one, or null for none: friction=null"),
+        (["--perturb", "friction"], "--perturb friction: no value; give one, as friction=["),
+        (["--demand", "share"], "--demand share: no value; give one, as share=0.95"),
+        (["--runs", "0"], "check: 0 runs; 1 to 1000000"),
+        (["--out", "."], ".: cannot be written (Is a directory); give a path that can: --out FILE"),
         (["--criteria", "rearin"], "no task 'rearin'; did you mean rearing?"),
     ],
 )

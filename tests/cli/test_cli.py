@@ -96,6 +96,7 @@ def test_help_and_version(run) -> None:
             "start.settled.posture: robot hyq2max: no posture 'low'; valid",
         ),
         ('solve rearing --set scene.boxes=[{"position":[0,0,0.4],"size":[1,1,0.8]}]', "overlap by"),
+        ("solve --resume here --seed 0 --force", "--resume here: the run says all; leave out --seed and --force"),
         ("solve rearing --resume here", "--resume here: the run says all; leave out TASK"),
         (
             "solve --resume here --trials 3",

@@ -101,6 +101,8 @@ def test_mistakes_are_one_line(motion: Path, capsys: pytest.CaptureFixture[str])
     for words, message in (
         (["--bound", "9"], "--bound 9"),
         (["--out", "/nowhere/motion.npz"], "/nowhere/motion.npz: no such directory"),
+        (["--out", "."], "--out .: is a directory; give a file in it, as motion-stabilised.npz"),
+        (["--out", str(motion)], "is the motion itself; give another file, or leave it out"),
         (["--perturb", "frction=[1,1]"], "friction"),
     ):
         code, out, err = run(capsys, "stabilise", str(motion), *words)

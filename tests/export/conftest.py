@@ -7,7 +7,6 @@ from pathlib import Path
 import mujoco
 import pytest
 
-from levade.export.model import compile_model
 from levade.motion import Motion, record
 from levade.solve import Objective, solve
 from levade.tasks import load_task
@@ -28,7 +27,7 @@ def rearing(objective: Objective) -> Motion:
 
 @pytest.fixture(scope="session")
 def rearing_model(rearing: Motion) -> mujoco.MjModel:
-    return compile_model(rearing)
+    return rearing.compiled()
 
 
 @pytest.fixture(scope="session")

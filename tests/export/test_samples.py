@@ -10,7 +10,7 @@ import pytest
 
 from levade.engines import MujocoEngine, Physics
 from levade.errors import LevadeError
-from levade.export.model import compile_model, gains, holding_torque
+from levade.export.model import gains, holding_torque
 from levade.export.samples import sample
 from levade.motion import Motion
 from levade.robots import load_robot
@@ -21,7 +21,7 @@ from levade.solve import Objective
 def test_at_the_rate_of_the_simulation_every_row_is_what_was_recorded(
     rearing: Motion, held: Motion, rearing_model: mujoco.MjModel
 ) -> None:
-    for motion, model in ((rearing, rearing_model), (held, compile_model(held))):
+    for motion, model in ((rearing, rearing_model), (held, held.compiled())):
         samples = sample(motion, model, rate=500.0, reference="commanded")
         steps = len(motion["time"])
         assert len(samples.time) == steps + 1
@@ -100,7 +100,7 @@ def test_measured_commands_make_the_recorded_torque_the_equilibrium(
 
 
 def test_resampling_keeps_impulses_and_ends_where_it_should(held: Motion) -> None:
-    model = compile_model(held)
+    model = held.compiled()
     steps, timestep = len(held["time"]), held.meta["timestep"]
     for rate in (100.0, 250.0, 1000.0, 2500.0):
         samples = sample(held, model, rate=rate)

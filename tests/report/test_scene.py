@@ -13,7 +13,7 @@ import pytest
 
 from levade.motion import Motion, record
 from levade.report.packing import UNIT, pack, pack_unit, unpack
-from levade.report.rendering import load_model, replay
+from levade.report.rendering import replay
 from levade.report.scene import FRAMES, configurations, force_scale, frame_rows, scene_data
 from levade.report.shapes import TRIANGLES, shapes_of, simplify
 from levade.solve import Objective, solve
@@ -58,7 +58,7 @@ def kinematics(motion: Motion, model: Any, row: int, joints: str) -> Any:
 
 
 def test_every_pose_is_what_forward_kinematics_says(rearing: Motion, scene: dict[str, Any]) -> None:
-    model, moving = load_model(rearing), scene["motion"]
+    model, moving = rearing.compiled(), scene["motion"]
     rows = [round(time / rearing.meta["timestep"]) for time in unpack(moving["time"])]
     position, quaternion = unpack(moving["position"]), unpack(moving["quaternion"]) / UNIT
     wanted = moving["reference"]
@@ -102,7 +102,7 @@ def test_frames_are_few_and_even(steps: int, horizon: int, timestep: float) -> N
 
 def test_configurations_are_the_replayed_ones(rearing: Motion) -> None:
     """What was recorded is used: on another platform a replay may go elsewhere. Here both are the same."""
-    model = load_model(rearing)
+    model = rearing.compiled()
     np.testing.assert_array_equal(configurations(rearing, model), replay(rearing).qpos)
 
 
@@ -119,7 +119,7 @@ def test_a_motion_that_broke_down_stays_where_it_last_was(rearing: Motion) -> No
 
 
 def test_forces_start_at_the_feet(rearing: Motion, scene: dict[str, Any]) -> None:
-    moving, model = scene["motion"], load_model(rearing)
+    moving, model = scene["motion"], rearing.compiled()
     rows = [round(time / rearing.meta["timestep"]) for time in unpack(moving["time"])]
     forces = unpack(moving["forces"]["force"])
     np.testing.assert_array_equal(forces[1:], rearing["foot_contact_force"][np.array(rows[1:]) - 1].astype(np.float32))
@@ -140,7 +140,7 @@ def test_a_metre_of_arrow_is_a_round_number_of_newtons(force: float) -> None:
 
 def test_the_goal_is_a_box_round_the_trunk_where_it_should_be(rearing: Motion, scene: dict[str, Any]) -> None:
     """HyQ2Max's trunk collides as a box about its frame's origin: put there, it is the goal's box."""
-    goal, model = scene["motion"]["goal"], load_model(rearing)
+    goal, model = scene["motion"]["goal"], rearing.compiled()
     assert goal["centre"][2] == 0.9
     x, y, z, w = goal["quaternion"]
     assert math.asin(2 * (w * y - x * z)) == pytest.approx(-1.0472, abs=1e-5)
@@ -160,7 +160,7 @@ def test_layers_are_those_that_there_is_something_of(rearing: Motion, scene: dic
 
 
 def test_looks_and_collision_shapes_are_told_apart(rearing: Motion, recovery: Motion, scene: dict[str, Any]) -> None:
-    model = load_model(rearing)
+    model = rearing.compiled()
     group = {"robot": 2, "collision": 3}
     for layer, number in group.items():
         drawn = [geom for geom in scene["model"]["geoms"] if geom["layer"] == layer]
@@ -173,7 +173,7 @@ def test_looks_and_collision_shapes_are_told_apart(rearing: Motion, recovery: Mo
 def test_small_and_the_same_every_time(rearing: Motion, recovery: Motion, scene: dict[str, Any]) -> None:
     assert json.dumps(scene, allow_nan=False) == json.dumps(scene_data(rearing))
     assert len(json.dumps(scene)) < 150_000
-    assert scene["model"]["key"] == shapes_of(load_model(rearing))["key"]
+    assert scene["model"]["key"] == shapes_of(rearing.compiled())["key"]
     assert scene["model"]["key"] != scene_data(recovery)["model"]["key"]
 
 

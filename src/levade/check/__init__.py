@@ -11,6 +11,8 @@ What each part does is in docs/check.md.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from levade.check.certificate import Certificate
 from levade.check.demands import Demands, Verdict
 from levade.check.engines import Replayed, other_engines
@@ -20,6 +22,7 @@ from levade.check.perturbed import Perturbed, Sensitivity, perturbed
 from levade.check.subject import Subject
 from levade.engines import Perturbation
 from levade.errors import LevadeError
+from levade.feedback import Feedback
 from levade.motion import Motion
 from levade.tasks import Task
 
@@ -51,11 +54,13 @@ def check(
     demands: Demands | None = None,
     criteria: Task | None = None,
     threads: int = 0,
+    stopping: Callable[[], bool] | None = None,
 ) -> Certificate:
     """Check a motion against its model's uncertainty, its numbers, other engines and its hardware.
 
     divide: the time step of the perturbed runs by so much. perturbation, demands: the defaults if None. criteria: a task
     whose success criteria are used instead of the motion's own. threads: results do not depend on it.
+    stopping: asked on the way; once it says so, the certificate is of what was done by then, and says that it is interrupted.
     Raises LevadeError if there is nothing to judge by, or no runs.
     """
     subject = Subject(motion, criteria=None if criteria is None else criteria.success, threads=threads)
@@ -64,22 +69,28 @@ def check(
             f"check: the task {subject.task.name} has no success criteria to judge by; give a task that has: --criteria TASK"
         )
     if not 1 <= runs <= 1_000_000:
-        raise LevadeError(f"check: {runs} runs; 1 or more, 500 is usual")
+        raise LevadeError(f"check: {runs} runs; 1 to 1000000, 500 is usual")
     if not 1 <= divide <= 64:
         raise LevadeError(f"check: the time step divided by {divide}; 1 to 64, 2 is usual")
     demands, feedback = demands or Demands(), motion.feedback
     ranges = perturbation or Perturbation()
-    without = perturbed(subject, ranges, runs=runs, seed=seed, divide=divide)
+    stop = stopping or (lambda: False)
+
+    def tried(by: Feedback | None) -> Perturbed:
+        return perturbed(subject, ranges, runs=runs, seed=seed, divide=divide, feedback=by, stopping=stop)
+
+    without = tried(None)
+    found = without if feedback is None else tried(feedback)
+    cut = stop()
     return Certificate(
         task=subject.task.name,
         robot=str(motion.meta["robot"]),
         criteria=subject.task.name if criteria is None else criteria.name,
         demands=demands,
-        perturbed=without
-        if feedback is None
-        else perturbed(subject, ranges, runs=runs, seed=seed, divide=divide, feedback=feedback),
+        perturbed=found,
         open_loop=None if feedback is None else without,
-        numerics=numerics(subject),
-        engines=other_engines(subject),
-        margins=margins(subject, demands),
+        numerics={} if cut else numerics(subject),
+        engines={} if cut else other_engines(subject),
+        margins={} if cut else margins(subject, demands),
+        interrupted=cut,
     )

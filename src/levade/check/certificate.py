@@ -18,6 +18,7 @@ class Certificate:
     """What a check found. criteria: whose success criteria were used, the name of a task.
 
     perturbed, numerics: with the stabiliser, if the motion has one. open_loop: the perturbed runs without it, else None.
+    interrupted: in the perturbed runs; then fewer of them were made, and nothing else.
     """
 
     task: str
@@ -29,6 +30,7 @@ class Certificate:
     engines: Mapping[str, Replayed]
     margins: Mapping[str, Margin]
     open_loop: Perturbed | None = None
+    interrupted: bool = False
 
     @property
     def verdicts(self) -> tuple[Verdict, ...]:
@@ -37,12 +39,13 @@ class Certificate:
 
     @property
     def passed(self) -> bool:
-        """Whether every criterion that is judged is met."""
-        return all(verdict.passed is not False for verdict in self.verdicts)
+        """Whether every criterion that is judged is met; not of a check that was interrupted."""
+        return not self.interrupted and all(verdict.passed is not False for verdict in self.verdicts)
 
     def to_json(self) -> dict[str, Any]:
         return {
             "passed": self.passed,
+            "interrupted": self.interrupted,
             "task": self.task,
             "robot": self.robot,
             "criteria": self.criteria,

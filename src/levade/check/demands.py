@@ -23,8 +23,8 @@ class Demands:
     """
 
     share: float | None = 0.95
-    numerics: bool = True
-    engines: bool = True
+    numerics: bool | None = True
+    engines: bool | None = True
     position: float | None = 0.0
     speed: float | None = 0.0
     torque: float | None = 0.0

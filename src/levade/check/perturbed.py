@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -96,10 +96,12 @@ def perturbed(
     seed: int,
     divide: int = 1,
     feedback: Feedback | None = None,
+    stopping: Callable[[], bool] | None = None,
 ) -> Perturbed:
     """Simulate a motion on ``runs`` perturbed versions of its model, and once more with each parameter alone.
 
     divide: the motion's time step by so much. feedback: the stabiliser, whose sensors err (`levade.feedback.SensorErrors`).
+    stopping: asked on the way; once it says so, what there is by then is the result, some runs at least.
     """
     model = subject.model_copy()
     model.opt.timestep /= divide
@@ -113,9 +115,11 @@ def perturbed(
     corners = {
         name: perturbation.corners(ensemble.model, ensemble.joints, name, n=_CORNERS, seed=seed) for name in names
     }
-    whole = judge(subject, ensemble, reference, joined([sample, *corners.values()]), feedback=feedback, seed=seed)
-    drawn = whole.part(0, runs)
-    alone, first = {}, runs
+    every = joined([sample, *corners.values()])
+    whole = judge(subject, ensemble, reference, every, feedback=feedback, seed=seed, stopping=stopping)
+    drawn, alone, first = whole.part(0, runs), {}, runs
+    runs = len(drawn.success)
+    sample = Sample({name: values[:runs] for name, values in sample.values.items()})
     for name, corner in corners.items():
         alone[name] = whole.part(first, first + len(corner)).success
         first += len(corner)
@@ -174,10 +178,16 @@ def judge(
     *,
     feedback: Feedback | None = None,
     seed: int = 0,
+    stopping: Callable[[], bool] | None = None,
 ) -> Judged:
-    """Simulate a motion on all models of a sample. seed: of the sensors' errors, which only feedback notices."""
+    """Simulate a motion on all models of a sample. seed: of the sensors' errors, which only feedback notices.
+
+    stopping: as in `perturbed`.
+    """
     criteria, parts = subject.criteria, []
     for first in range(0, len(sample), _AT_ONCE):
+        if parts and stopping is not None and stopping():
+            break
         part = Sample({name: values[first : first + _AT_ONCE] for name, values in sample.values.items()})
         wrong = None
         if feedback is not None:
@@ -188,7 +198,7 @@ def judge(
         parts.append((errors(criteria, trajectories), success(criteria, trajectories), trajectories.diverged))
     off = {name: np.concatenate([part[0][name] for part in parts]) for name in criteria}
     met, diverged = (np.concatenate([part[i] for part in parts]) for i in (1, 2))
-    miss = np.zeros(len(sample))
+    miss = np.zeros(len(met))
     for name, criterion in criteria.items():
         np.maximum(miss, np.abs(off[name]) / (criterion.tolerance or 1.0), out=miss)
     miss[diverged] = DIVERGED

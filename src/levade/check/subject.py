@@ -36,7 +36,7 @@ class Subject:
         self.names = Names(motion)
         self.timestep = float(motion.meta["timestep"])
         self.start = (motion["qpos0"], motion["qvel0"], motion["act0"])
-        self.model = mujoco.MjModel.from_xml_string(motion.model_xml, dict(motion.assets))
+        self.model = motion.compiled()
         self.layout = Layout(self.names, self.model)
 
     @property

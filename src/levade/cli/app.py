@@ -91,7 +91,9 @@ def solve(
     robot: Annotated[
         str | None, typer.Option(help="Another robot: a name, or a file: URDF, MJCF or robot.yaml.")
     ] = None,
-    seed: Annotated[int, typer.Option(min=0, help="Of the search; the same seed gives the same motion.")] = 0,
+    seed: Annotated[
+        int | None, typer.Option(min=0, help="Of the search, by default 0; the same seed gives the same motion.")
+    ] = None,
     trials: Annotated[int | None, typer.Option(help="Budget, instead of the task's.")] = None,
     optimizer: Annotated[
         str | None, typer.Option(help="levade, cma, pi2, pi2-cma, mppi, cem or random, instead of the task's.")
@@ -134,7 +136,9 @@ def solve(
         given = {
             "TASK": task,
             "--robot": robot,
+            "--seed": seed,
             "--out": out,
+            "--force": force or None,
             "--set, --trials, --optimizer or --engine": changes or None,
         }
         extra = [name for name, value in given.items() if value is not None]
@@ -147,7 +151,7 @@ def solve(
     return solve_and_report(
         task=task,
         robot=robot,
-        seed=seed,
+        seed=seed or 0,
         changes=changes,
         directory=out,
         resume_from=resume,

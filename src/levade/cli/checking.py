@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 from collections.abc import Sequence
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -15,11 +16,13 @@ from rich.text import Text
 
 from levade.check import Certificate, Demands, check
 from levade.check.perturbed import Perturbed
+from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console
 from levade.document import build, parse_yaml, read_yaml
 from levade.engines import Perturbation
 from levade.errors import LevadeError, did_you_mean
 from levade.motion import Motion
+from levade.report.files import writing
 from levade.tasks import load_task
 from levade.tasks.units import to_si
 
@@ -42,29 +45,32 @@ def check_motion(
     threads: int,
     as_json: bool,
 ) -> int:
-    """Exit status 0 if the motion meets every demand, else 1."""
-    certificate = check(
-        Motion.load(path),
-        runs=runs,
-        seed=seed,
-        divide=divide,
-        perturbation=changed(Perturbation(), perturb, option="--perturb"),
-        demands=changed(Demands(), demand, option="--demand"),
-        criteria=None if criteria is None else load_task(criteria),
-        threads=threads,
-    )
-    content = {"motion": str(path), **certificate.to_json()}
-    if out is not None:
-        try:
-            out.write_text(json.dumps(content, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
-        except OSError as error:
-            raise LevadeError(
-                f"{out}: cannot be written ({error.strerror}); give a path that can: --out FILE"
-            ) from None
-    if as_json:
-        print(json.dumps(content, ensure_ascii=False))
-    else:
-        _tell(make_console(), path, certificate)
+    """Exit status 0 if the motion meets every demand, else 1. Ctrl-C keeps the runs that were made."""
+    motion = Motion.load(path)
+    perturbation = changed(Perturbation(), perturb, option="--perturb")
+    demands = changed(Demands(), demand, option="--demand")
+    task = None if criteria is None else load_task(criteria)
+    place = nullcontext(None) if out is None else writing(out, instead="give a path that can: --out FILE")
+    with place as file:  # whatever cannot be written is said before the work
+        with stop_between() as stopping:
+            certificate = check(
+                motion,
+                runs=runs,
+                seed=seed,
+                divide=divide,
+                perturbation=perturbation,
+                demands=demands,
+                criteria=task,
+                threads=threads,
+                stopping=stopping,
+            )
+        content = {"motion": str(path), **certificate.to_json()}
+        if as_json:
+            print(json.dumps(content, ensure_ascii=False))
+        else:
+            _tell(make_console(), path, certificate, runs)
+        if file is not None:
+            file.write_text(json.dumps(content, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
     return 0 if certificate.passed else 1
 
 
@@ -76,8 +82,12 @@ def changed(default: T, changes: Sequence[str], *, option: str) -> T:
         if equals:
             if name not in content:
                 raise LevadeError(f"{option} {change}: no {name!r}; {did_you_mean(name, content)}")
+            if not text.strip():
+                raise LevadeError(f"{option} {change}: no value; give one, or null for none: {name}=null")
             content[name] = parse_yaml(text, where=f"{option} {name}")
         elif not Path(change).is_file():
+            if change in content:
+                raise LevadeError(f"{option} {change}: no value; give one, as {_like(default, change)}")
             hint = did_you_mean(change, content) if change.isidentifier() else "give a YAML file, or name=value"
             raise LevadeError(f"{option} {change}: no such file; {hint}")
         else:
@@ -87,7 +97,15 @@ def changed(default: T, changes: Sequence[str], *, option: str) -> T:
     return build(type(default), to_si(content, where=option[2:]), where=option[2:])
 
 
-def _tell(console: Console, path: Path, certificate: Certificate) -> None:
+def _like(default: Perturbation | Demands, name: str) -> str:
+    """NAME=VALUE of what is the default, or of what could be."""
+    value = getattr(default, name)
+    if isinstance(default, Demands):
+        return f"{name}={'0.1' if value is None else 'true' if value is True else f'{value:g}'}"
+    return f"{name}={'[0.9,1.1]' if value is None else f'[{value[0]:g},{value[1]:g}]'}"
+
+
+def _tell(console: Console, path: Path, certificate: Certificate, runs: int) -> None:
     console.print(
         f"[bold]{escape(certificate.task)}[/] on {escape(certificate.robot)}, {escape(str(path))}"
         + (f", by the criteria of {escape(certificate.criteria)}" if certificate.criteria != certificate.task else "")
@@ -99,6 +117,11 @@ def _tell(console: Console, path: Path, certificate: Certificate) -> None:
     console.print(_sensitivity(certificate.perturbed))
     failed = [verdict.name for verdict in certificate.verdicts if verdict.passed is False]
     console.print()
+    if certificate.interrupted:
+        console.print(
+            f"[yellow]Interrupted[/] after {certificate.perturbed.runs} of {runs} perturbed runs; nothing else was checked."
+        )
+        return
     console.print(f"[red]Fails[/]: {escape(', '.join(failed))}." if failed else "[green]Passes[/].")
 
 

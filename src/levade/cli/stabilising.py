@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -35,6 +36,12 @@ def stabilise_motion(
     place = out if out is not None else path.with_name(f"{path.stem}-stabilised.npz")
     if not place.parent.is_dir():
         raise LevadeError(f"--out {place}: no such directory; make it, or give another")
+    if place.is_dir():
+        raise LevadeError(f"--out {place}: is a directory; give a file in it, as {place / 'motion-stabilised.npz'}")
+    if place.exists() and place.samefile(path):
+        raise LevadeError(f"--out {place}: is the motion itself; give another file, or leave it out")
+    if not os.access(place.parent, os.W_OK):
+        raise LevadeError(f"--out {place}: its directory cannot be written; give another")
     console = make_console()
     perturbation = changed(Perturbation(), perturb, option="--perturb")
     with stop_between("design") as stopping:

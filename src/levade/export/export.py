@@ -12,7 +12,6 @@ from levade.errors import LevadeError, did_you_mean
 from levade.export import as_csv, as_json, as_mjlab, as_ros2, as_unitree
 from levade.export.content import Content, provenance
 from levade.export.directory import filling
-from levade.export.model import compile_model
 from levade.export.samples import Samples, sample
 from levade.feedback import Feedback
 from levade.motion import Motion
@@ -77,7 +76,7 @@ def export(
     form = FORMATS[to]
     if form.check is not None:
         form.check(motion)
-    model = compile_model(motion)
+    model = motion.compiled()
     own = 1.0 / float(motion.meta["timestep"])
 
     def at(rate: float) -> Samples:

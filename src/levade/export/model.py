@@ -12,14 +12,6 @@ from levade.motion import Motion
 from levade.trajectory import Array
 
 
-def compile_model(motion: Motion) -> mujoco.MjModel:
-    """The model in the motion file. Raises LevadeError if MuJoCo does not take it."""
-    try:
-        return mujoco.MjModel.from_xml_string(motion.model_xml, dict(motion.assets))
-    except ValueError as error:
-        raise LevadeError(f"motion: MuJoCo {mujoco.__version__} does not take its model: {error}") from None
-
-
 def joint_addresses(model: mujoco.MjModel, joints: Sequence[str]) -> tuple[list[int], list[int]]:
     """Where the joints are in qpos and in qvel."""
     found = [model.joint(name) for name in joints]

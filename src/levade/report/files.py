@@ -16,10 +16,10 @@ def writing(path: Path, *, instead: str = "give a file that can") -> Iterator[Pa
     The file's directory is made if need be. Raises LevadeError if it cannot be written, before any work is done.
     instead: what the reader of the error can do.
     """
-    partial = path.with_name(f".{path.stem}.partial{path.suffix}")
     try:
         if path.is_dir():
             raise IsADirectoryError(21, "Is a directory")
+        partial = path.with_name(f".{path.stem}.partial{path.suffix}")
         path.parent.mkdir(parents=True, exist_ok=True)
         partial.touch()
     except OSError as error:

@@ -130,7 +130,7 @@ class Renderer:
 
     def __init__(self, what: Motion | Any, size: tuple[int, int], *, shadows: int = 6) -> None:
         self._size, self._shadows = size, max(1, shadows)
-        self.model: Any = load_model(what) if isinstance(what, Motion) else what
+        self.model: Any = what.compiled() if isinstance(what, Motion) else what
         _furnish(self.model, size)
         self._data = mujoco.MjData(self.model)
         self._option = mujoco.MjvOption()
@@ -197,17 +197,9 @@ class Renderer:
         scene.nlight += len(places) - 1
 
 
-def load_model(motion: Motion) -> Any:
-    """The motion's model, compiled. Raises LevadeError if the file's model is damaged."""
-    try:
-        return mujoco.MjModel.from_xml_string(motion.model_xml, dict(motion.assets))
-    except ValueError as error:
-        raise LevadeError(f"the motion's model cannot be loaded: {error}; the file is damaged") from None
-
-
 def replay(motion: Motion) -> Poses:
     """Simulate the motion from its file; take it as recorded if another engine than MuJoCo made it."""
-    model = load_model(motion)
+    model = motion.compiled()
     if motion.meta["engine"] != "mujoco":
         return _recorded(motion, model)
     data = mujoco.MjData(model)

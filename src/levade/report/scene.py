@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from levade.motion import Motion
 from levade.report.packing import pack, pack_unit
-from levade.report.rendering import FIELD_OF_VIEW, Camera, load_model, replay
+from levade.report.rendering import FIELD_OF_VIEW, Camera, replay
 from levade.report.shapes import moving_bodies, shapes_of
 from levade.report.style import DARK, LIGHT, Theme, leg_colours
 from levade.trajectory import Array, roll_pitch_yaw
@@ -49,7 +49,7 @@ def scene_data(
     like: a scene of another motion of the same model; shapes and colours are taken from it. model: the motion's, if it
     is compiled already. rate: [Hz], at most so many poses a second.
     """
-    model = load_model(motion) if model is None else model
+    model = motion.compiled() if model is None else model
     rows = frame_rows(len(motion["time"]), motion.horizon_steps, float(motion.meta["timestep"]), rate)
     qpos = configurations(motion, model)[rows]
     position, quaternion = body_poses(model, qpos)

@@ -156,10 +156,16 @@ def _check(subject: Subject, rate: float, bound: float, runs: int) -> None:
         raise LevadeError(f"stabilise: the task {subject.task.name} has no success criteria to choose by")
     if not (math.isfinite(rate) and 1.0 <= rate <= 1.0001 / subject.timestep):
         raise LevadeError(f"--rate {rate:g}: should be 1 to {1 / subject.timestep:g} Hz, one measurement a step")
+    slowest = 1.0 / (motion.horizon_steps * subject.timestep)
+    if rate < slowest:
+        raise LevadeError(
+            f"--rate {rate:g}: no measurement within the motion's {1 / slowest:g} s; should be {slowest:.3g} Hz at least,"
+            " 250 is usual"
+        )
     if not (math.isfinite(bound) and 0.0 < bound <= 2.0):
         raise LevadeError(f"--bound {bound:g}: should be more than 0 and at most 2 rad; 0.5 is usual")
     if not 8 <= runs <= 100_000:
-        raise LevadeError(f"--runs {runs}: should be 8 or more; 96 is usual")
+        raise LevadeError(f"--runs {runs}: should be 8 to 100000; 96 is usual")
 
 
 def _size(subject: Subject) -> float:

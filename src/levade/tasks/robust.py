@@ -79,7 +79,8 @@ class Robust:
         for name in ("tail", "required"):
             value = getattr(self, name)
             if not (math.isfinite(value) and 0 <= value <= 1) or (name == "tail" and value == 0):
-                raise LevadeError(f"robust.{name}: {value} should be a share, up to 1")
+                least = "more than 0" if name == "tail" else "0"
+                raise LevadeError(f"robust.{name}: {value} should be a share, {least} to 1")
         if not 1 <= self.starts <= 1000:
             raise LevadeError(f"robust.starts: {self.starts} should be 1 to 1000; 8 is usual")
         if self.racing is not None and self.racing.first >= self.samples:
