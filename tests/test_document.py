@@ -90,7 +90,7 @@ def test_and_words_are_words(text: str) -> None:
         ({"name": "it", "part": {"size": [1]}}, "doc.part.size: should be a valid number, is a list"),
         ({"name": "it", "part": 5}, "doc.part: should be a table of keys and values, is 5"),
         ({"name": "it", "parts": [5]}, "doc.parts.0: should be a table of keys and values, is 5"),
-        ({"name": "it", "parts": 5}, "doc.parts: should be a valid tuple, is 5"),
+        ({"name": "it", "parts": 5}, "doc.parts: should be a list, is 5"),
         ({"name": "it", "table": [1]}, "doc.table: should be a table of keys and values, is a list"),
         ({"name": "it", "count": 1.5}, "doc.count: should be a valid integer, .* is 1.5"),
         ({"name": 7}, "doc.name: should be a valid string, is 7"),

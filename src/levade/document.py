@@ -81,7 +81,8 @@ def build(kind: type[T], content: Any, *, where: str) -> T:
     except pydantic.ValidationError as error:
         raise LevadeError(f"{where}.{first_mistake(error)}") from None
     except LevadeError as error:
-        raise LevadeError(f"{where}: {error}") from None
+        said = str(error)
+        raise LevadeError(said if said.startswith(f"{where}.") else f"{where}: {said}") from None
 
 
 def first_mistake(error: Any) -> str:
@@ -96,7 +97,13 @@ def first_mistake(error: Any) -> str:
     if mistake["type"] == "missing":
         return f"{path}: missing"
     message = mistake["msg"].removeprefix("Input ").removeprefix("Value ")
-    message = message.replace("a valid dictionary", "a table of keys and values")
+    for ours, theirs in (
+        ("a table of keys and values", "a valid dictionary"),
+        ("a list", "a valid tuple"),
+        ("should be a list of", "Tuple should have"),
+        (" items, not", " items after validation, not"),
+    ):
+        message = message.replace(theirs, ours)
     return f"{path}: {message[0].lower()}{message[1:]}, is {kind_of(mistake['input'])}"
 
 

@@ -198,6 +198,12 @@ def test_what_does_not_fit_is_left_out_and_said(found: Stabilised, tmp_path: Pat
         done = export(found.motion, "csv", tmp_path / str(options), **options)  # type: ignore[arg-type]
         assert any("the stabiliser is left out" in note for note in done.notes)
         assert Played.load(tmp_path / str(options) / "motion.csv").feedback is None
+    export(found.motion, "csv", tmp_path / "again")
+    assert (tmp_path / "again" / "feedback.npz").exists()
+    export(found.motion, "json", tmp_path / "again", kp=100.0)
+    assert (tmp_path / "again" / "feedback.npz").exists()  # motion.csv's
+    export(found.motion, "csv", tmp_path / "again", kp=100.0)
+    assert not (tmp_path / "again" / "feedback.npz").exists()
     ordered = export(found.motion, "unitree", tmp_path / "unitree")
     assert not any("stabiliser" in note for note in ordered.notes)
     feedback = Played.load(tmp_path / "unitree" / "motion.csv").feedback

@@ -16,6 +16,7 @@ from levade.export.samples import Samples
 from levade.feedback import Feedback
 from levade.trajectory import Array
 
+META, FEEDBACK = "meta.json", "feedback.npz"
 XYZ, WXYZ = ("x", "y", "z"), ("w", "x", "y", "z")
 
 
@@ -51,9 +52,9 @@ def write_table(path: Path, table: dict[str, Array]) -> None:
 def write(content: Content, directory: Path) -> list[str]:
     """motion.csv, and beside it meta.json and player.py."""
     write_table(directory / "motion.csv", columns(content.playing))
-    write_json(directory / "meta.json", describe(content.playing, content.provenance, content.feedback), indent=2)
+    write_json(directory / META, describe(content.playing, content.provenance, content.feedback), indent=2)
     if content.feedback is not None:
-        write_feedback(directory / "feedback.npz", content.feedback)
+        write_feedback(directory / FEEDBACK, content.feedback)
     write_player(directory)
     return []
 

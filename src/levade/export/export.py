@@ -89,6 +89,10 @@ def export(
     with filling(directory) as partial:
         notes = form.write(content, partial)
         names = sorted(path.relative_to(partial) for path in partial.rglob("*") if path.is_file())
+    if (
+        feedback is None and Path(as_csv.META) in names
+    ):  # of an earlier export to the same directory: nothing here says any more that it belongs to it
+        (directory / as_csv.FEEDBACK).unlink(missing_ok=True)
     notes = [*_notes(motion, playing), *_feedback_notes(motion, feedback), *notes]
     return Exported(to, directory, tuple(directory / name for name in names), samples, tuple(notes))
 
