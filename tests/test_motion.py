@@ -340,7 +340,7 @@ def test_other_files_of_numpy_and_of_no_one(tmp_path: Path) -> None:
         ("other.npz", "not a motion file, meta, model_xml, qpos0 missing"),
         ("other.zip", "not a motion file|cannot be read as a motion"),
         ("none.npz", "no such file; give the motion.npz that levade solve wrote"),
-        (".", "cannot be read as a motion"),
+        (".", "is a directory; give the motion.npz in it: "),
         ("array.npy/motion.npz", "cannot be read as a motion"),
     ):
         with pytest.raises(LevadeError, match=message):

