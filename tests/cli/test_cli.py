@@ -112,7 +112,7 @@ def test_help_and_version(run) -> None:
         ),
         ("solve rearing --out /dev/null/none", "/dev/null/none: cannot be written (Not a directory)"),
         ("show none.npz", "none.npz: no such file; give the motion.npz that levade solve wrote"),
-        ("show .", ".: cannot be read as a motion"),
+        ("show .", ".: is a directory; give the motion.npz in it: motion.npz"),
         ("show", "Missing argument"),
     ],
 )
