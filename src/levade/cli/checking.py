@@ -156,5 +156,7 @@ def _sensitivity(found: Perturbed) -> Table:
     for one in found.sensitivity[:_SHOWN]:
         name = f"{one.parameter} {one.number}".strip()
         means = ["-" if mean is None else f"{mean:.3g} {one.unit}" for mean in (one.failed, one.succeeded)]
-        table.add_row(Text(name), f"{one.explains:.0%}", *means, f"{one.alone[0]} of {one.alone[1]}")
+        table.add_row(
+            Text(name), f"{one.explains:.0%}", *means, f"{one.alone[0]} of {one.alone[1]}" if one.alone[1] else "-"
+        )
     return table
