@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import signal
 import subprocess
 import sys
 import time
@@ -260,6 +261,108 @@ def test_the_ramp_leads_from_where_the_joints_are_and_the_last_row_is_held(motio
     assert np.abs(np.diff(position[:250], axis=0)).max() < 0.05 * 2 / 250
     np.testing.assert_allclose(commands[249][2], motion.start_torque, atol=1e-9)
     np.testing.assert_array_equal(position[-50:], np.tile(motion.position[-1], (50, 1)))
+
+
+def test_without_clamp_positions_go_as_far_out_as_they_were_told(motion: Played) -> None:
+    narrow = replace(motion, lower=motion.expected.min(axis=0), upper=motion.expected.max(axis=0))
+    assert (narrow.clamped()[0] == motion.position).all()  # measured ones are within: as told beyond is another thing
+    out = replace(narrow, position=motion.position + 0.5)
+    sent = {}
+    for clamp in (True, False):
+        robot = Faulty(motion)
+        play(out, robot, ramp=0.0, clamp=clamp, wait=no_clock)
+        sent[clamp] = np.array([command[0] for command in robot.sent])
+    assert (sent[True] <= narrow.upper).all()
+    np.testing.assert_array_equal(sent[False], out.position)
+
+
+def test_the_holding_torque_is_there_after_20_ms_and_the_last_row_stands_still(motion: Played) -> None:
+    robot = StandIn(motion, ramp=2.0)
+    commands: list[tuple[np.ndarray, ...]] = []
+    write = robot.write
+    robot.write = lambda *command: (commands.append(command), write(*command))[1]  # type: ignore[method-assign]
+    play(motion, robot, ramp=2.0, wait=no_clock)
+    torque, velocity = (np.array([command[i] for command in commands]) for i in (2, 1))
+    assert np.abs(torque[0]).max() < 0.1 * np.abs(motion.start_torque).max()
+    np.testing.assert_allclose(torque[9:1000], np.tile(motion.start_torque, (991, 1)))
+    np.testing.assert_array_equal(velocity[1000:-1], motion.velocity[:-1])
+    assert np.abs(motion.velocity[-1]).max() > 1.0
+    assert (velocity[-1] == 0.0).all()
+
+
+@pytest.mark.parametrize("ramp", [0.1, 0.5])
+def test_a_robot_that_stands_does_not_sink_in_the_ramp(rearing: Motion, tmp_path: Path, ramp: float) -> None:
+    """Without the holding torque it would, by 17 mm."""
+    robot = Simulated(rearing, lagging=False)
+    motion = played(rearing, tmp_path)
+    play(motion, robot, ramp=ramp, wait=no_clock)
+    height = np.array(robot.states)[: round(ramp * 500) + 1, 2]
+    assert np.abs(height - rearing["qpos0"][2]).max() < 0.003
+
+
+class Careless(Simulated):
+    """Gives its own buffers away, and works in those that it is given."""
+
+    def read(self):
+        return self.data.qpos[7:], self.data.qvel[6:]
+
+    def write(self, position, velocity, torque, kp, kd) -> None:
+        super().write(position, velocity, torque, kp, kd)
+        for values in (position, velocity, torque, kp, kd):
+            values *= 0.9
+
+
+def test_robots_may_keep_using_their_own_arrays(rearing: Motion, tmp_path: Path) -> None:
+    motion, states = played(rearing, tmp_path), []
+    for kind in (Simulated, Careless):
+        robot = kind(rearing, lagging=False)
+        robot.data.qpos[7:] += 0.03 * np.random.default_rng(0).normal(size=12)
+        play(motion, robot, ramp=0.5, wait=no_clock)
+        states.append(np.array(robot.states))
+    np.testing.assert_array_equal(*states)
+
+
+def test_a_drive_that_knows_no_gains_but_its_own_stays_where_it_is_when_stopped(
+    rearing: Motion, tmp_path: Path
+) -> None:
+    class Stiff(Simulated):
+        def write(self, position, velocity, torque, kp, kd) -> None:
+            super().write(position, velocity, torque, np.maximum(kp, 1.0), kd)
+
+    class Blinking(Stiff):
+        def read(self):
+            position, velocity = super().read()
+            return (position * np.nan if len(self.states) == 100 else position), velocity
+
+    robot = Blinking(rearing, lagging=True)
+    with pytest.raises(Stopped, match="should be 12 numbers"):
+        play(played(rearing, tmp_path), robot, ramp=1.0, wait=no_clock)
+    height = np.array(robot.states)[:, 2]
+    assert len(height) == 100 + 500
+    assert np.abs(height - height[100]).max() < 0.03  # at the zero pose legs are straight: 0.3 m higher
+
+
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP", "SIGINT"])
+def test_told_to_end_it_leaves_drives_that_damp(rearing: Motion, tmp_path: Path, name: str) -> None:
+    export(rearing, "csv", tmp_path)
+    (tmp_path / "mine.py").write_text(
+        "import json, numpy as np\n"
+        "start = np.array(json.load(open('meta.json'))['start']['position'])\n"
+        "class Robot:\n"
+        "    def read(self): return start, np.zeros(12)\n"
+        "    def write(self, position, velocity, torque, kp, kd): print(f'kp {kp[0]:g}', flush=True)\n"
+    )
+    command = [sys.executable, "player.py", "motion.csv", "--robot", "mine:Robot", "--ramp", "60"]
+    process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert process.stdout is not None
+    for line in process.stdout:
+        if line.startswith("kp"):
+            break
+    process.send_signal(getattr(signal, name))
+    out, err = process.communicate(timeout=60)
+    assert process.returncode == 1
+    assert "player: stopped: interrupted" in err
+    assert out.splitlines()[-500:] == ["kp 0"] * 500
 
 
 def test_no_tick_comes_before_its_time() -> None:

@@ -173,14 +173,15 @@ class Sensing(Pushed):
 
 
 @pytest.mark.parametrize("to", ["csv", "json"])
-def test_the_player_does_the_same(found: Stabilised, tmp_path: Path, to: str) -> None:
+@pytest.mark.parametrize("clamp", [True, False])
+def test_the_player_does_the_same(found: Stabilised, tmp_path: Path, to: str, clamp: bool) -> None:
     export(found.motion, to, tmp_path, reference="commanded")
     played = Played.load(tmp_path / f"motion.{to}")
     push = np.zeros(18)
     push[3:6] = 0.1, -0.2, 0.1
     robot = Sensing(found.motion, push)
-    play(played, robot, ramp=0.0, tolerance=1.0, wait=lambda instant: 0.0)
-    qpos, corrections = loop(found.motion, push, clamp=True)
+    play(played, robot, ramp=0.0, tolerance=1.0, clamp=clamp, wait=lambda instant: 0.0)
+    qpos, corrections = loop(found.motion, push, clamp=clamp)
     assert np.abs(corrections).max() > 0.01
     assert np.allclose(np.array(robot.qpos)[: len(qpos)], qpos, rtol=0, atol=1e-6)
 

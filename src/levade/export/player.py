@@ -12,7 +12,7 @@ methods; arrays are in the order of `Motion.joints`, SI units:
             return position, velocity                           # (joints,) [rad], [rad/s]
 
         def write(self, position, velocity, torque, kp, kd):    # what each drive is to do until the next call:
-            ...                                                 # kp (position - q) + kd (velocity - qd) + torque
+            ...                                                 # kp (position - q) + kd (velocity - qd) + torque; kp may be 0
 
         def read_trunk(self):                                   # only for a motion with a stabiliser:
             return quaternion, rate                             # trunk to world, w x y z; (3,) [rad/s] in trunk axes
@@ -22,10 +22,12 @@ senses, from the first row on; --no-feedback plays it without.
 
 What happens, at the rate of the file: the joints have to be near the start already, or nothing is sent at all; they are led
 from where they are to the start within the ramp, and have to be there; then every row is sent at its time, positions clamped
-to the joints' ranges and torques to their limits. If a joint is further from where the simulation had it than the tolerance
-(in the ramp: from where it is led than the start tolerance), or a reading is not a number, or the loop comes too late, the
-motion is stopped: the drives only damp, for a second. Then it is your controller's turn again. The attitude and height of the
-trunk are not looked at: that is yours to do before.
+to the joints' ranges and torques to their limits; with the last one, and for as long as --hold, the velocity is 0. If a
+joint is further from where the simulation had it than the tolerance (in the ramp: from where it is led than the start
+tolerance), or a reading is not a number, or the loop comes too late, or the program is told to end, the motion is stopped:
+for a second kp is 0 and the position is where the joints were last read, so that drives damp, or stay where they are if they
+know no gains but their own. Then it is your controller's turn again. The attitude and height of the trunk are not looked at:
+that is yours to do before.
 
 Exit status: 0 played to the end, 1 stopped, 2 the input is wrong.
 """
@@ -36,6 +38,7 @@ import argparse
 import csv
 import importlib
 import json
+import signal
 import sys
 import time
 from collections.abc import Callable
@@ -186,6 +189,11 @@ class Motion:
             **arrays,
         )
 
+    def sent(self, row: int, added: Array, clamp: bool) -> Array:
+        """Position to send, (joints,) [rad]: corrections do not take it out of the joints' ranges, nor further out."""
+        told = np.clip(self.position[row], self.lower, self.upper) if clamp else self.position[row]
+        return np.clip(told + added, np.minimum(self.lower, told), np.maximum(self.upper, told))
+
     def clamped(self) -> tuple[Array, Array]:
         """Positions within the joints' ranges and torques within their limits, (rows, joints)."""
         return np.clip(self.position, self.lower, self.upper), np.clip(
@@ -202,6 +210,7 @@ def play(
     tolerance: float = 0.3,
     hold: float = 0.0,
     feedback: bool = True,
+    clamp: bool = True,
     wait: Callable[[float], float] | None = None,
 ) -> float:
     """Play a motion. Returns the largest tracking error [rad]. Raises Stopped, and ValueError of times and tolerances.
@@ -210,56 +219,76 @@ def play(
     from the start before the ramp (else nothing is sent), and in it from where they are led. tolerance: [rad], how far from
     where the simulation had them, from the end of the ramp on. hold: [s], for which the last row is sent on after the end.
     feedback: whether to use the motion's stabiliser, if it has one; the robot then needs ``read_trunk``. The tolerance
-    is wider by the correction in force.
+    is wider by the correction in force. clamp: whether positions are kept within the joints' ranges; without it, they go
+    as far out as they were told in the simulation: for commanded references on drives like the simulated ones.
     wait: called before each tick with its time [s] since the first; returns how late it is [s]. By default the clock.
     """
     for name, value in {"ramp": ramp, "start_tolerance": start_tolerance, "tolerance": tolerance, "hold": hold}.items():
         if not 0.0 <= value < np.inf:
             raise ValueError(f"{name}: {value} should be a number, 0 or more")
     late = wait or clock()
-    zero = np.zeros(len(motion.joints))
-    position, torque = motion.clamped()
+    zero, period = np.zeros(len(motion.joints)), 1.0 / motion.rate
+    torque = motion.clamped()[1]
     correcting = _Correcting(motion, robot) if feedback and motion.feedback is not None else None
     start = np.clip(motion.start_position, motion.lower, motion.upper)
-    present, _ = _read(
-        motion, robot
-    )  # nothing is sent if the motion does not begin: the robot's own controller holds it
+    joints = _Joints(motion, robot)
+    present, _ = joints.read()  # nothing is sent if the motion does not begin: the robot's own controller holds it
     _check(motion, present, motion.start_position, start_tolerance, "before the ramp: bring it near the start first")
-    ticks, worst, led = round(ramp * motion.rate), 0.0, present
+    ticks, rows, holding = round(ramp * motion.rate), len(motion.position), round(hold * motion.rate)
+    worst, led = 0.0, present
     try:
         for tick in range(ticks):
-            _on_time(late(tick / motion.rate), motion.rate)
-            _check(motion, _read(motion, robot)[0], led, start_tolerance, f"in the ramp at {tick / motion.rate:.3f} s")
-            s = (tick + 1) / ticks
-            share = s * s * (3.0 - 2.0 * s)
-            led = present + share * (start - present)
-            robot.write(led, zero, share * motion.start_torque, motion.kp, motion.kd)
-        for row in range(len(position)):
-            _on_time(late((ticks + row) / motion.rate), motion.rate)
-            now, going = _read(motion, robot)
-            added = zero if correcting is None else correcting(row, now, going)
-            when = f"at {row / motion.rate:.3f} s"
-            worst = max(worst, _check(motion, now, motion.expected[row], tolerance + np.abs(added), when))
-            sent = np.clip(position[row] + added, motion.lower, motion.upper)
-            robot.write(sent, motion.velocity[row], torque[row], motion.kp, motion.kd)
-        for tick in range(round(hold * motion.rate)):
-            row = len(position) + tick
-            _on_time(late((ticks + row) / motion.rate), motion.rate)
-            now, going = _read(motion, robot)
-            added = zero if correcting is None else correcting(row, now, going)
-            _check(
-                motion,
-                now,
-                motion.expected[-1],
-                tolerance + np.abs(added),
-                f"in the hold at {tick / motion.rate:.3f} s",
-            )
-            sent = np.clip(position[-1] + added, motion.lower, motion.upper)
-            robot.write(sent, zero, torque[-1], motion.kp, motion.kd)
+            _on_time(late(tick * period), motion.rate)
+            _check(motion, joints.read()[0], led, start_tolerance, f"in the ramp at {tick * period:.3f} s")
+            led = present + _smooth((tick + 1) / ticks) * (start - present)
+            share = _smooth(min(1.0, (tick + 1) * period / HOLDING))
+            joints.write(led, zero, share * motion.start_torque, motion.kp, motion.kd)
+        for tick in range(rows + holding):
+            _on_time(late((ticks + tick) * period), motion.rate)
+            row, holds = min(tick, rows - 1), tick >= rows
+            now, rate = joints.read()
+            added = zero if correcting is None else correcting(tick, now, rate)
+            when = f"in the hold at {(tick - rows) * period:.3f} s" if holds else f"at {tick * period:.3f} s"
+            off = _check(motion, now, motion.expected[row], tolerance + np.abs(added), when)
+            worst = max(worst, 0.0 if holds else off)
+            going = motion.velocity[row] if row < rows - 1 else zero  # the last row ends the motion: nothing follows
+            joints.write(motion.sent(row, added, clamp), going, torque[row], motion.kp, motion.kd)
     except BaseException:
-        _damp(motion, robot, clock() if wait is None else lambda instant: 0.0)
+        _damp(joints, clock() if wait is None else lambda instant: 0.0)
         raise
     return worst
+
+
+HOLDING = 0.02
+"""[s], within which the torque that holds the start comes in: a robot that stands there already would sink without it."""
+
+
+def _smooth(s: float) -> float:
+    """From 0 to 1, beginning and ending at rest."""
+    return s * s * (3.0 - 2.0 * s)
+
+
+class _Joints:
+    """The robot's joints, read and told. Arrays are copied both ways: the robot may go on using its own."""
+
+    def __init__(self, motion: Motion, robot: Robot) -> None:
+        self.motion, self._robot = motion, robot
+        self.position = motion.start_position
+        """Where they were when they were last read, (joints,) [rad]."""
+
+    def read(self) -> tuple[Array, Array]:
+        """Position and velocity, (joints,) each. Raises Stopped if they are not numbers."""
+        position, velocity = (np.array(values, dtype=float) for values in self._robot.read())
+        for what, values in (("position", position), ("velocity", velocity)):
+            if values.shape != (len(self.motion.joints),) or not np.isfinite(values).all():
+                raise Stopped(
+                    f"the robot reads {values.tolist()} as {what}; should be {len(self.motion.joints)} numbers"
+                )
+        self.position = position.copy()
+        return position, velocity
+
+    def write(self, *command: Array) -> None:
+        self._robot.write(*(values.copy() for values in command))
 
 
 class _Correcting:
@@ -294,14 +323,6 @@ class _Correcting:
         return self._last
 
 
-def _read(motion: Motion, robot: Robot) -> tuple[Array, Array]:
-    position, velocity = (np.asarray(values, dtype=float) for values in robot.read())
-    for what, values in (("position", position), ("velocity", velocity)):
-        if values.shape != (len(motion.joints),) or not np.isfinite(values).all():
-            raise Stopped(f"the robot reads {values.tolist()} as {what}; should be {len(motion.joints)} numbers")
-    return position, velocity
-
-
 def _check(motion: Motion, position: Array, expected: Array, tolerance: float | Array, when: str) -> float:
     off = np.abs(position - expected)
     allowed = np.broadcast_to(tolerance, off.shape)
@@ -320,12 +341,16 @@ def _on_time(late: float, rate: float) -> None:
         raise Stopped(f"the loop is {late * 1e3:.0f} ms late; {rate:g} Hz is too fast for it")
 
 
-def _damp(motion: Motion, robot: Robot, wait: Callable[[float], float], seconds: float = 1.0) -> None:
-    """Let the drives only damp, wherever the joints are; readings are not trusted any more."""
+def _damp(joints: _Joints, wait: Callable[[float], float], seconds: float = 1.0) -> None:
+    """Let the drives only damp, wherever the joints are; readings are not trusted any more.
+
+    The position is where the joints were last: a drive that cannot do without its own kp stays there.
+    """
+    motion = joints.motion
     zero = np.zeros(len(motion.joints))
     for tick in range(max(1, round(seconds * motion.rate))):
         wait(tick / motion.rate)
-        robot.write(zero, zero, zero, zero, motion.kd)
+        joints.write(joints.position, zero, zero, zero, motion.kd)
 
 
 def clock() -> Callable[[float], float]:
@@ -369,6 +394,9 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--start-tolerance", type=float, default=0.5, help="from the start, before the ramp [rad]; 0.5")
     parser.add_argument("--tolerance", type=float, default=0.3, help="from the simulation, in the motion [rad]; 0.3")
     parser.add_argument("--no-feedback", action="store_true", help="without the motion's stabiliser")
+    parser.add_argument(
+        "--no-clamp", action="store_true", help="send positions beyond the joints' ranges, too, as told"
+    )
     parser.add_argument("--hold", type=float, default=0.0, help="send the last row for longer [s]; 0")
     options = parser.parse_args(arguments)
     if options.dry_run == (options.robot is not None):
@@ -384,7 +412,8 @@ def main(arguments: list[str] | None = None) -> int:
         print(f"player: {error}", file=sys.stderr)
         return 2
     position, torque = motion.clamped()
-    changed = int((position != motion.position).sum() + (torque != motion.torque).sum())
+    beyond = 0 if options.no_clamp else int((position != motion.position).sum())
+    changed = beyond + int((torque != motion.torque).sum())
     rows = len(motion.position)
     print(f"{rows} rows at {motion.rate:g} Hz for {len(motion.joints)} joints: {', '.join(motion.joints)}")
     if motion.feedback is not None:
@@ -394,6 +423,8 @@ def main(arguments: list[str] | None = None) -> int:
         )
     if changed:
         print(f"{changed} commands of {2 * position.size} are beyond the joints' limits, and are clamped")
+    if beyond and not motion.torque.any():  # commanded references: the torque is in how far out they are
+        print("with them clamped it is not the simulated motion; on drives like the simulated ones: --no-clamp")
     try:
         worst = play(
             motion,
@@ -403,6 +434,7 @@ def main(arguments: list[str] | None = None) -> int:
             tolerance=options.tolerance,
             hold=options.hold,
             feedback=not (options.no_feedback or options.dry_run),
+            clamp=not options.no_clamp,
             wait=(lambda instant: 0.0) if options.dry_run else None,
         )
     except (Stopped, KeyboardInterrupt) as stopped:
@@ -410,6 +442,18 @@ def main(arguments: list[str] | None = None) -> int:
         return 1
     print(f"played to the end; largest tracking error {worst:.4f} rad")
     return 0
+
+
+def _heed_signals() -> None:
+    """Let kill and a lost terminal end the program as Ctrl-C does, with drives that damp; but not if they are to be ignored."""
+
+    def interrupted(number: int, frame: object) -> None:
+        raise KeyboardInterrupt
+
+    for name in ("SIGTERM", "SIGHUP"):
+        number = getattr(signal, name, None)  # Windows has no SIGHUP
+        if number is not None and signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, interrupted)
 
 
 def _load_robot(name: str) -> Any:
@@ -428,4 +472,5 @@ def _load_robot(name: str) -> Any:
 
 
 if __name__ == "__main__":
+    _heed_signals()
     sys.exit(main())
