@@ -9,6 +9,7 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from types import SimpleNamespace
 
 import mujoco
@@ -105,8 +106,12 @@ def test_unitree_by_numpy(rearing: Motion, tmp_path: Path) -> None:
     assert meta["provenance"]["motors"]["FR_0"] == "rf_haa"
     assert meta["joints"][:3] == ["FR_0", "FR_1", "FR_2"]
     assert meta["start"]["position"][0] == rearing["qpos0"][10]
-    # the outward axes of HyQ2Max's left hips are not Unitree's
-    assert [note.split(" of ")[0] for note in done.notes] == ["lf_haa, lh_haa"]
+    # the outward axes of HyQ2Max's left hips are not Unitree's, nor are hind knees that point forward
+    assert [note.split(":")[0] for note in done.notes] == [
+        "of hyq2max, lf_haa, lh_haa do not turn about the axes of Unitree's joints and rh_kfe, lh_kfe bend to positive angles,"
+        " which Unitree's calves have not"
+    ]
+    assert (rearing["joint_position"][:, [names.index(f"{leg}_kfe") for leg in ("lh", "rh")]] > 0).any(axis=0).all()
 
 
 @pytest.mark.parametrize(
@@ -270,10 +275,44 @@ def test_other_files_in_the_directory_stay(rearing: Motion, tmp_path: Path) -> N
 
 
 def test_notes_say_what_the_robot_would_find_out(held: Motion, tmp_path: Path) -> None:
-    assert export(held, "csv", tmp_path).notes == ("the motion does not meet its success criteria",)
+    around = "the motion needs 1 box where its task has it (scene in the provenance); the rows do not say so"
+    assert export(held, "csv", tmp_path).notes == ("the motion does not meet its success criteria", around)
+    meta = json.loads((tmp_path / "meta.json").read_text())
+    assert meta["provenance"]["scene"]["boxes"] == held.meta["task"]["scene"]["boxes"]
     limits = json.loads(json.dumps(held.meta["limits"]))
     limits["upper"][4] = held["joint_position"][:, 4].max() - 0.25
     narrow = replace(held, meta={**held.meta, "limits": limits, "success": True})
     assert export(narrow, "csv", tmp_path).notes == (
+        around,
         "positions to send go beyond the range of rf_hfe, by up to 0.250 rad; player.py clamps them",
     )
+
+
+def test_rates_too_slow_for_a_robot_are_said(rearing: Motion, tmp_path: Path) -> None:
+    slow = "is slow for sending to a robot, for whose motion 200 Hz or more is right"
+    assert export(rearing, "csv", tmp_path, rate=50.0).notes == (f"50 Hz {slow}",)
+    assert export(rearing, "csv", tmp_path, rate=200.0).notes == ()
+    assert (
+        export(rearing, "mjlab", tmp_path).notes == ()
+    )  # its rows are not sent, and player.py's are of the simulation's rate
+
+
+def test_a_directory_in_the_way_leaves_all_as_it_was(rearing: Motion, tmp_path: Path) -> None:
+    (tmp_path / "motion.csv").mkdir()
+    (tmp_path / "meta.json").write_text("mine")
+    with pytest.raises(
+        LevadeError, match=r"motion.csv: is a directory, and a file of that name is to be written; move it"
+    ):
+        export(rearing, "csv", tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["meta.json", "motion.csv"]
+    assert (tmp_path / "meta.json").read_text() == "mine"
+
+
+def test_the_place_may_be_on_another_file_system(rearing: Motion, tmp_path: Path) -> None:
+    other = Path("/dev/shm")
+    if not other.is_dir() or other.stat().st_dev == tmp_path.stat().st_dev:
+        pytest.skip("needs two file systems: /dev/shm is not one of its own here")
+    with TemporaryDirectory(dir=other) as there:
+        (tmp_path / "link").symlink_to(there)
+        export(rearing, "csv", tmp_path / "link")
+        assert sorted(path.name for path in Path(there).iterdir()) == ["meta.json", "motion.csv", "player.py"]

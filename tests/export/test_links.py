@@ -159,3 +159,39 @@ def test_the_urdf_has_limits_and_shapes(like: Samples, rearing_model: mujoco.MjM
         assert root.findall(f"link[@name='lf_lower']/{role}/geometry")
     foot = root.findall("link[@name='lf_lower']/collision/geometry/sphere")
     assert foot, "a foot is a ball"
+
+
+def test_a_mesh_is_the_box_round_it_and_a_link_with_no_visible_geoms_shows_those_that_collide(
+    rearing: Motion, like: Samples
+) -> None:
+    spec = mujoco.MjSpec.from_string(rearing.model_xml)
+    corners = np.array([[0, 0, 0], [0.3, 0, 0], [0, 0.2, 0], [0, 0, 0.1]], dtype=float)
+    spec.add_mesh(name="wedge", uservert=corners.ravel().tolist())
+    place, turn = np.array([0.1, -0.2, 0.3]), np.array([0.8, 0.0, 0.6, 0.0])
+    body = spec.body("lf_hip")
+    for geom in body.geoms:
+        spec.delete(geom)
+    body.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname="wedge", pos=place, quat=turn, group=3)
+    model = spec.compile()
+    root = ElementTree.fromstring(urdf(model, like.joints, "robot"))
+    link = root.find("link[@name='lf_hip']")
+    assert link is not None
+    (visual,), (collision,) = link.findall("visual"), link.findall("collision")
+    boxes = []
+    for part in (visual, collision):
+        origin, box = part.find("origin"), part.find("geometry/box")
+        assert origin is not None
+        assert box is not None
+        boxes.append(
+            (*(np.array(origin.get(key, "").split(), dtype=float) for key in ("xyz", "rpy")), box.get("size", ""))
+        )
+    np.testing.assert_array_equal(boxes[0][0], boxes[1][0])
+    (middle, angles, size), turned = boxes[0], np.zeros(4)
+    mujoco.mju_euler2Quat(turned, angles, "XYZ")  # about fixed axes, as in URDF
+    matrix, given = np.zeros(9), np.zeros(9)
+    mujoco.mju_quat2Mat(matrix, turned)
+    mujoco.mju_quat2Mat(given, turn)
+    inside = (place + corners @ given.reshape(3, 3).T - middle) @ matrix.reshape(3, 3)
+    half = np.array(size.split(), dtype=float) / 2
+    np.testing.assert_allclose(inside.max(axis=0), half, atol=1e-6)
+    np.testing.assert_allclose(inside.min(axis=0), -half, atol=1e-6)

@@ -158,6 +158,13 @@ def test_the_trajectory_in_yaml(rearing: Motion, exported: Path, tmp_path: Path)
     assert all(len(point.effort) == 0 for point in trajectory.points)
 
 
+def test_a_command_of_several_lines_stays_a_comment(rearing: Motion, tmp_path: Path) -> None:
+    export(rearing, "ros2", tmp_path, command="levade export 'a\nb.npz' --to ros2")
+    text = (tmp_path / "joint_trajectory.yaml").read_text()
+    assert "# command: \"levade export 'a\\nb.npz' --to ros2\"\n" in text
+    assert len(yaml.safe_load(text)["points"]) == 151
+
+
 def test_without_mcap_it_says_what_to_install(rearing: Motion, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "mcap.writer", None)
     with pytest.raises(LevadeError, match=r"--to ros2: a bag needs mcap; pip install levade\[ros2\], or take csv"):

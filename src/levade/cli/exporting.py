@@ -79,4 +79,4 @@ def _summary(done: Exported) -> dict[str, object]:
 
 
 def _text(value: object) -> str:
-    return f"{value:g}" if isinstance(value, float) else str(value)
+    return repr(value).removesuffix(".0") if isinstance(value, float) else str(value)

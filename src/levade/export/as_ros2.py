@@ -56,10 +56,14 @@ def write(content: Content, directory: Path) -> list[str]:
     counts = _write_bag(content, bag / "bag_0.mcap")
     times = nanoseconds(content.samples)
     (bag / "metadata.yaml").write_text(_yaml(_metadata(counts, times)), encoding="utf-8")
-    head = "".join(f"# {key}: {value}\n" for key, value in content.provenance.items())
+    head = "".join(f"# {key}: {_in_a_line(value)}\n" for key, value in content.provenance.items())
     (directory / "joint_trajectory.yaml").write_text(head + _yaml(_trajectory(content.samples)), encoding="utf-8")
     as_csv.write(content, directory)
     return []
+
+
+def _in_a_line(value: object) -> str:
+    return value if isinstance(value, str) and value.isprintable() else as_csv.to_json(value)
 
 
 def nanoseconds(samples: Samples) -> list[int]:

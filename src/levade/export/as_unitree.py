@@ -78,9 +78,14 @@ def _notes(model: mujoco.MjModel, order: Mapping[str, str], motion: Motion) -> l
     data.qpos[root_addresses(model, motion.meta["trunk"])[0] + 3] = 1.0
     mujoco.mj_kinematics(model, data)
     other = [joint for k, joint in enumerate(order.values()) if data.joint(joint).xaxis @ AXES[k % 3] < 0.999]
-    if not other:
+    what = [f"{', '.join(other)} do not turn about the axes of Unitree's joints"] if other else []
+    knees = [joint for k, joint in enumerate(order.values()) if k % 3 == 2]
+    angle = dict(zip(motion["joint_names"].tolist(), motion["joint_position"].max(axis=0), strict=True))
+    bent = [joint for joint in knees if angle[joint] > 0]
+    what += [f"{', '.join(bent)} bend to positive angles, which Unitree's calves have not"] if bent else []
+    if not what:
         return []
     return [
-        f"{', '.join(other)} of {motion.meta['robot']} do not turn about the axes of Unitree's joints: the numbers are in"
-        " its order, but the angles are this robot's, and would be another motion on a Unitree robot"
+        f"of {motion.meta['robot']}, {' and '.join(what)}: the numbers are in its order, but the angles are this robot's, and"
+        " would be another motion on a Unitree robot"
     ]

@@ -33,7 +33,7 @@ UNITS = {
 class Content:
     """samples: at the rate asked for. playing: at a rate that a robot can follow; mostly the same.
 
-    provenance: task, robot, seed, versions, command. feedback: the stabiliser, None if there is none to go with the rows.
+    provenance: task, robot, scene, seed, versions, command. feedback: the stabiliser; None if none goes with the rows.
     """
 
     motion: Motion
@@ -45,10 +45,13 @@ class Content:
 
 
 def provenance(motion: Motion, command: str | None) -> dict[str, Any]:
-    """Where a motion came from, and how well it does; JSON."""
+    """Where a motion came from, what it meets, and how well it does; JSON."""
     from levade import __version__
 
     meta = motion.meta
+    scene = dict(meta["task"]["scene"])
+    if scene["terrain"]:  # its heights are in the motion
+        scene["terrain"] = {name: value for name, value in scene["terrain"].items() if name != "heights"}
     return {
         "levade": __version__,
         "command": command,
@@ -61,7 +64,18 @@ def provenance(motion: Motion, command: str | None) -> dict[str, Any]:
         "made_with": dict(meta["versions"]),
         "timestep": meta["timestep"],
         "horizon": meta["horizon"],
+        "scene": scene,
     }
+
+
+def surroundings(motion: Motion) -> str:
+    """What the motion meets beside flat ground, in words; empty if nothing."""
+    scene = motion.meta["task"]["scene"]
+    count = lambda what, plural, items: [f"{len(items)} {what if len(items) == 1 else plural}"] * bool(items)  # noqa: E731
+    parts = count("box", "boxes", scene["boxes"]) + count("gap", "gaps", scene["gaps"])
+    parts += ["terrain"] * bool(scene["terrain"])
+    parts += [f"a slope of {scene['slope']:g} rad"] * bool(scene["slope"])
+    return " and ".join(parts)
 
 
 def describe(samples: Samples, provenance: dict[str, Any], feedback: Feedback | None = None) -> dict[str, Any]:

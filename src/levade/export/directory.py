@@ -23,14 +23,19 @@ def filling(directory: Path) -> Iterator[Path]:
         if not next(path for path in (directory, *directory.absolute().parents) if path.exists()).is_dir():
             raise NotADirectoryError(20, "Not a directory")
         directory.parent.mkdir(parents=True, exist_ok=True)
-        partial = Path(mkdtemp(prefix=f".{directory.name}.", suffix=".partial", dir=directory.parent))
+        near = directory if directory.exists() else directory.parent  # on one file system with it: files move at once
+        partial = Path(mkdtemp(prefix=f".{directory.name}.", suffix=".partial", dir=near))
     except OSError as error:
         raise LevadeError(f"{directory}: cannot be written ({error.strerror}); give a directory that can") from None
     try:
         yield partial
-        for file in sorted(path for path in partial.rglob("*") if path.is_file()):
-            place = directory / file.relative_to(partial)
+        files = sorted(path for path in partial.rglob("*") if path.is_file())
+        places = [directory / file.relative_to(partial) for file in files]
+        for place in places:
+            if place.is_dir():
+                raise LevadeError(f"{place}: is a directory, and a file of that name is to be written; move it away")
             place.parent.mkdir(parents=True, exist_ok=True)
+        for file, place in zip(files, places, strict=True):
             file.replace(place)
     except OSError as error:
         raise LevadeError(

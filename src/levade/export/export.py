@@ -10,11 +10,14 @@ import numpy as np
 
 from levade.errors import LevadeError, did_you_mean
 from levade.export import as_csv, as_json, as_mjlab, as_ros2, as_unitree
-from levade.export.content import Content, provenance
+from levade.export.content import Content, provenance, surroundings
 from levade.export.directory import filling
 from levade.export.samples import Samples, sample
 from levade.feedback import Feedback
 from levade.motion import Motion
+
+SLOW = 200.0
+"""[Hz]: commands that stay in force for longer than 5 ms are no longer those of a motion of tenths of seconds."""
 
 Write = Callable[[Content, Path], list[str]]
 
@@ -119,6 +122,14 @@ def _feedback_notes(motion: Motion, feedback: Feedback | None) -> list[str]:
 def _notes(motion: Motion, samples: Samples) -> list[str]:
     """What the user of the files should know before the robot does."""
     notes = [] if motion.meta["success"] else ["the motion does not meet its success criteria"]
+    if around := surroundings(motion):
+        notes.append(
+            f"the motion needs {around} where its task has it (scene in the provenance); the rows do not say so"
+        )
+    if samples.rate < SLOW:
+        notes.append(
+            f"{samples.rate:g} Hz is slow for sending to a robot, for whose motion {SLOW:g} Hz or more is right"
+        )
     joints = samples.joints
     over = np.maximum(joints.lower - samples.command_position, samples.command_position - joints.upper).max(axis=0)
     if (over > 0).any():

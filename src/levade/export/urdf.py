@@ -1,6 +1,7 @@
 """The robot as URDF, made from its model: links, joints with their limits, inertias, and shapes.
 
-Meshes are left out: a description that travels in a bag cannot bring files along. Frames are those of `levade.export.links`.
+A mesh is the box round it: a description that travels in a bag cannot bring files along. Frames are those of
+`levade.export.links`.
 """
 
 from __future__ import annotations
@@ -17,6 +18,8 @@ from levade.trajectory import Array, roll_pitch_yaw, rotate
 _NO_LIMIT = 1e9
 """URDF wants an effort and a velocity for every joint: where the robot gives none, more than any joint has."""
 
+_GREY = (0.5, 0.5, 0.5, 1.0)
+
 
 def urdf(model: mujoco.MjModel, joints: Joints, name: str) -> str:
     """URDF of the robot in a model, without the scene."""
@@ -26,8 +29,10 @@ def urdf(model: mujoco.MjModel, joints: Joints, name: str) -> str:
         element = xml.SubElement(root, "link", name=link.name)
         if link.body is not None:
             _inertial(element, model, link)
-            for geom in np.flatnonzero(model.geom_bodyid == link.body):
-                _shapes(element, model, int(geom), link.shift)
+            geoms = [int(geom) for geom in np.flatnonzero(model.geom_bodyid == link.body)]
+            seen = [geom for geom in geoms if _seen(model, geom)]
+            for geom in geoms:
+                _shapes(element, model, geom, link.shift, seen=geom in seen or not seen)
     for link in links:
         if link.parent is not None:
             _joint(root, model, joints, link, links[link.parent].name)
@@ -46,8 +51,13 @@ def _inertial(element: xml.Element, model: mujoco.MjModel, link: Link) -> None:
     xml.SubElement(inertial, "inertia", ixx=ixx, iyy=iyy, izz=izz, ixy="0", ixz="0", iyz="0")
 
 
-def _shapes(element: xml.Element, model: mujoco.MjModel, geom: int, shift: Array) -> None:
-    """A geom as visual, and as collision if it takes part in any; a capsule is a cylinder and two balls."""
+def _seen(model: mujoco.MjModel, geom: int) -> bool:
+    """Whether MuJoCo's viewers show it at first."""
+    return bool(model.geom_group[geom] <= 2 and model.geom_rgba[geom, 3] > 0)
+
+
+def _shapes(element: xml.Element, model: mujoco.MjModel, geom: int, shift: Array, *, seen: bool) -> None:
+    """A geom as visual if it is seen, and as collision if it takes part in any; a capsule is a cylinder and two balls."""
     kind, size = model.geom_type[geom], model.geom_size[geom]
     place, quaternion = shift + model.geom_pos[geom], model.geom_quat[geom]
     sorts = mujoco.mjtGeom
@@ -63,16 +73,20 @@ def _shapes(element: xml.Element, model: mujoco.MjModel, geom: int, shift: Array
         parts = [(bar, place), (ball, place + end), (ball, place - end)]
     elif kind == sorts.mjGEOM_BOX:
         parts = [(("box", {"size": " ".join(_text(2 * edge) for edge in size)}), place)]
+    else:
+        middle, half = model.geom_aabb[geom, :3], model.geom_aabb[geom, 3:]
+        box = {"size": " ".join(_text(2 * edge) for edge in half)}
+        parts = [(("box", box), place + rotate(quaternion, middle))]
     collides = bool(model.geom_contype[geom] or model.geom_conaffinity[geom])
-    seen = model.geom_group[geom] <= 2 and model.geom_rgba[geom, 3] > 0  # what MuJoCo's viewers show at first
-    for role in ["visual"] * bool(seen) + ["collision"] * collides:
+    for role in ["visual"] * seen + ["collision"] * collides:
         for (shape, attributes), position in parts:
             part = xml.SubElement(element, role)
             _origin(part, position, quaternion)
             xml.SubElement(xml.SubElement(part, "geometry"), shape, attributes)
             if role == "visual":
                 colour = xml.SubElement(part, "material", name=f"colour{geom}")
-                xml.SubElement(colour, "color", rgba=" ".join(_text(value) for value in model.geom_rgba[geom]))
+                rgba = model.geom_rgba[geom] if model.geom_rgba[geom, 3] > 0 else _GREY
+                xml.SubElement(colour, "color", rgba=" ".join(_text(value) for value in rgba))
 
 
 def _joint(root: xml.Element, model: mujoco.MjModel, joints: Joints, link: Link, parent: str) -> None:
