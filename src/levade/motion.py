@@ -69,6 +69,9 @@ ARRAYS: dict[str, tuple[str, ...]] = {
 bytes.
 """
 
+LATER_ARRAYS: dict[str, tuple[str, ...]] = {"joint_position_reference0": ("joints",)}
+"""Arrays that files of earlier versions lack."""
+
 
 META = (
     *(
@@ -145,7 +148,7 @@ class Motion:
 
     def stabilised(self, feedback: Feedback | None, **about: Any) -> Motion:
         """The same motion with a stabiliser, or without. about: what its meta says beside what it is."""
-        arrays = {name: self.arrays[name] for name in ARRAYS}
+        arrays = {name: self.arrays[name] for name in (*ARRAYS, *LATER_ARRAYS) if name in self.arrays}
         meta = {key: value for key, value in self.meta.items() if key != "feedback"}
         if feedback is not None:
             arrays |= feedback.arrays()
@@ -221,7 +224,8 @@ class Motion:
         if "feedback" in meta:
             _check_feedback(path, meta["feedback"], content)
         assets = {name[6:]: content[name].tobytes() for name in content if name.startswith("asset:")}
-        kept = [*ARRAYS, *(FEEDBACK_ARRAYS if "feedback" in meta else ())]
+        later = (name for name in LATER_ARRAYS if name in content)
+        kept = [*ARRAYS, *later, *(FEEDBACK_ARRAYS if "feedback" in meta else ())]
         return cls(meta, str(content["model_xml"]), {name: content[name] for name in kept}, assets)
 
 
@@ -244,6 +248,7 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
         "ctrl": engine.ctrl(reference)[0],
         "time": trajectories.time,
         "joint_names": np.array(objective.robot.joint_names),
+        "joint_position_reference0": state.joint_reference,
         "joint_position_reference": reference.position[0],
         "joint_velocity_reference": reference.velocity[0],
         "joint_position": trajectories.joint_position[0],
@@ -301,7 +306,7 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
         "trials_to_success": solution.trials_to_success,
         "stopped": solution.stopped,
     }
-    arrays = {name: np.ascontiguousarray(arrays[name]).copy() for name in ARRAYS}
+    arrays = {name: np.ascontiguousarray(arrays[name]).copy() for name in (*ARRAYS, *LATER_ARRAYS)}
     return Motion(meta, engine.xml, arrays, dict(engine.assets))
 
 
@@ -346,7 +351,8 @@ def _finite(limit: Array) -> list[float | None]:
 
 def _check_shapes(path: Path, content: Mapping[str, Array]) -> None:
     """Every array has as many dimensions as it should, and dimensions of one name agree."""
-    _check_arrays(path, content, ARRAYS, {"3": 3, "4": 4})
+    later = {name: shape for name, shape in LATER_ARRAYS.items() if name in content}
+    _check_arrays(path, content, {**ARRAYS, **later}, {"3": 3, "4": 4})
 
 
 def _check_feedback(path: Path, meta: Any, content: Mapping[str, Array]) -> None:

@@ -92,12 +92,29 @@ class Names:
             for name, leg in meta["legs"].items()
             if "geometry" in leg
         )
+        stall_torque, no_load_speed = _lines(motion, self.joint_names)
         self.limits = JointLimits(
             lower=_limit(meta["limits"]["lower"], -np.inf),
             upper=_limit(meta["limits"]["upper"], np.inf),
             velocity=_limit(meta["limits"]["velocity"], np.inf),
             torque=_limit(meta["limits"]["torque"], np.inf),
+            stall_torque=stall_torque,
+            no_load_speed=no_load_speed,
         )
+
+
+def _lines(motion: Motion, joint_names: tuple[str, ...]) -> tuple[Array, Array] | tuple[None, None]:
+    """Stall torque [Nm] and no-load speed [rad/s], (joints,) each, of the actuators in the motion's model; infinite for those
+    that have none, None if no one has.
+    """
+    model, lines = motion.compiled(), np.full((2, len(joint_names)), np.inf)
+    for i, name in enumerate(joint_names):
+        actuator = model.actuator(name).id
+        if model.actuator_gaintype[actuator] == mujoco.mjtGain.mjGAIN_DCMOTOR:
+            resistance, constant, voltage = (float(model.actuator_gainprm[actuator, k]) for k in (0, 1, 7))
+            if resistance > 0 and constant > 0 and voltage > 0:
+                lines[:, i] = voltage * constant / resistance, voltage / constant
+    return (lines[0], lines[1]) if np.isfinite(lines).any() else (None, None)
 
 
 def _limit(values: Sequence[float | None], none: float) -> Array:

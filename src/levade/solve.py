@@ -43,6 +43,8 @@ BESIDE_BOUND = 0.015
 """[SI: m, rad, ...], as far inside a bound as the middle of a tolerance is inside the tolerance."""
 
 
+_AROUND = 1
+"""Keeps the numbers drawn around a motion to start from apart from those of the next attempt."""
 _AT_ONCE = 20
 """Models together on which a candidate is simulated through the hold."""
 
@@ -147,12 +149,14 @@ class Objective:
         """
         full = self.task.hold_steps
         hold_steps = full if hold_steps is None else hold_steps
-        result = self._judge(self.rollout(weights, hold_steps=hold_steps), skip_hold=full > 0 == hold_steps)
+        result = self._judge(self.rollout(weights, hold_steps=hold_steps), hold_steps)
         if hold_steps < full and not through:
             result.success[:] = False
         elif hold_steps < full:
-            for trial in np.flatnonzero(result.success):
-                result.success[trial] = self._judge(self.rollout(weights[trial : trial + 1])).success[0]
+            verified = np.flatnonzero(result.success)
+            for trial in verified:
+                result.success[trial] = self._judge(self.rollout(weights[trial : trial + 1]), full).success[0]
+            result = replace(result, verified=len(verified) if models is not None else 0)
         return result if models is None else self._on_models(result, weights, hold_steps, models, race)
 
     def cost(self, evaluation: Evaluation, weights: Mapping[str, float]) -> Array:
@@ -187,7 +191,7 @@ class Objective:
 
         def run(samples: Samples, trials: NDArray[np.intp], columns: NDArray[np.intp], steps: int) -> None:
             reference = self.policy.reference(weights, hold_steps=steps)
-            judge = partial(self._judge, skip_hold=full > 0 == steps)
+            judge = partial(self._judge, hold_steps=steps)
             sampler.rollouts(samples, models, reference, (trials, columns), bodies=self._bodies, judge=judge)
 
         samples, columns = Samples.none(self.terms, len(weights), len(models)), np.arange(len(models))
@@ -197,8 +201,7 @@ class Objective:
         if race is not None and first < len(models):
             order = np.argsort(self.cost(result, race), kind="stable")
             run(samples, np.sort(order[: robust.kept(len(weights))]), columns[first:], hold_steps)
-        success = nominal.success & robust.enough(samples.share)
-        verified = 0
+        success, verified = nominal.success & robust.enough(samples.share), nominal.verified
         for trial in np.flatnonzero(success) if hold_steps < full else ():
             whole = Samples.none(self.terms, len(weights), len(models))
             for first in range(0, len(models), _AT_ONCE):  # no more of them than it takes to tell
@@ -210,11 +213,16 @@ class Objective:
                     break
         return replace(result, success=success, verified=verified)
 
-    def _judge(self, trajectories: Trajectories, *, skip_hold: bool = False) -> Evaluation:
+    def _judge(self, trajectories: Trajectories, hold_steps: int) -> Evaluation:
+        """hold_steps: how much of the hold was simulated. With none, nothing that looks at it is known; with a part, costs and
+        criteria look at that, but for criteria of the end, which may be met only there.
+        """
         terms, criteria, n = self.terms, self.task.success, trajectories.n
-        if skip_hold:
+        if 0 == hold_steps < self.task.hold_steps:
             terms = {name: term for name, term in terms.items() if not looks_at_hold(term)}
             criteria = {name: criterion for name, criterion in criteria.items() if not looks_at_hold(criterion)}
+        elif hold_steps < self.task.hold_steps:
+            criteria = {name: criterion for name, criterion in criteria.items() if criterion.at != "end"}
         values, met = evaluate(terms, trajectories), ~trajectories.diverged
         unknown = np.full(n, np.nan)
         judged = {name: criterion.judge(trajectories) for name, criterion in criteria.items()}
@@ -545,7 +553,7 @@ def solve(
             _enter(search, objective, stages[search.stage], optimizer)
             _forget_costs(optimizer, task, hold=search.hold_steps != before[0])
             if (search.hold_steps, search.robust) != before:
-                _reconsider(search, objective, weights, search.hold_steps)
+                search.trials += _reconsider(search, objective, weights, search.hold_steps)
             if search.robust:
                 search.best = _better(search.kept, search.best)
     except KeyboardInterrupt:
@@ -556,8 +564,10 @@ def solve(
         search.best = min(search.starts, key=_rank)
     if search.hold_steps != task.hold_steps or search.robust != (task.robust is not None):
         search.robust = task.robust is not None
-        _reconsider(search, objective, weights, task.hold_steps)
+        search.trials += _reconsider(search, objective, weights, task.hold_steps)
     assert search.best is not None
+    if search.trials_to_success is None and search.best.success:  # as it turns out at the end
+        search.trials_to_success = search.trials
     return Solution(
         best=_better(search.kept, search.best),
         trials=search.trials,
@@ -571,7 +581,9 @@ def solve(
 
 
 def make_optimizer(objective: Objective, seed: int, *, attempt: int = 0, mean: Array | None = None) -> Optimizer:
-    """The task's optimizer, around the objective's initial weights, or a mean (d,); each attempt draws other numbers."""
+    """The task's optimizer, around the objective's initial weights, or a mean (d,); each attempt draws other numbers, and
+    others around a mean.
+    """
     search = objective.task.search
     own: dict[str, Any] = dict(search.settings)
     if takes(search.optimizer, "ending"):
@@ -585,7 +597,7 @@ def make_optimizer(objective: Objective, seed: int, *, attempt: int = 0, mean: A
             objective.initial_weights if mean is None else mean,
             factor=objective.factor,
             step=search.step,
-            seed=(seed, attempt) if attempt else seed,
+            seed=seed if not attempt else (seed, attempt) if mean is None else (seed, attempt, _AROUND),
             population=search.population,
             **own,
         )
@@ -628,11 +640,16 @@ def _missed(task: Task, evaluation: Evaluation) -> Array:
 def _enter(search: _Search, objective: Objective, stage: Stage, optimizer: Optimizer) -> None:
     search.stage_trials = 0
     task = objective.task
-    share = stage.hold * task.hold_steps if isinstance(stage.hold, bool) else stage.hold / task.physics.timestep
-    search.hold_steps = min(round(share), task.hold_steps)
+    search.hold_steps = _hold_steps(task, stage)
     search.robust = task.robust is not None and stage.robust
     if stage.step != 1.0:
         optimizer.scale_step(stage.step)
+
+
+def _hold_steps(task: Task, stage: Stage) -> int:
+    """How much of the hold a stage simulates."""
+    share = stage.hold * task.hold_steps if isinstance(stage.hold, bool) else stage.hold / task.physics.timestep
+    return min(round(share), task.hold_steps)
 
 
 def _hopeless(task: Task, search: _Search) -> bool:
@@ -701,17 +718,17 @@ def _better(one: Trial | None, other: Trial) -> Trial:
 
 
 def _most(search: _Search, task: Task, optimizer: Optimizer) -> int:
-    """Trials that a generation may take; one that has to be looked at more closely takes a few more."""
+    """Trials that a generation may take, and looking at the best once more after it."""
     if task.robust is None:
         return optimizer.population
     validated = 1 + task.robust.fixed
     if not search.robust:
-        return optimizer.population + (validated if task.robust.starts > 1 else 0)
+        partial_hold = any(_hold_steps(task, stage) < task.hold_steps for stage in task.stages if stage.robust)
+        return optimizer.population + validated * ((task.robust.starts > 1) + 1 + partial_hold)
+    through = validated if search.hold_steps < task.hold_steps else 0  # of a contender, through the whole hold
     if task.robust.redraw == "never":
-        validated = 0
-    elif search.hold_steps < task.hold_steps:
-        validated += task.robust.fixed
-    return task.robust.rollouts(optimizer.population) + validated
+        return task.robust.rollouts(optimizer.population) + optimizer.population * through + through
+    return task.robust.rollouts(optimizer.population) + validated + through + through
 
 
 def _try(
@@ -818,21 +835,33 @@ def _trial(candidate: Array, cost: float, evaluation: Evaluation, i: int) -> Tri
 def _weigh_anew(search: _Search, objective: Objective, weights: Mapping[str, float]) -> None:
     """What the best trial costs by other weights: those that it will be compared with are weighed by them, too."""
 
-    def weighed(trial: Trial) -> Trial:
-        one = {name: np.array([value]) for name, value in trial.terms.items()}
-        diverged = np.array([any(value >= DIVERGED for value in trial.terms.values())])
-        cost = objective.cost(Evaluation(one, {}, np.array([trial.success]), diverged), weights)
-        return replace(trial, cost=float(cost[0]))
+    def weighed(trial: Trial | None, hold_steps: int) -> Trial | None:
+        if trial is None:
+            return None
+        if trial.share is not None:  # its cost is one of many roll-outs
+            on_models = replace(search, robust=True)
+            evaluation = _try(on_models, objective, trial.weights[None], hold_steps=hold_steps)
+        else:
+            one = {name: np.array([value]) for name, value in trial.terms.items()}
+            diverged = np.array([any(value >= DIVERGED for value in trial.terms.values())])
+            evaluation = Evaluation(one, {}, np.array([trial.success]), diverged)
+        return replace(trial, cost=float(objective.cost(evaluation, weights)[0]))
 
-    search.best, search.kept = (None if trial is None else weighed(trial) for trial in (search.best, search.kept))
-    search.starts = [weighed(start) for start in search.starts]
+    full = objective.task.hold_steps
+    search.best = weighed(search.best, search.hold_steps if search.robust else full)
+    search.kept = weighed(search.kept, _hold_steps(objective.task, objective.task.stages[-1]))
+    search.starts = [start for start in (weighed(start, full) for start in search.starts) if start is not None]
 
 
-def _reconsider(search: _Search, objective: Objective, weights: Mapping[str, float], hold_steps: int) -> None:
-    """Simulate the best trial through as much of the hold as those that it will be compared with."""
+def _reconsider(search: _Search, objective: Objective, weights: Mapping[str, float], hold_steps: int) -> int:
+    """Simulate the best trial through as much of the hold as those that it will be compared with, and on the same models.
+
+    Returns how many trials that was: of one model none, as it was one already.
+    """
     best = search.best
     assert best is not None
     candidate = best.weights[None]
     evaluation = _try(search, objective, candidate, hold_steps=hold_steps)
     search.best = None  # only now: whoever interrupts the simulation keeps the best
     _keep_best(search, objective, candidate, evaluation, weights)
+    return 0 if evaluation.samples is None else evaluation.trials

@@ -11,7 +11,7 @@ SI units; quaternions w-x-y-z; joint order is the robot's.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -28,12 +28,14 @@ class JointReference:
     velocity: (n, steps, joints) [rad/s], its analytic time derivative.
     timestep: [s].
     horizon_steps: number of rows up to the horizon T; later rows are the hold.
+    before: (joints,) [rad], what the joints were told until the first row came, at rest; None where it is not known.
     """
 
     position: Array
     velocity: Array
     timestep: float
     horizon_steps: int
+    before: Array | None = None
 
     @property
     def steps(self) -> int:
@@ -41,7 +43,7 @@ class JointReference:
 
     def __getitem__(self, trials: slice | NDArray[np.integer | np.bool_] | list[int]) -> JointReference:
         """The same reference for a subset of the trials."""
-        return JointReference(self.position[trials], self.velocity[trials], self.timestep, self.horizon_steps)
+        return replace(self, position=self.position[trials], velocity=self.velocity[trials])
 
 
 @dataclass(frozen=True)

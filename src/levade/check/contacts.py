@@ -71,10 +71,20 @@ def poses(subject: Subject) -> tuple[Array, list[Collision], Array]:
     return centres, sorted(collisions, key=lambda one: -one.depth), normals
 
 
-def landings(subject: Subject, centres: Array, normals: Array) -> list[Landing]:
-    """Every time that a foot without force comes to bear some, by the file's forces; nothing at the start."""
-    motion, step = subject.motion, subject.timestep
-    loaded = np.linalg.norm(motion["foot_contact_force"], axis=-1) > 0
+def scene_forces(subject: Subject, normals: Array) -> Array:
+    """(steps, feet) [N]: the file's forces on the feet where they touch the scene, else 0.
+
+    The file has those of the robot's own parts, too; a foot that touches both at once keeps both.
+    """
+    known = np.asarray(np.isfinite(normals).all(axis=-1))
+    touches = known.copy()
+    touches[1:] |= known[:-1]  # forces of a row act during its step, contacts are those at its end
+    return np.where(touches, np.linalg.norm(subject.motion["foot_contact_force"], axis=-1), 0.0)
+
+
+def landings(subject: Subject, centres: Array, normals: Array, force: Array) -> list[Landing]:
+    """Every time that a foot without force (steps, feet) comes to bear some; nothing at the start."""
+    motion, step, loaded = subject.motion, subject.timestep, force > 0
     first = loaded[1:] & ~loaded[:-1]
     found = []
     for row, foot in zip(*np.nonzero(first), strict=True):
@@ -84,8 +94,7 @@ def landings(subject: Subject, centres: Array, normals: Array) -> list[Landing]:
             continue
         velocity = (centres[before, foot] - centres[before - 1, foot]) / step
         out = normals[before : before + 2, foot]
-        known = out[np.isfinite(out).all(axis=-1)]
-        normal = known[-1] if len(known) else np.array([0.0, 0.0, 1.0])
+        normal = out[np.isfinite(out).all(axis=-1)][-1]
         speed = max(0.0, -float(velocity @ normal))
         found.append(Landing(subject.names.feet[foot], float(motion["time"][row]), speed))
     return found

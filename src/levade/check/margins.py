@@ -6,10 +6,9 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-import mujoco
 import numpy as np
 
-from levade.check.contacts import landings, poses
+from levade.check.contacts import landings, poses, scene_forces
 from levade.check.demands import Demands
 from levade.check.subject import Subject
 from levade.errors import LevadeError
@@ -18,7 +17,6 @@ from levade.trajectory import Array, TorqueCurve
 
 _ROUNDING = 1e-6
 """Of a limit: a torque that the engine holds at its limit is at it, not beyond."""
-_DCMOTOR = int(mujoco.mjtGain.mjGAIN_DCMOTOR)
 GRAVITY = 9.81
 """[m/s2], for forces in weights of the robot."""
 
@@ -130,22 +128,14 @@ def _most(
 
 def _torque_speed(subject: Subject, required: float | None) -> Margin:
     """What is left of the line from stall torque to no-load speed, while driving; braking has the constant limit alone."""
-    model, joints = subject.model, subject.names.joint_names
+    limits, joints = subject.names.limits, subject.names.joint_names
     torque, speed = subject.motion["joint_torque"], subject.motion["joint_velocity"]
-    left = np.full(len(joints), np.inf)
-    for i, name in enumerate(joints):
-        actuator = model.actuator(name).id
-        if model.actuator_gaintype[actuator] != _DCMOTOR:
-            continue
-        resistance, constant, voltage = (float(model.actuator_gainprm[actuator, k]) for k in (0, 1, 7))
-        if not (resistance > 0 and constant > 0 and voltage > 0):
-            continue
-        stall, no_load = voltage * constant / resistance, voltage / constant
-        driving = torque[:, i] * speed[:, i] > 0
+    left = np.full(len(joints), np.nan)
+    if limits.stall_torque is not None:
         # as a share of the stall torque: near the no-load speed a share of what the line leaves there would mean nothing
-        beyond = np.abs(torque[:, i]) / stall - (1 - np.abs(speed[:, i]) / no_load)
-        left[i] = -np.where(driving, beyond, -np.inf).max()
-    left[left == np.inf] = np.nan
+        least = np.where(torque * speed > 0, limits.torque_speed_left(torque, speed), np.inf).min(axis=0)
+        known = np.isfinite(least) & np.isfinite(limits.stall_torque)
+        left[known] = least[known]
     return _least("share of stall torque", joints, left, required, reason=_no_line(left))
 
 
@@ -204,9 +194,10 @@ def _energy(power: Array, timestep: float) -> dict[str, float]:
 
 def _contacts(subject: Subject, demands: Demands) -> dict[str, Margin]:
     """Forces on the feet, their impacts, and what of the robot touches itself."""
-    motion, feet = subject.motion, subject.names.feet
+    feet = subject.names.feet
     weight = float(subject.model.body_mass.sum()) * GRAVITY
-    force = np.linalg.norm(motion["foot_contact_force"], axis=-1)
+    centres, collisions, normals = poses(subject)
+    force = scene_forces(subject, normals)
     bearing = force > 0
     mean = force.sum(axis=0) / np.maximum(bearing.sum(axis=0), 1)
     foot_force = _most(
@@ -219,8 +210,7 @@ def _contacts(subject: Subject, demands: Demands) -> dict[str, Margin]:
             "robot_weight_N": weight,
         },
     )
-    centres, collisions, normals = poses(subject)
-    landed = landings(subject, centres, normals)
+    landed = landings(subject, centres, normals, force)
     hardest = {foot: max((one.speed for one in landed if one.foot == foot), default=None) for foot in feet}
     impact = _most(
         "m/s",

@@ -19,6 +19,8 @@ from levade.trajectory import Array, JointReference
 
 _AT_ONCE = 64
 """Runs simulated together: what they record has to fit into memory."""
+_SENSING = 7933
+"""Keeps the sensors' errors apart from what is drawn with the same seed."""
 _CORNERS = 8
 """Runs with one parameter alone at the ends of its range."""
 
@@ -57,8 +59,9 @@ class Perturbed:
     """What came of the perturbed runs.
 
     low, high: of the share, Wilson's interval at 95 %. errors: criterion -> lowest, mean and highest error [SI], and in how
-    many runs it was missed. timestep: [s]. diverged: runs whose simulation broke down. worst: the run that misses by the most
-    times its tolerance: its number, errors, and the parameters' values. sensitivity: in order, strongest first.
+    many runs it was missed. timestep: [s]. diverged: runs whose simulation broke down. worst: of the runs that fail, if any,
+    the one that misses by the most times its tolerance: its number, errors, and the parameters' values. sensitivity: in
+    order, strongest first.
     """
 
     runs: int
@@ -125,7 +128,7 @@ def perturbed(
         first += len(corner)
     successes = int(drawn.success.sum())
     low, high = wilson(successes, runs)
-    worst = int(np.argmax(drawn.miss))
+    worst = int(np.lexsort((-drawn.miss, drawn.success))[0])
     sound = ~drawn.diverged
     return Perturbed(
         runs=runs,
@@ -157,7 +160,7 @@ def perturbed(
 
 @dataclass(frozen=True, eq=False)
 class Judged:
-    """n runs. miss: (n,) the largest error, in tolerances."""
+    """n runs. miss: (n,) the largest error, in tolerances; of a criterion with a bound, as a share of that."""
 
     errors: Mapping[str, Array]
     success: NDArray[np.bool_]
@@ -192,7 +195,7 @@ def judge(
         wrong = None
         if feedback is not None:
             ticks = -(-reference.steps // feedback.steps(reference.timestep))
-            wrong = SensorErrors().draw(_AT_ONCE, ticks, ensemble.joints, seed=(seed, first))[: len(part)]
+            wrong = SensorErrors().draw(_AT_ONCE, ticks, ensemble.joints, seed=(seed, first, _SENSING))[: len(part)]
         variations = ensemble.vary(subject.start, part)
         trajectories = ensemble.rollout(variations, reference, feedback=feedback, sensor_errors=wrong)
         parts.append((errors(criteria, trajectories), success(criteria, trajectories), trajectories.diverged))
@@ -200,7 +203,8 @@ def judge(
     met, diverged = (np.concatenate([part[i] for part in parts]) for i in (1, 2))
     miss = np.zeros(len(met))
     for name, criterion in criteria.items():
-        np.maximum(miss, np.abs(off[name]) / (criterion.tolerance or 1.0), out=miss)
+        bound = next((abs(end) for end in (criterion.minimum, criterion.maximum) if end), 1.0)
+        np.maximum(miss, np.abs(off[name]) / (criterion.tolerance or bound), out=miss)
     miss[diverged] = DIVERGED
     return Judged(off, met, diverged, miss)
 

@@ -69,6 +69,7 @@ class Subject:
             motion["joint_velocity_reference"][None],
             self.timestep,
             motion.horizon_steps,
+            motion.arrays.get("joint_position_reference0"),
         )
 
     @cached_property
@@ -98,10 +99,11 @@ class Subject:
             hold=(self.reference.steps - rows) * self.timestep,
         )
         if self.robot is not None:
-            coarse = make_policy(self.task, self.robot).reference(self.motion["weights"][None])
+            before, weights = self.reference.before, self.motion["weights"][None]
+            coarse = make_policy(self.task, self.robot, start=before).reference(weights)
             if np.array_equal(coarse.position, self.reference.position):
-                fine = make_policy(task, self.robot)
-                return fine.reference(self.motion["weights"][None]), "policy"
+                fine = make_policy(task, self.robot, start=before).reference(weights)
+                return replace(fine, before=before), "policy"
         return interpolated(self.reference, parts), "interpolation"
 
 
@@ -128,4 +130,5 @@ def interpolated(reference: JointReference, parts: int) -> JointReference:
         np.concatenate([rate / step, hold[1]], axis=1),
         step / parts,
         rows * parts,
+        reference.before,
     )

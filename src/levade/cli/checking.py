@@ -49,7 +49,7 @@ def check_motion(
     motion = Motion.load(path)
     perturbation = changed(Perturbation(), perturb, option="--perturb")
     demands = changed(Demands(), demand, option="--demand")
-    task = None if criteria is None else load_task(criteria)
+    task = None if criteria is None else load_task(criteria, robot=motion.meta["task"]["robot"]["name"])
     place = nullcontext(None) if out is None else writing(out, instead="give a path that can: --out FILE")
     with place as file:  # whatever cannot be written is said before the work
         with stop_between() as stopping:

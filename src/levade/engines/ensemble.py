@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import mujoco
 import numpy as np
@@ -21,11 +21,10 @@ from mujoco.batch import Batch
 from numpy.typing import NDArray
 
 from levade.engines.engine import Layout
-from levade.engines.perturbation import Sample, obstacles
+from levade.engines.perturbation import Sample, ground, obstacles
 from levade.engines.simulating import RESET_OFF, SENSORS_OFF, STATE, quiet, simulate
 from levade.engines.stance import Stance, product, quaternion
 from levade.feedback import Correcting, Feedback, sensed
-from levade.scenes import GROUND
 from levade.trajectory import Array, JointLimits, JointReference, LegGeometry, Trajectories, rotate
 
 Start = tuple[Array, Array, Array]
@@ -220,7 +219,7 @@ class Ensemble:
         fields["body_mass"] *= values["mass"]
         fields["body_inertia"] *= (values["mass"] * values["inertia"])[:, :, None]
         fields["body_ipos"][:, trunk] += values["com"]
-        fields["geom_pos"][:, self._ground(), 2] += values["ground_height"]
+        fields["geom_pos"][:, ground(model), 2] += values["ground_height"]
         for i, geom in enumerate(obstacles(model)):
             fields["geom_pos"][:, geom] += values["obstacle"][:, 3 * i : 3 * i + 3]
         gain, bias = fields["actuator_gainprm"], fields["actuator_biasprm"]
@@ -237,10 +236,6 @@ class Ensemble:
                 bias[:, actuator, _PID_KP] *= kp
                 bias[:, actuator, _PID_KD] *= kd
         return fields
-
-    def _ground(self) -> list[int]:
-        model = self.model
-        return [i for i in range(model.ngeom) if model.geom_bodyid[i] == 0 and model.geom(i).name == GROUND]
 
     def _stance_at(self, start: Start) -> Stance:
         """How the robot touches the scene at the start; the last one is kept."""
@@ -270,16 +265,16 @@ def repeated(reference: JointReference, n: int) -> JointReference:
     if len(reference.position) == n:
         return reference
     shape = (n, *reference.position.shape[1:])
-    return JointReference(
-        np.broadcast_to(reference.position, shape),
-        np.broadcast_to(reference.velocity, shape),
-        reference.timestep,
-        reference.horizon_steps,
+    return replace(
+        reference,
+        position=np.broadcast_to(reference.position, shape),
+        velocity=np.broadcast_to(reference.velocity, shape),
     )
 
 
 def delayed(reference: JointReference, delay: Array) -> JointReference:
-    """The same reference, late by (n,) [s], between rows in proportion; before it comes, its first angles at rest.
+    """The same reference, late by (n,) [s], between rows in proportion; until it comes, what the joints were told before,
+    at rest: its first angles where that is not known.
 
     reference: of one trial or of n.
     """
@@ -295,12 +290,10 @@ def delayed(reference: JointReference, delay: Array) -> JointReference:
     now, before = np.maximum(rows, 0), np.maximum(rows - 1, 0)
     at_rest = [(index < 0)[:, :, None] for index in (rows, rows - 1)]
     v0, v1 = (np.where(rest, 0.0, velocity[trial, row]) for rest, row in zip(at_rest, (now, before), strict=True))
-    return JointReference(
-        (1 - part) * position[trial, now] + part * position[trial, before],
-        (1 - part) * v0 + part * v1,
-        reference.timestep,
-        reference.horizon_steps,
-    )
+    p0, p1 = (position[trial, row] for row in (now, before))
+    if reference.before is not None:
+        p0, p1 = (np.where(rest, reference.before, p) for rest, p in zip(at_rest, (p0, p1), strict=True))
+    return replace(reference, position=(1 - part) * p0 + part * p1, velocity=(1 - part) * v0 + part * v1, before=None)
 
 
 def _tilt(

@@ -20,7 +20,7 @@ import mujoco
 import numpy as np
 
 from levade.errors import LevadeError
-from levade.scenes import GROUND
+from levade.scenes import GROUND, PLATFORM
 from levade.trajectory import Array
 
 Range = tuple[float, float] | None
@@ -243,9 +243,16 @@ def joined(samples: list[Sample]) -> Sample:
     return Sample({name: np.concatenate([s.values[name] for s in samples]) for name in samples[0].values})
 
 
+def ground(model: mujoco.MjModel) -> list[int]:
+    """Geoms of the scene that the robot stands on where there is no obstacle: beside gaps, platforms are."""
+    names = {i: model.geom(i).name for i in range(model.ngeom) if model.geom_bodyid[i] == 0}
+    return [i for i, name in names.items() if name == GROUND or name.startswith(PLATFORM)]
+
+
 def obstacles(model: mujoco.MjModel) -> list[int]:
     """Geoms of the scene that are not the ground."""
-    return [i for i in range(model.ngeom) if model.geom_bodyid[i] == 0 and model.geom(i).name != GROUND]
+    level = ground(model)
+    return [i for i in range(model.ngeom) if model.geom_bodyid[i] == 0 and i not in level]
 
 
 def labels(model: mujoco.MjModel, joint_names: tuple[str, ...], name: str) -> list[str]:

@@ -15,7 +15,7 @@ import numpy as np
 from mujoco.batch import Batch
 
 from levade.engines.engine import Layout
-from levade.scenes import GROUND
+from levade.engines.perturbation import ground, obstacles
 from levade.trajectory import Array, rotate
 
 _TOUCHING = 0.003
@@ -92,10 +92,8 @@ class Stance:
         """(n, contacts, 3) [m], how far the scene's part in each contact has moved."""
         model = self._model
         moved = np.zeros((len(values["mass"]), model.ngeom, 3))
-        scene = [i for i in range(model.ngeom) if model.geom_bodyid[i] == 0]
-        ground = [i for i in scene if model.geom(i).name == GROUND]
-        moved[:, ground, 2] = values["ground_height"]
-        for i, geom in enumerate(geom for geom in scene if geom not in ground):
+        moved[:, ground(model), 2] = values["ground_height"]
+        for i, geom in enumerate(obstacles(model)):
             moved[:, geom] = values["obstacle"][:, 3 * i : 3 * i + 3]
         return moved[:, self._geoms]
 

@@ -14,7 +14,7 @@ from levade.robots import Robot
 from levade.scenes.terrain import Gap, Terrain
 from levade.trajectory import Array
 
-GROUND = "ground"
+GROUND, PLATFORM = "ground", "platform"
 """Name of the ground's geom; obstacles are named ``box0``, ``box1``, ..., ``terrain``, ground between gaps ``platform0``."""
 _FAR = 50.0
 """[m]: how far ground with gaps in it reaches, instead of to infinity."""
@@ -127,7 +127,7 @@ def _platforms(spec: mujoco.MjSpec, scene: Scene) -> list[mujoco.MjsGeom]:
     tops += [(gap.x, gap.x + gap.width, gap.depth) for gap in gaps if gap.depth < deepest]
     return [
         spec.worldbody.add_geom(
-            name=f"platform{i}",
+            name=f"{PLATFORM}{i}",
             type=mujoco.mjtGeom.mjGEOM_BOX,
             size=[(end - begin) / 2, _FAR, (deepest - below) / 2],
             pos=_down_the_slope(scene, (begin + end) / 2, (deepest + below) / 2),

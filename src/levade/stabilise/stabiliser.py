@@ -32,8 +32,10 @@ _LAST = 0.5
 _NEAR = 0.2
 """[rad], in attitude: runs that are further off are not learned from."""
 
-_TRAINING = 7919
-"""Added to the seed: the runs that choose are none of those of a check with the same seed."""
+_TRAINING, _JUDGING = 7919, 7927
+"""Beside the seed: the runs that choose are none of those of a check with the same seed, and those that judge what was chosen,
+none of either: of several designs that do nothing, the best looks better than none on the runs that it was chosen by.
+"""
 
 
 @dataclass(frozen=True)
@@ -52,7 +54,8 @@ class Design:
 class Stabilised:
     """What was found. motion: with the stabiliser; the motion as it was if none is surely better than none.
 
-    open_loop, share: successes of the runs it was chosen by, as a share, without and with (nan if it was interrupted before).
+    open_loop, share: successes of runs that it was not chosen by, as a share, without and with. Where none was chosen, both
+    of those that choose, without; nan where it was interrupted before these.
     tried: design -> share. interrupted: whether designs were left untried.
     """
 
@@ -80,7 +83,8 @@ def stabilise(
     """Find a stabiliser for a motion.
 
     rate: [Hz], of measurements; the nearest that steps allow. bound: [rad], at most, on a correction. runs: perturbed runs
-    that choose between designs, drawn from ``perturbation`` with ``seed``, apart from those of a check. tell: is told of each.
+    that choose between designs, drawn from ``perturbation`` with ``seed``, apart from those of a check; what is chosen is
+    judged by as many others. tell: is told of each.
     stopping: asked before each; once it says so, the best of those that were tried is the outcome.
     Raises LevadeError if the motion is not MuJoCo's, broke down, has no criteria, or a number makes no sense.
     """
@@ -92,28 +96,22 @@ def stabilise(
         subject.model, subject.layout, subject.start, subject.reference, period=period, size=size, threads=threads
     )
     ensemble = subject.ensemble()
-    sample = (perturbation or Perturbation()).draw(ensemble.model, ensemble.joints, n=runs, seed=(seed, _TRAINING))
+    drawing = perturbation or Perturbation()
+    sample, fresh = (
+        drawing.draw(ensemble.model, ensemble.joints, n=runs, seed=(seed, tag)) for tag in (_TRAINING, _JUDGING)
+    )
     expected = _expectations(subject, linear, sample, period)
 
     def feedback(design: Design) -> Feedback:
         gain = _gains(subject, linear, expected, design, size)
         return Feedback(gain, linear.reference, period * subject.timestep, design.bound)
 
-    successes: dict[Design | None, NDArray[np.bool_]] = {}
-
-    def score(design: Design | None) -> tuple[float, float]:
-        found = judge(
-            subject,
-            ensemble,
-            subject.reference,
-            sample,
-            feedback=None if design is None else feedback(design),
-            seed=seed + _TRAINING,
-        )
+    def runs_of(design: Design | None, sample: Sample, tag: int, what: str = "") -> Judged:
+        given = None if design is None else feedback(design)
+        found = judge(subject, ensemble, subject.reference, sample, feedback=given, seed=seed + tag)
         if tell is not None:
-            tell(f"{'no feedback' if design is None else _text(design)}: {found.success.mean():.1%}")
-        successes[design] = found.success
-        return _score(found)
+            tell(f"{what}{'no feedback' if design is None else _text(design)}: {found.success.mean():.1%}")
+        return found
 
     scores: dict[Design | None, tuple[float, float]] = {}
     best, interrupted = Design(bound=min(Design.bound, bound)), False
@@ -124,18 +122,22 @@ def stabilise(
             continue
         if interrupted := stopping():
             break
-        scores[design] = score(design)
+        scores[design] = _score(runs_of(design, sample, _TRAINING))
         if design is None and scores[None][0] == 1.0:  # nothing to gain
             break
         if design is not None and scores[design] > scores.get(best, (0.0, -math.inf)):
             best = design
-    better = best in scores and _surely_more(successes[None], successes[best])
     open_loop = scores[None][0] if None in scores else math.nan
+    share, better = open_loop, False
+    if best in scores and scores[best][0] > open_loop:
+        without, within = (runs_of(design, fresh, _JUDGING, "other runs, ").success for design in (None, best))
+        better, open_loop = _surely_more(without, within), float(without.mean())
+        share = float(within.mean()) if better else open_loop
     return Stabilised(
         motion=motion.stabilised(feedback(best), runs=runs, seed=seed, design=vars(best)) if better else motion,
         design=best if better else None,
         open_loop=open_loop,
-        share=scores[best][0] if better else open_loop,
+        share=share,
         runs=runs,
         tried={design: share for design, (share, _) in scores.items() if design is not None},
         interrupted=interrupted,
