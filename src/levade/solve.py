@@ -727,7 +727,7 @@ def _most(search: _Search, task: Task, optimizer: Optimizer) -> int:
         return optimizer.population + validated * ((task.robust.starts > 1) + 1 + partial_hold)
     through = validated if search.hold_steps < task.hold_steps else 0  # of a contender, through the whole hold
     if task.robust.redraw == "never":
-        return task.robust.rollouts(optimizer.population) + optimizer.population * through + through
+        return task.robust.rollouts(optimizer.population) + task.robust.kept(optimizer.population) * through + through
     return task.robust.rollouts(optimizer.population) + validated + through + through
 
 
@@ -747,7 +747,7 @@ def _try(
         robust = objective.task.robust
         contend = generation == 0 or robust is None or robust.redraw == "never"  # those that may count as successes
         return objective.evaluate(candidates, hold_steps=hold_steps, models=models, race=race, through=contend)
-    evaluation = objective.evaluate(candidates, hold_steps=hold_steps)
+    evaluation = objective.evaluate(candidates, hold_steps=hold_steps, through=objective.sampler is None)
     if objective.sampler is not None:  # what is yet to be tried on other models has not succeeded
         evaluation.success[:] = False
     return evaluation

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from levade.check import Demands, Subject, margins
-from levade.check.contacts import landings, poses
+from levade.check.contacts import landings, poses, scene_forces
 from levade.motion import Motion
 
 Change = Callable[..., Motion]
@@ -125,7 +125,7 @@ def test_a_foot_that_falls_lands_at_the_speed_of_free_fall(standing: Motion, cha
     )
     subject = Subject(falling)
     centres, _, normals = poses(subject)
-    landed = landings(subject, centres, normals)
+    landed = landings(subject, centres, normals, scene_forces(subject, normals))
     assert {one.foot for one in landed} == set(subject.names.feet)
     expected = np.sqrt(2 * 9.81 * height)
     for one in landed:
