@@ -143,7 +143,7 @@ class Faulty:
         if self.start is not None:
             position = self.start.copy()
         if self.jump_at is not None and len(self.sent) >= self.jump_at:
-            position[2] += 0.4
+            position[2] += 0.6
         if self.nan_at is not None and len(self.sent) >= self.nan_at:
             position[4] = np.nan
         return position, np.zeros(12)
@@ -171,13 +171,13 @@ def test_it_does_not_begin_far_from_the_start(motion: Played) -> None:
 def test_it_does_not_begin_if_the_ramp_did_not_get_there(motion: Played) -> None:
     robot = Faulty(motion, start=motion.start_position + np.eye(12)[2] * 0.4)
     with pytest.raises(Stopped, match=r"lf_kfe .* within 0.3 at 0.000 s"):
-        play(motion, robot, ramp=0.1, wait=no_clock)
+        play(motion, robot, ramp=0.1, tolerance=0.3, wait=no_clock)
     assert len(robot.sent) == 50 + 500
 
 
 def test_it_stops_when_a_joint_is_left_behind(motion: Played) -> None:
     robot = Faulty(motion, freeze_at=20)
-    with pytest.raises(Stopped, match=r"_[hk]fe is at .* should be at .* within 0.3 at 0\.\d\d\d s"):
+    with pytest.raises(Stopped, match=r"_[hk]fe is at .* should be at .* within 0.5 at 0\.\d\d\d s"):
         play(motion, robot, ramp=0.0, wait=no_clock)
     assert 20 < len(robot.sent) - 500 < 120
     assert damps(motion, robot)

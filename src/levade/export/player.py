@@ -207,7 +207,7 @@ def play(
     *,
     ramp: float = 2.0,
     start_tolerance: float = 0.5,
-    tolerance: float = 0.3,
+    tolerance: float = 0.5,
     hold: float = 0.0,
     feedback: bool = True,
     clamp: bool = True,
@@ -392,7 +392,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--robot", metavar="MODULE:CLASS", help="your class with read and write")
     parser.add_argument("--ramp", type=float, default=2.0, help="to the start [s]; 2")
     parser.add_argument("--start-tolerance", type=float, default=0.5, help="from the start, before the ramp [rad]; 0.5")
-    parser.add_argument("--tolerance", type=float, default=0.3, help="from the simulation, in the motion [rad]; 0.3")
+    parser.add_argument("--tolerance", type=float, default=0.5, help="from the simulation, in the motion [rad]; 0.5")
     parser.add_argument("--no-feedback", action="store_true", help="without the motion's stabiliser")
     parser.add_argument(
         "--no-clamp", action="store_true", help="send positions beyond the joints' ranges, too, as told"
