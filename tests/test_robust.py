@@ -389,3 +389,28 @@ def test_another_engine_has_its_own_perturbed_models() -> None:
     assert theirs is not None
     assert samples.known.all()
     assert not np.isclose(samples.terms["position"], theirs.terms["position"], rtol=1e-6).any()
+
+
+@pytest.mark.parametrize("robust", [FIXED, STARTS])
+def test_weights_that_hardly_change_leave_the_best_what_it_cost_on_all_models(robust: str) -> None:
+    plain, steered = [], []
+    solve(objective(robust), seed=2, observe=plain.append)
+    solve(
+        objective(robust),
+        seed=2,
+        observe=steered.append,
+        steer=lambda number: {"orientation": 1.0 + 1e-12} if number == len(plain) else None,
+    )
+    assert plain[-1].stage_name == "robust"
+    assert len(plain) == len(steered)
+    for one, other in zip(plain, steered, strict=True):
+        assert other.best.cost == pytest.approx(one.best.cost, rel=1e-6)
+        assert other.best.share == one.best.share
+
+
+def test_a_success_that_only_the_end_brings_to_light_is_one_after_all_trials() -> None:
+    """The nominal stage never ends: its best is tried on the models when the budget is spent."""
+    never = "stages=[{name: nominal, robust: false, hold: false, promote: {pitch: 0}}, {name: robust}]"
+    solution = solve(objective(REDRAWN, never, "robust.required=0.1", "search.step=0.01"), seed=2)
+    assert solution.success
+    assert solution.trials_to_success == solution.trials <= BUDGET[REDRAWN]

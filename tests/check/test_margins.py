@@ -133,6 +133,16 @@ def test_a_foot_that_falls_lands_at_the_speed_of_free_fall(standing: Motion, cha
         assert one.time == pytest.approx(np.sqrt(2 * height / 9.81), abs=2 * step)
 
 
+def test_feet_that_meet_in_the_air_bear_nothing_and_do_not_land(standing: Motion, changed: Change) -> None:
+    """Half a metre up, with forces of their own on each other."""
+    force = np.zeros_like(standing["foot_contact_force"])
+    force[60:80, :2] = [0.0, 5000.0, 0.0]
+    up = standing["trunk_position"] + np.array([0.0, 0.0, 0.5])
+    found = margins(Subject(changed(standing, trunk_position=up, foot_contact_force=force)), Demands())
+    assert found["foot_force"].value == 0.0
+    assert found["impact_speed"].more["landings"] == []
+
+
 def test_legs_that_enter_each_other_are_found(standing: Motion, changed: Change) -> None:
     angle = standing["joint_position"].copy()
     angle[40:50, [0, 3]] = 0.785, 0.785  # both front legs inward

@@ -8,7 +8,7 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from levade.check import Subject, perturbed
+from levade.check import Demands, Subject, margins, perturbed
 from levade.costs import Criterion, success
 from levade.engines import Perturbation
 from levade.motion import Motion
@@ -80,6 +80,35 @@ def test_a_joint_is_named_where_it_alone_matters(standing: Motion) -> None:
     assert found.sensitivity[0].parameter == "kp"
     assert found.sensitivity[0].number in subject.names.joint_names
     assert 0.2 < found.sensitivity[0].explains <= 1.0
+
+
+def test_the_worst_run_is_one_that_fails(standing: Motion) -> None:
+    """Runs fail by 1 cm of a bound at the height, and succeed with up to 0.05 rad of a tolerance of 0.1."""
+    bound = standing["trunk_com_position"][-1, 2] - 0.002
+    criteria = {
+        "height": Criterion("height", minimum=float(bound)),
+        "pitch": Criterion("pitch", target=0.0, tolerance=0.1),
+    }
+    found = perturbed(
+        Subject(standing, criteria=criteria),
+        only(ground_height=(-0.005, 0.005), ground_slope=(-0.05, 0.05)),
+        runs=60,
+        seed=0,
+    )
+    assert 0 < found.successes < 60
+    assert found.worst["success"] is False
+
+
+def test_the_line_of_the_actuators_is_a_criterion_in_a_check_too(standing: Motion) -> None:
+    """As the search that made the motion judges it, and as the margins do."""
+    criteria = {"line": Criterion("torque_speed_margin", minimum=0.99, at="min")}
+    subject = Subject(standing, criteria=criteria)
+    found = perturbed(subject, only(), runs=2, seed=0)
+    left = margins(subject, Demands())["torque_speed"].value
+    assert left is not None
+    assert left < 0.98
+    assert found.errors["line"]["mean"] == pytest.approx(left - 0.99, abs=1e-6)
+    assert found.successes == 0
 
 
 def test_a_broken_simulation_is_a_failure_not_a_crash(standing: Motion) -> None:

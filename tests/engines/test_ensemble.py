@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import mujoco
 import numpy as np
@@ -14,7 +14,7 @@ from levade.engines.ensemble import Start, delayed
 from levade.engines.perturbation import PARAMETERS
 from levade.errors import LevadeError
 from levade.robots import Robot
-from levade.scenes import Box, Scene
+from levade.scenes import Box, Gap, Scene
 from levade.trajectory import JointReference
 
 BOXES = (Box(position=(0.0, 0.0, 0.21), size=(0.3, 0.16, 0.42), yaw=0.1),)  # a block below the trunk, 1 cm from it
@@ -175,6 +175,43 @@ def test_a_late_reference_is_the_reference_of_earlier() -> None:
     assert np.array_equal(late.velocity[1, 1:], reference.velocity[0, :-1])
     assert (late.velocity[3] == 0).all()
     assert np.allclose(late.velocity[2, 10], [3.0, -1.0])
+
+
+def test_until_a_late_reference_comes_the_joints_are_told_what_they_were_before(
+    boxed: MujocoEngine, start: Start, wave: Callable[..., JointReference]
+) -> None:
+    """A reference that jumps by 0.3 rad, late by two steps: as a loop that holds the start for two steps."""
+    ensemble, steps = boxed.ensemble(), 40
+    told = boxed.start(Settled()).joint_reference
+    reference = wave(told + 0.3, n=1, steps=steps, scale=0.1)
+    values = dict(Perturbation().nominal(ensemble.model, ensemble.joints).values) | {"latency": np.array([[0.004]])}
+    late = replace(reference, before=told)
+    ours = ensemble.rollout(ensemble.vary(start, Sample(values)), late)
+    data = mujoco.MjData(boxed.model)
+    data.qpos[:], data.qvel[:], data.act[:] = start
+    ctrl = boxed.ctrl(reference)[0]
+    before = ctrl[0].copy()
+    before[ensemble.layout.ctrl_position], before[ensemble.layout.ctrl_velocity] = told, 0.0
+    for k in range(steps):
+        data.ctrl[:] = before if k < 2 else ctrl[k - 2]
+        mujoco.mj_step(boxed.model, data)
+    np.testing.assert_allclose(ours.joint_position[0, -1], data.qpos[ensemble.layout.joint_qpos], atol=1e-9)
+    unknown = ensemble.rollout(ensemble.vary(start, Sample(values)), reference)
+    assert np.abs(unknown.joint_position[0] - ours.joint_position[0]).max() > 0.01
+
+
+def test_ground_between_gaps_rises_as_ground_and_is_no_obstacle(robot: Robot) -> None:
+    engine = MujocoEngine(robot, Scene(gaps=(Gap(1.0, 0.5, depth=0.4),)), Physics(), threads=1)
+    ensemble, state = engine.ensemble(), engine.start(Settled())
+    values = dict(Perturbation().nominal(ensemble.model, ensemble.joints).values)
+    assert values["obstacle"].shape == (1, 0)
+    varied = ensemble.vary((state.qpos, state.qvel, state.act), Sample(values | {"ground_height": np.array([[0.02]])}))
+    names = [engine.model.geom(i).name for i in range(engine.model.ngeom) if engine.model.geom_bodyid[i] == 0]
+    assert set(names) == {"ground", "platform0", "platform1"}
+    for name in names:
+        geom = engine.model.geom(name)
+        np.testing.assert_allclose(varied.fields["geom_pos"][0, geom.id] - geom.pos, [0, 0, 0.02], atol=1e-12)
+    assert varied.qpos[0, 2] == pytest.approx(state.qpos[2] + 0.02, abs=1e-4)
 
 
 def test_ranges_that_make_no_sense_are_refused() -> None:
