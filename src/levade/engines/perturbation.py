@@ -89,7 +89,7 @@ PARAMETERS: dict[str, Parameter] = {
     ),
     "latency": Parameter(
         *("s", "model"),
-        "delay from a reference to its servo",
+        "delay from a reference to its servo, which until then has what it was told before the start",
         "up to two cycles of a 500 Hz controller or field bus",
     ),
     "start_joint": Parameter(
