@@ -34,6 +34,7 @@ stages:
 success:
   pitch: {target: -0.3, tolerance: 0.02}
   later: {quantity: pitch, target: -0.3, tolerance: 0.3, at: end}
+  still: {quantity: speed, maximum: 10, at: end}
 search: {optimizer: cma, trials: 120, population: 8, step: 0.2, smoothness: 0.2, polish: null}
 """
 
@@ -260,9 +261,9 @@ def test_stages_end_by_their_budget_or_their_criteria(staged: Objective) -> None
     # what the first stage does not simulate it cannot know
     for g in generations:
         assert np.isnan(g.record.evaluation.terms["after"]).all() == (g.stage_name == "first")
-        assert np.isnan(g.record.evaluation.errors["later"]).all() == (
-            g.stage_name != "third"
-        )  # of the end: the second has a part
+        assert np.isnan(g.record.evaluation.errors["later"]).all() == (g.stage_name == "first")
+        # how fast it is at the end, a part of the hold does not tell
+        assert np.isnan(g.record.evaluation.errors["still"]).all() == (g.stage_name != "third")
         assert not np.isnan(g.record.evaluation.terms["orientation"]).any()
     assert np.isfinite([*solution.best.terms.values(), *solution.best.errors.values()]).all()
 

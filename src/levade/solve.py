@@ -215,14 +215,14 @@ class Objective:
 
     def _judge(self, trajectories: Trajectories, hold_steps: int) -> Evaluation:
         """hold_steps: how much of the hold was simulated. With none, nothing that looks at it is known; with a part, costs and
-        criteria look at that, but for criteria of the end, which may be met only there.
+        criteria look at that, but for how fast the robot is at the end: it comes to rest on the way there.
         """
         terms, criteria, n = self.terms, self.task.success, trajectories.n
         if 0 == hold_steps < self.task.hold_steps:
             terms = {name: term for name, term in terms.items() if not looks_at_hold(term)}
             criteria = {name: criterion for name, criterion in criteria.items() if not looks_at_hold(criterion)}
         elif hold_steps < self.task.hold_steps:
-            criteria = {name: criterion for name, criterion in criteria.items() if criterion.at != "end"}
+            criteria = {name: one for name, one in criteria.items() if one.at != "end" or not one.is_speed}
         values, met = evaluate(terms, trajectories), ~trajectories.diverged
         unknown = np.full(n, np.nan)
         judged = {name: criterion.judge(trajectories) for name, criterion in criteria.items()}

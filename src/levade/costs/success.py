@@ -101,6 +101,11 @@ class Criterion:
         if self.minimum is not None and self.maximum is not None and self.minimum > self.maximum:
             raise LevadeError(f"{where}: the minimum {self.minimum} is above the maximum {self.maximum}")
 
+    @property
+    def is_speed(self) -> bool:
+        """Whether the quantity is one of those that die down while a robot comes to rest."""
+        return QUANTITIES[self.quantity].endswith("/s")
+
     def error(self, trajectories: Trajectories) -> Array:
         """(n,) in the quantity's SI unit: value - target, wrapped for angles, or what is beyond a bound (signed, else
         0).
