@@ -222,7 +222,7 @@ def test_success_beats_a_lower_cost(monkeypatch: pytest.MonkeyPatch) -> None:
     objective = changed(base, search=search, stages=base.task.stages[-1:])
     calls = 0
 
-    def evaluate(weights: np.ndarray, *, hold_steps: int | None = None) -> Evaluation:
+    def evaluate(weights: np.ndarray, **options: object) -> Evaluation:
         nonlocal calls
         calls += 1
         n = len(weights)
