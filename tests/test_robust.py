@@ -5,16 +5,20 @@ from __future__ import annotations
 import itertools
 import json
 import zlib
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from levade.check import Subject
+from levade.check.perturbed import judge
 from levade.costs import total
 from levade.engines import Ensemble, Perturbation, Variations
 from levade.engines.ode.library import load
 from levade.errors import LevadeError
-from levade.motion import ARRAYS, Motion
+from levade.motion import ARRAYS, Motion, record
+from levade.robust import _TAG as TAG
 from levade.run import CHECKPOINT, MOTION, PROGRESS, TASK, resume, run
 from levade.solve import Generation, Objective, Record, make_optimizer, solve
 from levade.tasks import Racing, Robust, load_task, task_to_yaml
@@ -107,7 +111,7 @@ def test_samples_are_rollouts_of_the_perturbed_models_themselves(fixed: list[Gen
     found = made.evaluate(weights, hold_steps=5, models=models)
     assert found.samples is not None
     for i in range(2):
-        reference = made.policy.reference(weights[i : i + 1], hold_steps=5)
+        reference = replace(made.policy.reference(weights[i : i + 1], hold_steps=5), before=made.state.joint_reference)
         for j in range(4):
             alone = ensemble.rollout(models[[j]], reference)
             for name, term in made.terms.items():
@@ -414,3 +418,20 @@ def test_a_success_that_only_the_end_brings_to_light_is_one_after_all_trials() -
     solution = solve(objective(REDRAWN, never, "robust.required=0.1", "search.step=0.01"), seed=2)
     assert solution.success
     assert solution.trials_to_success == solution.trials <= BUDGET[REDRAWN]
+
+
+def test_a_check_of_the_models_of_a_search_finds_what_the_search_did() -> None:
+    """Latency included: until the first reference comes, the joints have what they were told before."""
+    made = objective(FIXED, "success={height: {target: 0.57, tolerance: 0.5 cm}}")
+    assert made.sampler is not None
+    solution = solve(made, seed=2)
+    subject = Subject(record(made, solution, seed=2))
+    ensemble = subject.ensemble()
+    drawn = Perturbation().spread(ensemble.model, ensemble.joints, n=4, seed=(2, 0, TAG))
+    found = judge(subject, ensemble, subject.reference, drawn)
+    samples = made.evaluate(solution.best.weights[None], models=made.sampler.models(2, 0)).samples
+    assert samples is not None
+    np.testing.assert_array_equal(found.success, samples.success[0])
+    trajectories = ensemble.rollout(ensemble.vary(subject.start, drawn), subject.reference)
+    for name, term in made.terms.items():
+        np.testing.assert_allclose(term(trajectories), samples.terms[name][0], rtol=1e-9, atol=1e-12)

@@ -191,6 +191,7 @@ class Objective:
 
         def run(samples: Samples, trials: NDArray[np.intp], columns: NDArray[np.intp], steps: int) -> None:
             reference = self.policy.reference(weights, hold_steps=steps)
+            reference = replace(reference, before=self.state.joint_reference)  # as a check has it, of the motion's file
             judge = partial(self._judge, hold_steps=steps)
             sampler.rollouts(samples, models, reference, (trials, columns), bodies=self._bodies, judge=judge)
 
