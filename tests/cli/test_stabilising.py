@@ -68,7 +68,7 @@ def test_a_search_that_is_stopped_keeps_its_best(motion: Path, tmp_path: Path, n
     process.send_signal(number)
     out, err = process.communicate(timeout=100)
     assert (process.returncode, err) == (0, "")
-    count = 1 + sum("corrections of" in line for line in out.splitlines())
+    count = 1 + sum(line.strip().startswith("corrections of") for line in out.splitlines())
     assert f"Interrupted after {count} design{'s' * (count > 1)}: the best is kept." in out
     assert count < 6
     kept = Motion.load(written)
