@@ -55,11 +55,12 @@ def replay_in(engine: str, motion: Motion, *, ode: Ode | None = None) -> Replay:
         float(motion.meta["timestep"]),
         motion.horizon_steps,
     )
-    names = Names(motion)
+    model = motion.compiled()
+    names = Names(motion, model)
     if engine == "ode":
         trajectories = _in_ode(motion, names, task, reference, ode or task.physics.ode)
     else:
-        trajectories = _in_mujoco(motion, names, reference)
+        trajectories = _in_mujoco(motion, model, names, reference)
     off = errors(task.success, trajectories)
     return Replay(
         engine=engine,
@@ -70,9 +71,9 @@ def replay_in(engine: str, motion: Motion, *, ode: Ode | None = None) -> Replay:
 
 
 class Names:
-    """Names and limits of the motion's robot."""
+    """Names and limits of the motion's robot. model: the motion's own."""
 
-    def __init__(self, motion: Motion) -> None:
+    def __init__(self, motion: Motion, model: mujoco.MjModel) -> None:
         meta = motion.meta
         self.joint_names = tuple(str(name) for name in motion["joint_names"])
         self.trunk = str(meta["trunk"])
@@ -92,7 +93,7 @@ class Names:
             for name, leg in meta["legs"].items()
             if "geometry" in leg
         )
-        stall_torque, no_load_speed = _lines(motion, self.joint_names)
+        stall_torque, no_load_speed = _lines(model, self.joint_names)
         self.limits = JointLimits(
             lower=_limit(meta["limits"]["lower"], -np.inf),
             upper=_limit(meta["limits"]["upper"], np.inf),
@@ -103,11 +104,11 @@ class Names:
         )
 
 
-def _lines(motion: Motion, joint_names: tuple[str, ...]) -> tuple[Array, Array] | tuple[None, None]:
-    """Stall torque [Nm] and no-load speed [rad/s], (joints,) each, of the actuators in the motion's model; infinite for those
+def _lines(model: mujoco.MjModel, joint_names: tuple[str, ...]) -> tuple[Array, Array] | tuple[None, None]:
+    """Stall torque [Nm] and no-load speed [rad/s], (joints,) each, of the actuators in the model; infinite for those
     that have none, None if no one has.
     """
-    model, lines = motion.compiled(), np.full((2, len(joint_names)), np.inf)
+    lines = np.full((2, len(joint_names)), np.inf)
     for i, name in enumerate(joint_names):
         actuator = model.actuator(name).id
         if model.actuator_gaintype[actuator] == mujoco.mjtGain.mjGAIN_DCMOTOR:
@@ -138,8 +139,7 @@ def _in_ode(motion: Motion, names: Names, task: Task, reference: JointReference,
     return stage.rollout((motion["qpos0"], motion["qvel0"], motion["act0"]), reference, feet=True)
 
 
-def _in_mujoco(motion: Motion, names: Names, reference: JointReference) -> Trajectories:
-    model = motion.compiled()
+def _in_mujoco(motion: Motion, model: mujoco.MjModel, names: Names, reference: JointReference) -> Trajectories:
     model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
     layout, batch = Layout(names, model), Batch(model, 1, 1)
     data = mujoco.MjData(model)

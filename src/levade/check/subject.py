@@ -33,10 +33,10 @@ class Subject:
         self.motion, self.threads = motion, threads
         self.task: Task = task_from_dict(motion.meta["task"], where="the motion's task")
         self.criteria = dict(self.task.success if criteria is None else criteria)
-        self.names = Names(motion)
+        self.model = motion.compiled()
+        self.names = Names(motion, self.model)
         self.timestep = float(motion.meta["timestep"])
         self.start = (motion["qpos0"], motion["qvel0"], motion["act0"])
-        self.model = motion.compiled()
         self.layout = Layout(self.names, self.model)
 
     @property
