@@ -90,15 +90,7 @@ class Physics:
         began = time.process_time()
         out, diverged = simulate(self.batch, self.row, ctrl, ("qpos", "qvel", "actuator_force"))
         self.seconds = time.process_time() - began
-        robot = self.objective.robot
-        return layout.trajectories(
-            out,
-            reference,
-            limits=robot.limits,
-            trunk_com_offset=robot.trunk_com_offset,
-            diverged=diverged,
-            legs=robot.leg_geometry,
-        )
+        return layout.trajectories(out, reference, diverged=diverged)
 
 
 def apart(one: Trajectories, other: Trajectories) -> tuple[np.ndarray, np.ndarray]:

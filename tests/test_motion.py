@@ -19,9 +19,9 @@ from levade.check import Subject
 from levade.errors import LevadeError
 from levade.motion import ARRAYS, LATER, LATER_ARRAYS, META, Motion, record
 from levade.replay import replay_in
+from levade.rotations import rotate
 from levade.solve import Objective, Solution, solve
 from levade.tasks import load_task
-from levade.trajectory import rotate
 
 HERE = [
     "search.optimizer=cma",

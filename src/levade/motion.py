@@ -32,15 +32,16 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.costs import errors, evaluate, success
 from levade.errors import LevadeError
 from levade.feedback import ARRAYS as FEEDBACK_ARRAYS
 from levade.feedback import META as FEEDBACK_META
 from levade.feedback import Feedback
 from levade.feedback import names as sensed_names
+from levade.rotations import rotate
 from levade.solve import Objective, Solution
 from levade.tasks import task_to_dict
-from levade.trajectory import Array, rotate
 
 SCHEMA = 1
 """Version of the file's layout; raised when a reader of the old one would be wrong."""

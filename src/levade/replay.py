@@ -18,13 +18,15 @@ import mujoco
 import numpy as np
 from mujoco.batch import Batch, SimulationError
 
+from levade.arrays import Array
 from levade.costs import errors, success
+from levade.embodiment import Embodiment, JointLimits, LegGeometry
 from levade.engines import Ode
-from levade.engines.engine import Layout
+from levade.engines.layout import Layout
 from levade.errors import LevadeError, did_you_mean
 from levade.motion import Motion
 from levade.tasks import Task, task_from_dict
-from levade.trajectory import Array, JointLimits, JointReference, LegGeometry, Trajectories
+from levade.trajectory import JointReference, Trajectories
 
 ENGINES = ("mujoco", "ode")
 
@@ -56,11 +58,11 @@ def replay_in(engine: str, motion: Motion, *, ode: Ode | None = None) -> Replay:
         motion.horizon_steps,
     )
     model = motion.compiled()
-    names = Names(motion, model)
+    robot = embodiment(motion, model)
     if engine == "ode":
-        trajectories = _in_ode(motion, names, task, reference, ode or task.physics.ode)
+        trajectories = _in_ode(motion, robot, task, reference, ode or task.physics.ode)
     else:
-        trajectories = _in_mujoco(motion, model, names, reference)
+        trajectories = _in_mujoco(motion, model, robot, reference)
     off = errors(task.success, trajectories)
     return Replay(
         engine=engine,
@@ -70,21 +72,22 @@ def replay_in(engine: str, motion: Motion, *, ode: Ode | None = None) -> Replay:
     )
 
 
-class Names:
-    """Names and limits of the motion's robot. model: the motion's own."""
-
-    def __init__(self, motion: Motion, model: mujoco.MjModel) -> None:
-        meta = motion.meta
-        self.joint_names = tuple(str(name) for name in motion["joint_names"])
-        self.trunk = str(meta["trunk"])
-        self.feet = tuple(str(leg["foot"]) for leg in meta["legs"].values())
-        self.trunk_com_offset = np.array(meta["trunk_com_offset"], dtype=float)
-        self.legs = tuple(
+def embodiment(motion: Motion, model: mujoco.MjModel) -> Embodiment:
+    """The motion's robot, by its file alone. model: the motion's own."""
+    meta = motion.meta
+    joint_names = tuple(str(name) for name in motion["joint_names"])
+    stall_torque, no_load_speed = _lines(model, joint_names)
+    return Embodiment(
+        trunk=str(meta["trunk"]),
+        joint_names=joint_names,
+        feet=tuple(str(leg["foot"]) for leg in meta["legs"].values()),
+        trunk_com_offset=np.array(meta["trunk_com_offset"], dtype=float),
+        legs=tuple(
             LegGeometry(
                 name=name,
                 side=leg["side"],
                 end=leg["end"],
-                joints=tuple(self.joint_names.index(joint) for joint in leg["joints"]),
+                joints=tuple(joint_names.index(joint) for joint in leg["joints"]),
                 anchors=np.array(leg["geometry"]["anchors"], dtype=float),
                 axes=np.array(leg["geometry"]["axes"], dtype=float),
                 foot=np.array(leg["geometry"]["foot"], dtype=float),
@@ -92,16 +95,16 @@ class Names:
             )
             for name, leg in meta["legs"].items()
             if "geometry" in leg
-        )
-        stall_torque, no_load_speed = _lines(model, self.joint_names)
-        self.limits = JointLimits(
+        ),
+        limits=JointLimits(
             lower=_limit(meta["limits"]["lower"], -np.inf),
             upper=_limit(meta["limits"]["upper"], np.inf),
             velocity=_limit(meta["limits"]["velocity"], np.inf),
             torque=_limit(meta["limits"]["torque"], np.inf),
             stall_torque=stall_torque,
             no_load_speed=no_load_speed,
-        )
+        ),
+    )
 
 
 def _lines(model: mujoco.MjModel, joint_names: tuple[str, ...]) -> tuple[Array, Array] | tuple[None, None]:
@@ -122,26 +125,22 @@ def _limit(values: Sequence[float | None], none: float) -> Array:
     return np.array([none if value is None else value for value in values], dtype=float)
 
 
-def _in_ode(motion: Motion, names: Names, task: Task, reference: JointReference, settings: Ode) -> Trajectories:
+def _in_ode(motion: Motion, robot: Embodiment, task: Task, reference: JointReference, settings: Ode) -> Trajectories:
     from levade.engines.ode.engine import OdeStage
 
     stage = OdeStage(
         motion.model_xml,
         motion.assets,
         dataclasses.replace(task.physics, engine="ode", timestep=reference.timestep, ode=settings),
-        joints=names.joint_names,
-        feet=names.feet,
-        limits=names.limits,
-        trunk_com_offset=names.trunk_com_offset,
-        legs=names.legs,
+        robot,
         threads=1,
     )
     return stage.rollout((motion["qpos0"], motion["qvel0"], motion["act0"]), reference, feet=True)
 
 
-def _in_mujoco(motion: Motion, model: mujoco.MjModel, names: Names, reference: JointReference) -> Trajectories:
+def _in_mujoco(motion: Motion, model: mujoco.MjModel, robot: Embodiment, reference: JointReference) -> Trajectories:
     model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
-    layout, batch = Layout(names, model), Batch(model, 1, 1)
+    layout, batch = Layout.of_model(model, robot), Batch(model, 1, 1)
     data = mujoco.MjData(model)
     data.qpos[:], data.qvel[:], data.act[:] = motion["qpos0"], motion["qvel0"], motion["act0"]
     whole = mujoco.mjtState.mjSTATE_INTEGRATION
@@ -157,9 +156,6 @@ def _in_mujoco(motion: Motion, model: mujoco.MjModel, names: Names, reference: J
     return layout.trajectories(
         out,
         reference,
-        limits=names.limits,
-        trunk_com_offset=names.trunk_com_offset,
         diverged=np.array([np.any(batch.warning[0])]),
-        legs=names.legs,
         feet=True,
     )

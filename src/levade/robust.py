@@ -9,9 +9,10 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from levade.arrays import Array
 from levade.engines import Engine, State, Variations
 from levade.tasks import Robust
-from levade.trajectory import Array, JointReference, Trajectories
+from levade.trajectory import JointReference, Trajectories
 
 _AT_ONCE = 128
 """Roll-outs together: what they record has to fit into memory."""

@@ -14,8 +14,7 @@ from __future__ import annotations
 
 import zlib
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property, partial
 from typing import Any
@@ -23,18 +22,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from levade.arrays import Array
 from levade.costs import DIVERGED, evaluate, total
 from levade.costs.risk import ranked_behind, risk
 from levade.engines import Variations, make_engine
-from levade.errors import LevadeError, did_you_mean
+from levade.errors import LevadeError, did_you_mean, located
 from levade.optimizers import OPTIMIZERS, Informed, Optimizer, settings, takes
 from levade.optimizers.blas import single_threaded
-from levade.policies import Ends, Follower, GaussianKernels, Group, Policy, smoothness_factor
-from levade.robots import Leg, Robot, load_robot, mirror_signs
+from levade.policies import smoothness_factor
+from levade.robots import load_robot
 from levade.robust import Sampler, Samples
-from levade.tasks import Change, PolicyChoice, Stage, Task, looks_at_hold
+from levade.tasks import Change, Stage, Task, looks_at_hold
+from levade.tasks.policy import goal_posture, make_policy
 from levade.tasks.reach import check_reach
-from levade.trajectory import Array, Trajectories
+from levade.trajectory import Trajectories
 
 ENDING = 0.25
 """Share of the horizon in which an optimizer may finish a motion, without a change to what comes before."""
@@ -104,7 +105,7 @@ class Objective:
         choice = self.task.policy
         if choice.initial == "hold":
             return self.policy.hold(self.state.joint_reference)
-        return self.policy.interpolate(self.state.joint_position, _goal(choice, self.robot))
+        return self.policy.interpolate(self.state.joint_position, goal_posture(choice, self.robot))
 
     @cached_property
     def factor(self) -> Array:
@@ -237,73 +238,6 @@ class Objective:
             trajectories.diverged.copy(),
             room={name: room[name] for name, criterion in self.task.success.items() if criterion.target is None},
         )
-
-
-def make_policy(task: Task, robot: Robot, *, start: Array | None = None) -> Policy:
-    """The task's policy on the robot's joints; LevadeError where its groups do not fit the robot's legs.
-
-    start: (joints,) [rad], what the joints were told last; the policy's goal if None.
-    """
-    choice = task.policy
-    ends = None
-    with _at("policy."):
-        kernels = GaussianKernels(choice.kernels, choice.variance, choice.time)
-    if choice.depart or choice.settle:
-        goal = _goal(choice, robot)
-        with _at("policy."):
-            ends = Ends(goal if start is None else start, goal, choice.depart, choice.settle)
-    return Policy(kernels, leg_groups(choice, robot), task.horizon, task.physics.timestep, task.hold_steps, ends)
-
-
-def _goal(choice: PolicyChoice, robot: Robot) -> Array:
-    with _at("policy.goal: "):
-        return robot.posture(choice.goal)
-
-
-def leg_groups(choice: PolicyChoice, robot: Robot) -> tuple[Group, ...]:
-    """Groups of legs as groups of joints, mirror signs derived from the robot's kinematics."""
-    legs = robot.legs
-    key: dict[str, Callable[[Leg], str]] = {
-        "pairs": lambda leg: leg.end,
-        "sides": lambda leg: leg.side,
-        "all": lambda leg: "",
-        "independent": lambda leg: leg.name,
-    }
-    if isinstance(choice.groups, str):
-        of = key[choice.groups]
-        grouped = [[leg for leg in legs if of(leg) == name] for name in dict.fromkeys(map(of, legs))]
-    else:
-        with _at("policy.groups: "):
-            grouped = [[robot.leg(name) for name in names] for names in choice.groups]
-        named = [leg.name for group in grouped for leg in group]
-        if not all(grouped):
-            raise LevadeError("policy.groups: a group is empty; leave it out")
-        if sorted(named) != sorted(leg.name for leg in legs):
-            missing = sorted({leg.name for leg in legs} - set(named))
-            problem = f"{', '.join(missing)} in none" if missing else "a leg in two"
-            raise LevadeError(f"policy.groups: {problem}; every leg of {robot.name} goes in one group")
-
-    def indices(leg: Leg) -> tuple[int, ...]:
-        where = robot.joint_indices(leg)
-        return tuple(range(where.start, where.stop))
-
-    with _at("policy.groups: "):
-        return tuple(
-            Group(
-                indices(leader),
-                tuple(Follower(indices(leg), tuple(map(float, mirror_signs(robot, leader, leg)))) for leg in followers),
-            )
-            for leader, *followers in grouped
-        )
-
-
-@contextmanager
-def _at(where: str) -> Iterator[None]:
-    """Errors start with the key of the task that they are about."""
-    try:
-        yield
-    except LevadeError as error:
-        raise LevadeError(f"{where}{error}") from None
 
 
 @dataclass(frozen=True)
@@ -593,7 +527,7 @@ def make_optimizer(objective: Objective, seed: int, *, attempt: int = 0, mean: A
         own["one_sided"] = np.array([criterion.target is None for criterion in objective.task.success.values()])
     if "step_adaptation" in settings(search.optimizer):
         own = {"step_adaptation": search.step_adaptation, **own}
-    with _at("search.settings."):
+    with located("search.settings."):
         optimizer = OPTIMIZERS[search.optimizer](
             objective.initial_weights if mean is None else mean,
             factor=objective.factor,

@@ -126,7 +126,7 @@ def test_a_foot_that_falls_lands_at_the_speed_of_free_fall(standing: Motion, cha
     subject = Subject(falling)
     centres, _, normals = poses(subject)
     landed = landings(subject, centres, normals, scene_forces(subject, normals))
-    assert {one.foot for one in landed} == set(subject.names.feet)
+    assert {one.foot for one in landed} == set(subject.embodiment.feet)
     expected = np.sqrt(2 * 9.81 * height)
     for one in landed:
         assert one.speed == pytest.approx(expected, abs=1.5 * 9.81 * step)

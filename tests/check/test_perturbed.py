@@ -78,7 +78,7 @@ def test_a_joint_is_named_where_it_alone_matters(standing: Motion) -> None:
     subject = Subject(standing, criteria={"roll": Criterion("roll", target=0.0, tolerance=0.001)})
     found = perturbed(subject, only(kp=(0.5, 1.5)), runs=200, seed=0)
     assert found.sensitivity[0].parameter == "kp"
-    assert found.sensitivity[0].number in subject.names.joint_names
+    assert found.sensitivity[0].number in subject.embodiment.joint_names
     assert 0.2 < found.sensitivity[0].explains <= 1.0
 
 

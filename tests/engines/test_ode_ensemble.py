@@ -84,10 +84,7 @@ def test_a_version_is_a_model_compiled_with_its_values(
             spec.to_xml(),
             boxed.assets,
             PHYSICS,
-            joints=robot.joint_names,
-            feet=robot.feet,
-            limits=robot.limits,
-            trunk_com_offset=robot.trunk_com_offset,
+            robot.embodiment,
             threads=1,
         )
         at = (variations.qpos[run], variations.qvel[run], variations.act[run])

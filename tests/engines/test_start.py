@@ -10,9 +10,9 @@ from levade.engines import Fall, MujocoEngine, Physics, Settled
 from levade.engines.start import Start
 from levade.errors import LevadeError
 from levade.robots import Robot
+from levade.rotations import roll_pitch_yaw
 from levade.scenes import Box, Scene
 from levade.tasks import builtin_tasks, load_task
-from levade.trajectory import roll_pitch_yaw
 
 
 @pytest.mark.parametrize("posture", ["neutral", "h2m", {"*_haa": 0.1}])

@@ -18,7 +18,7 @@ from levade.export import export
 from levade.export.player import Motion as Played
 from levade.export.player import StandIn, Stopped, clock, main, play
 from levade.motion import Motion
-from levade.trajectory import roll_pitch_yaw
+from levade.rotations import roll_pitch_yaw
 
 
 def no_clock(instant: float) -> float:

@@ -14,8 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from levade.arrays import Array
 from levade.bench.results import Result
-from levade.trajectory import Array
 
 BUDGETS = {"trials": "trials", "steps": "physics steps", "core_seconds": "core-seconds"}
 """What is spent -> in words."""

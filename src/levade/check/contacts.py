@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.check.subject import Subject
-from levade.trajectory import Array
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ def poses(subject: Subject) -> tuple[Array, list[Collision], Array]:
     Returns (steps, feet, 3) [m], centres of the feet; what collides with what; and (steps, feet, 3), unit normals of the
     contacts on the feet, out of the scene, NaN where there is none. A row at a time: a motion is checked once.
     """
-    motion, model, names = subject.motion, subject.model, subject.names
+    motion, model, names = subject.motion, subject.model, subject.embodiment
     data = mujoco.MjData(model)
     feet = [model.geom(foot).id for foot in names.feet]
     steps = len(motion["time"])
@@ -96,7 +96,7 @@ def landings(subject: Subject, centres: Array, normals: Array, force: Array) -> 
         out = normals[before : before + 2, foot]
         normal = out[np.isfinite(out).all(axis=-1)][-1]
         speed = max(0.0, -float(velocity @ normal))
-        found.append(Landing(subject.names.feet[foot], float(motion["time"][row]), speed))
+        found.append(Landing(subject.embodiment.feet[foot], float(motion["time"][row]), speed))
     return found
 
 

@@ -8,12 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.check.contacts import landings, poses, scene_forces
 from levade.check.demands import Demands
 from levade.check.subject import Subject
+from levade.embodiment import TorqueCurve
 from levade.errors import LevadeError
 from levade.robots import load_robot
-from levade.trajectory import Array, TorqueCurve
 
 _ROUNDING = 1e-6
 """Of a limit: a torque that the engine holds at its limit is at it, not beyond."""
@@ -49,8 +50,8 @@ class Margin:
 
 def margins(subject: Subject, demands: Demands) -> dict[str, Margin]:
     """Every kind of limit -> what the motion leaves of it."""
-    motion, limits = subject.motion, subject.names.limits
-    joints = subject.names.joint_names
+    motion, limits = subject.motion, subject.embodiment.limits
+    joints = subject.embodiment.joint_names
     angle, speed, torque = (motion[f"joint_{name}"] for name in ("position", "velocity", "torque"))
     power = np.abs(torque * speed)
     at_limit = (np.abs(torque) >= limits.torque * (1 - 1e-9)).mean(axis=0)
@@ -128,7 +129,7 @@ def _most(
 
 def _torque_speed(subject: Subject, required: float | None) -> Margin:
     """What is left of the line from stall torque to no-load speed, while driving; braking has the constant limit alone."""
-    limits, joints = subject.names.limits, subject.names.joint_names
+    limits, joints = subject.embodiment.limits, subject.embodiment.joint_names
     torque, speed = subject.motion["joint_torque"], subject.motion["joint_velocity"]
     left = np.full(len(joints), np.nan)
     if limits.stall_torque is not None:
@@ -145,7 +146,7 @@ def _no_line(left: Array) -> str:
 
 def _linkage(subject: Subject, required: float | None) -> Margin:
     """What is left of the torque that linkages transmit at their angle."""
-    motion, joints = subject.motion, subject.names.joint_names
+    motion, joints = subject.motion, subject.embodiment.joint_names
     curves = _curves(subject)
     if isinstance(curves, str):
         return Margin("share of limit", required=required, reason=curves)
@@ -177,7 +178,7 @@ def _curves(subject: Subject) -> Mapping[int, TorqueCurve] | str:
     except LevadeError as error:
         text = str(error)
         return "the robot has no linkage" if "linkage" in text else f"the robot's description cannot be read: {text}"
-    if robot.joint_names != subject.names.joint_names:
+    if robot.joint_names != subject.embodiment.joint_names:
         return "the robot's description has other joints than the motion"
     return robot.limits.torque_curves
 
@@ -194,7 +195,7 @@ def _energy(power: Array, timestep: float) -> dict[str, float]:
 
 def _contacts(subject: Subject, demands: Demands) -> dict[str, Margin]:
     """Forces on the feet, their impacts, and what of the robot touches itself."""
-    feet = subject.names.feet
+    feet = subject.embodiment.feet
     weight = float(subject.model.body_mass.sum()) * GRAVITY
     centres, collisions, normals = poses(subject)
     force = scene_forces(subject, normals)

@@ -9,13 +9,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from levade.arrays import Array
 from levade.check.statistics import rank_correlation, wilson
 from levade.check.subject import Subject
 from levade.costs import DIVERGED, errors, success
 from levade.engines import Ensemble, Perturbation, Sample
 from levade.engines.perturbation import PARAMETERS, joined, labels
 from levade.feedback import Feedback, SensorErrors
-from levade.trajectory import Array, JointReference
+from levade.trajectory import JointReference
 
 _AT_ONCE = 64
 """Runs simulated together: what they record has to fit into memory."""
@@ -237,7 +238,7 @@ def _sensitivities(
                 parameter=name,
                 unit=PARAMETERS[name].unit,
                 explains=float(np.clip(squared.sum() - by_chance, 0.0, 1.0)),
-                number=labels(ensemble.model, subject.names.joint_names, name)[which],
+                number=labels(ensemble.model, subject.embodiment.joint_names, name)[which],
                 failed=float(failed.mean()) if failed.size else None,
                 succeeded=float(succeeded.mean()) if succeeded.size else None,
                 alone=(int(alone[name].sum()), len(alone[name])),

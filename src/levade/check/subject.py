@@ -10,16 +10,17 @@ from functools import cached_property
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.costs import Criterion
 from levade.engines import Ensemble
-from levade.engines.engine import Layout
+from levade.engines.layout import Layout
 from levade.errors import LevadeError
 from levade.motion import Motion
-from levade.replay import Names
+from levade.replay import embodiment
 from levade.robots import Robot, load_robot
-from levade.solve import make_policy
 from levade.tasks import Task, task_from_dict
-from levade.trajectory import Array, JointReference
+from levade.tasks.policy import make_policy
+from levade.trajectory import JointReference
 
 
 class Subject:
@@ -34,27 +35,18 @@ class Subject:
         self.task: Task = task_from_dict(motion.meta["task"], where="the motion's task")
         self.criteria = dict(self.task.success if criteria is None else criteria)
         self.model = motion.compiled()
-        self.names = Names(motion, self.model)
+        self.embodiment = embodiment(motion, self.model)
         self.timestep = float(motion.meta["timestep"])
         self.start = (motion["qpos0"], motion["qvel0"], motion["act0"])
-        self.layout = Layout(self.names, self.model)
+        self.layout = Layout.of_model(self.model, self.embodiment)
 
     @property
     def joints(self) -> int:
-        return len(self.names.joint_names)
+        return self.embodiment.joints
 
     def ensemble(self, model: mujoco.MjModel | None = None) -> Ensemble:
         """For simulating versions of a model; the motion's own if None."""
-        return Ensemble(
-            self.model if model is None else model,
-            self.layout,
-            trunk=self.names.trunk,
-            joint_names=self.names.joint_names,
-            limits=self.names.limits,
-            trunk_com_offset=self.names.trunk_com_offset,
-            legs=self.names.legs,
-            threads=self.threads,
-        )
+        return Ensemble(self.model if model is None else model, self.layout, threads=self.threads)
 
     def model_copy(self) -> mujoco.MjModel:
         """The motion's model, to be changed."""
@@ -80,7 +72,7 @@ class Subject:
             robot = load_robot(choice.pop("name"), **choice)
         except LevadeError:
             return None
-        return robot if robot.joint_names == self.names.joint_names else None
+        return robot if robot.joint_names == self.embodiment.joint_names else None
 
     def reference_at(self, parts: int) -> tuple[JointReference, str]:
         """The reference at steps shorter by a whole factor, and where it comes from: "policy", or "interpolation".

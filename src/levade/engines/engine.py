@@ -7,20 +7,21 @@ motion from its file simulates the same model to the last bit.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
+from levade.arrays import Array
+from levade.engines.layout import Layout, add_contact_sensors
 from levade.engines.physics import Physics
 from levade.engines.start import Settled, Start, State
 from levade.errors import LevadeError
 from levade.robots import Robot
 from levade.scenes import Scene, compose
-from levade.trajectory import Array, JointLimits, JointReference, LegGeometry, Trajectories
+from levade.trajectory import JointReference, Trajectories
 
 if TYPE_CHECKING:
     from levade.engines.ensemble import Ensemble
@@ -46,7 +47,7 @@ class Engine(ABC):
         self.xml = self._compose(gain_scale=1.0)
         self.assets = dict(robot.assets)
         self.model = _compile(self.xml, self.assets)
-        self.layout = Layout(robot, self.model)
+        self.layout = Layout.of_model(self.model, robot.embodiment)
         self._ctrl: Array | None = None
 
     @cached_property
@@ -115,7 +116,7 @@ class Engine(ABC):
         option.cone = getattr(mujoco.mjtCone, f"mjCONE_{self.physics.cone.upper()}")
         option.impratio = self.physics.impratio
         option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
-        _add_contact_sensors(spec, self.robot)
+        add_contact_sensors(spec, self.robot.feet)
         return spec.to_xml()
 
     def _posture(self, where: str, start: Start) -> Array:
@@ -132,10 +133,10 @@ class Engine(ABC):
         model: mujoco.MjModel,
     ) -> mujoco.MjData:
         data = mujoco.MjData(model)
-        root = self.layout.root_qpos
-        data.qpos[root : root + 3] = position
+        at = self.layout
+        data.qpos[at.trunk_position] = position
         roll, pitch, yaw = attitude
-        mujoco.mju_euler2Quat(data.qpos[root + 3 : root + 7], np.array([yaw, pitch, roll]), "zyx")
+        mujoco.mju_euler2Quat(data.qpos[at.trunk_quaternion], np.array([yaw, pitch, roll]), "zyx")
         data.qpos[self.layout.joint_qpos] = posture
         mujoco.mj_forward(model, data)
         for contact in data.contact:
@@ -146,110 +147,6 @@ class Engine(ABC):
                     " move the robot (start) or the obstacle (scene)"
                 )
         return data
-
-
-class Named(Protocol):
-    """What a `Layout` needs of a robot."""
-
-    @property
-    def joint_names(self) -> tuple[str, ...]: ...
-    @property
-    def trunk(self) -> str: ...
-    @property
-    def feet(self) -> tuple[str, ...]: ...
-
-
-class Layout:
-    """Where the robot's quantities are in the vectors of the model."""
-
-    def __init__(self, robot: Named, model: mujoco.MjModel) -> None:
-        joints = [model.joint(name) for name in robot.joint_names]
-        actuators = [model.actuator(name).id for name in robot.joint_names]
-        root = model.joint(int(model.body(robot.trunk).jntadr[0]))
-        self.root_qpos, self.root_qvel = int(root.qposadr[0]), int(root.dofadr[0])
-        # slices where the model's order is the robot's: views instead of copies of what is recorded
-        self.joint_qpos = _compact([int(joint.qposadr[0]) for joint in joints])
-        self.joint_qvel = _compact([int(joint.dofadr[0]) for joint in joints])
-        self.actuators = _compact([int(model.actuator_outadr[i]) for i in actuators])
-        first = [int(model.actuator_ctrladr[i]) for i in actuators]
-        self.ctrl_position = _compact(first)
-        self.ctrl_velocity = _compact([address + 1 for address in first])
-        self._feet = [int(model.sensor(_foot_sensor(foot)).adr[0]) for foot in robot.feet]
-        self._model = model
-
-    def trajectories(
-        self,
-        out: Mapping[str, Array],
-        reference: JointReference,
-        *,
-        limits: JointLimits,
-        trunk_com_offset: Array,
-        diverged: NDArray[np.bool_],
-        legs: tuple[LegGeometry, ...] = (),
-        feet: bool = False,
-        bodies: Sequence[str] = (),
-    ) -> Trajectories:
-        """Of what MuJoCo recorded, (n, steps, ...): qpos, qvel, actuator_force, and sensordata for forces."""
-        root, velocity = self.root_qpos, self.root_qvel
-        return Trajectories(
-            joint_position=out["qpos"][..., self.joint_qpos],
-            joint_velocity=out["qvel"][..., self.joint_qvel],
-            joint_torque=out["actuator_force"][..., self.actuators],
-            trunk_position=out["qpos"][..., root : root + 3],
-            trunk_quaternion=out["qpos"][..., root + 3 : root + 7],
-            trunk_linear_velocity=out["qvel"][..., velocity : velocity + 3],
-            trunk_angular_velocity=out["qvel"][..., velocity + 3 : velocity + 6],
-            trunk_com_offset=trunk_com_offset,
-            reference=reference,
-            limits=limits,
-            legs=legs,
-            timestep=reference.timestep,
-            horizon_steps=reference.horizon_steps,
-            diverged=diverged,
-            foot_contact_force=self.foot_forces(out["sensordata"]) if feet else None,
-            body_contact_force={body: self.force_on(body, out["sensordata"]) for body in bodies},
-        )
-
-    def foot_forces(self, sensordata: Array) -> Array:
-        """(n, steps, feet, 3) [N], on the feet."""
-        return np.stack([-sensordata[..., a : a + 3] for a in self._feet], axis=2)
-
-    def force_on(self, body: str, sensordata: Array) -> Array:
-        """(n, steps) [N]."""
-        address = int(self._model.sensor(_body_sensor(body)).adr[0])
-        return np.linalg.norm(sensordata[..., address : address + 3], axis=-1)
-
-
-def _foot_sensor(foot: str) -> str:
-    return f"{foot}_contact_force"
-
-
-def _body_sensor(body: str) -> str:
-    return f"{body}_scene_force"
-
-
-def _add_contact_sensors(spec: mujoco.MjSpec, robot: Robot) -> None:
-    """Net force of each foot's contacts, and of each body's contacts with the scene, in world axes."""
-    data_force = 1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE)
-    netforce = 3
-
-    def add(name: str, **match) -> None:
-        sensor = spec.add_sensor(name=name, type=mujoco.mjtSensor.mjSENS_CONTACT, **match)
-        sensor.intprm[:3] = [data_force, netforce, 1]
-
-    geom, body = mujoco.mjtObj.mjOBJ_GEOM, mujoco.mjtObj.mjOBJ_BODY
-    for foot in robot.feet:
-        add(_foot_sensor(foot), objtype=geom, objname=foot)
-    for element in spec.bodies[1:]:
-        add(_body_sensor(element.name), objtype=body, objname=element.name, reftype=body, refname="world")
-
-
-def _compact(indices: list[int]) -> slice | list[int]:
-    if len(indices) > 1:
-        stride = indices[1] - indices[0]
-        if stride > 0 and indices == list(range(indices[0], indices[-1] + 1, stride)):
-            return slice(indices[0], indices[-1] + 1, stride)
-    return indices
 
 
 def _compile(xml: str, assets: dict[str, bytes]) -> mujoco.MjModel:

@@ -1,6 +1,6 @@
 """Many versions of one model, simulated side by side: a motion on robots that differ from the nominal one.
 
-    ensemble = Ensemble(model, layout, trunk="trunk", joint_names=names, limits=limits, trunk_com_offset=offset)
+    ensemble = Ensemble(model, layout)
     sample = Perturbation().draw(model, len(names), n=500, seed=0)
     variations = ensemble.vary((qpos, qvel, act), sample)
     trajectories = ensemble.rollout(variations, reference)          # of 500 runs
@@ -20,12 +20,14 @@ import numpy as np
 from mujoco.batch import Batch
 from numpy.typing import NDArray
 
-from levade.engines.engine import Layout
+from levade.arrays import Array
+from levade.engines.layout import Layout
 from levade.engines.perturbation import Sample, ground, obstacles
 from levade.engines.simulating import RESET_OFF, SENSORS_OFF, STATE, quiet, simulate
-from levade.engines.stance import Stance, product, quaternion
+from levade.engines.stance import Stance
 from levade.feedback import Correcting, Feedback, sensed
-from levade.trajectory import Array, JointLimits, JointReference, LegGeometry, Trajectories, rotate
+from levade.rotations import exponential, multiply, rotate
+from levade.trajectory import JointReference, Trajectories
 
 Start = tuple[Array, Array, Array]
 """qpos (nq,), qvel (nv,) and act (na,) of the model."""
@@ -68,28 +70,15 @@ class Variations:
 class Ensemble:
     """Simulates versions of a model.
 
-    trunk, joint_names, limits, trunk_com_offset: as in `levade.robots.Robot`; costs and criteria see the nominal point of the
-    trunk, as the robot's own estimate does, wherever its centre of mass is. threads: results do not depend on it.
-    Not to be used from several Python threads at once.
+    Costs and criteria see the nominal point of the trunk, as the robot's own estimate does, wherever its centre of mass is.
+    threads: results do not depend on it. Not to be used from several Python threads at once.
     """
 
-    def __init__(
-        self,
-        model: mujoco.MjModel,
-        layout: Layout,
-        *,
-        trunk: str,
-        joint_names: tuple[str, ...],
-        limits: JointLimits,
-        trunk_com_offset: Array,
-        legs: tuple[LegGeometry, ...] = (),
-        threads: int = 0,
-    ) -> None:
+    def __init__(self, model: mujoco.MjModel, layout: Layout, *, threads: int = 0) -> None:
         self.model = copy.deepcopy(model)
-        self.layout, self.joint_names = layout, joint_names
-        self._trunk = self.model.body(trunk).id
-        self._limits, self._offset, self._threads = limits, trunk_com_offset, threads
-        self._legs = legs
+        self.layout, self.joint_names = layout, layout.embodiment.joint_names
+        self._trunk = self.model.body(layout.embodiment.trunk).id
+        self._threads = threads
         # frames that coincide with their body's are not computed: these may not from now on
         self.model.geom_sameframe[self.model.geom_bodyid == 0] = _NONE
         self.model.body_sameframe[self._trunk] = _NONE
@@ -131,9 +120,6 @@ class Ensemble:
         return self.layout.trajectories(
             out,
             repeated(reference, len(variations)),
-            limits=self._limits,
-            trunk_com_offset=self._offset,
-            legs=self._legs,
             diverged=diverged,
             feet=feet,
             bodies=bodies,
@@ -171,8 +157,8 @@ class Ensemble:
             steps=reference.steps,
             timestep=reference.timestep,
             delay=variations.delay,
-            lower=self._limits.lower,
-            upper=self._limits.upper,
+            lower=layout.embodiment.limits.lower,
+            upper=layout.embodiment.limits.upper,
             errors=sensor_errors,
         )
         return self._corrected(batch, rows, ctrl, recorded, correcting)
@@ -305,10 +291,10 @@ def _tilt(
     scene = np.flatnonzero(model.geom_bodyid == 0)
     root, rate = layout.root_qpos, layout.root_qvel
     pivot = qpos[:, root : root + 3] * np.array([1.0, 1.0, 0.0])
-    turn = quaternion(np.concatenate([slope, np.zeros((len(slope), 1))], axis=1))
+    turn = exponential(np.concatenate([slope, np.zeros((len(slope), 1))], axis=1))
     pos, quat = fields["geom_pos"], fields["geom_quat"]
     pos[:, scene] = rotate(turn[:, None], pos[:, scene] - pivot[:, None]) + pivot[:, None]
-    quat[:, scene] = product(np.broadcast_to(turn[:, None], quat[:, scene].shape), quat[:, scene])
+    quat[:, scene] = multiply(np.broadcast_to(turn[:, None], quat[:, scene].shape), quat[:, scene])
     qpos[:, root : root + 3] = rotate(turn, qpos[:, root : root + 3] - pivot) + pivot
-    qpos[:, root + 3 : root + 7] = product(turn, qpos[:, root + 3 : root + 7])
+    qpos[:, root + 3 : root + 7] = multiply(turn, qpos[:, root + 3 : root + 7])
     qvel[:, rate : rate + 3] = rotate(turn, qvel[:, rate : rate + 3])

@@ -9,6 +9,7 @@ import mujoco
 import numpy as np
 from mujoco.batch import Batch
 
+from levade.arrays import Array
 from levade.engines.engine import Engine
 from levade.engines.ensemble import Ensemble
 from levade.engines.physics import Physics
@@ -17,7 +18,7 @@ from levade.engines.start import State
 from levade.errors import LevadeError
 from levade.robots import Robot
 from levade.scenes import Scene
-from levade.trajectory import Array, JointReference, Trajectories
+from levade.trajectory import JointReference, Trajectories
 
 
 class MujocoEngine(Engine):
@@ -41,26 +42,14 @@ class MujocoEngine(Engine):
         return self.layout.trajectories(
             out,
             reference,
-            limits=self.robot.limits,
-            trunk_com_offset=self.robot.trunk_com_offset,
             diverged=diverged,
-            legs=self.robot.leg_geometry,
             feet=feet,
             bodies=bodies,
         )
 
     def ensemble(self, *, threads: int | None = None) -> Ensemble:
         """For simulating versions of the model: robots that differ from the nominal one."""
-        return Ensemble(
-            self.model,
-            self.layout,
-            trunk=self.robot.trunk,
-            joint_names=self.robot.joint_names,
-            limits=self.robot.limits,
-            trunk_com_offset=self.robot.trunk_com_offset,
-            legs=self.robot.leg_geometry,
-            threads=self.threads if threads is None else threads,
-        )
+        return Ensemble(self.model, self.layout, threads=self.threads if threads is None else threads)
 
     def _batch_for(self, n: int, *, sensors: bool) -> Batch:
         """A batch of at least n simulations. A batch takes its options when it is made, so there are two.

@@ -19,9 +19,9 @@ from typing import Literal
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.scenes import GROUND, PLATFORM
-from levade.trajectory import Array
 
 Range = tuple[float, float] | None
 """Lowest and highest value; None keeps the model's own."""

@@ -10,7 +10,7 @@ import numpy as np
 from mujoco.batch import Batch, SimulationError
 from numpy.typing import NDArray
 
-from levade.trajectory import Array
+from levade.arrays import Array
 
 STATE = mujoco.mjtState.mjSTATE_INTEGRATION
 """What a row of a batch's state is."""

@@ -14,9 +14,10 @@ import mujoco
 import numpy as np
 from mujoco.batch import Batch
 
-from levade.engines.engine import Layout
+from levade.arrays import Array
+from levade.engines.layout import Layout
 from levade.engines.perturbation import ground, obstacles
-from levade.trajectory import Array, rotate
+from levade.rotations import exponential, multiply, rotate
 
 _TOUCHING = 0.003
 """[m], gap up to which a part counts as touching."""
@@ -125,26 +126,13 @@ class Stance:
         return lift, np.stack([change[:, 1], change[:, 2], zero], axis=-1)
 
 
-def quaternion(turn: Array) -> Array:
-    """(n, 3) rotation vectors [rad] to (n, 4) unit quaternions, w-x-y-z."""
-    angle = np.linalg.norm(turn, axis=-1, keepdims=True)
-    return np.concatenate([np.cos(angle / 2), 0.5 * np.sinc(angle / (2 * np.pi)) * turn], axis=-1)
-
-
-def product(first: Array, second: Array) -> Array:
-    """Products of quaternions (..., 4), w-x-y-z: the rotation ``second``, then ``first``."""
-    w1, v1, w2, v2 = first[..., :1], first[..., 1:], second[..., :1], second[..., 1:]
-    w = w1 * w2 - (v1 * v2).sum(axis=-1, keepdims=True)
-    return np.concatenate([w, w1 * v2 + w2 * v1 + np.cross(v1, v2)], axis=-1)
-
-
 def _move(qpos: Array, position: slice, attitude: slice, lift: Array, turn: Array) -> None:
     """Lift the trunk, and turn it about its frame's origin, in world axes."""
     qpos[:, position] += lift
-    qpos[:, attitude] = product(quaternion(turn), qpos[:, attitude])
+    qpos[:, attitude] = multiply(exponential(turn), qpos[:, attitude])
 
 
 def _moved(points: Array, origin: Array, lift: Array, turn: Array) -> Array:
     """The points (n, contacts, 3) after `_move` of a trunk whose origin (n, 3) was there before."""
-    lever = rotate(quaternion(turn)[:, None], points - origin[:, None])
+    lever = rotate(exponential(turn)[:, None], points - origin[:, None])
     return (origin + lift)[:, None] + lever

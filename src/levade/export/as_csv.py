@@ -11,10 +11,10 @@ from pathlib import Path
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.export.content import Content, describe
 from levade.export.samples import Samples
 from levade.feedback import Feedback
-from levade.trajectory import Array
 
 META, FEEDBACK = "meta.json", "feedback.npz"
 XYZ, WXYZ = ("x", "y", "z"), ("w", "x", "y", "z")

@@ -14,12 +14,12 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.export import as_csv
 from levade.export.content import Content
-from levade.export.model import root_addresses
 from levade.motion import Motion
-from levade.trajectory import Array
+from levade.robots.addresses import Addresses
 
 RATE = 500.0
 """[Hz]."""
@@ -75,7 +75,7 @@ def write(content: Content, directory: Path) -> list[str]:
 def _notes(model: mujoco.MjModel, order: Mapping[str, str], motion: Motion) -> list[str]:
     data = mujoco.MjData(model)
     data.qpos[:] = 0.0
-    data.qpos[root_addresses(model, motion.meta["trunk"])[0] + 3] = 1.0
+    data.qpos[Addresses.of(model, motion.meta["trunk"], ()).root_qpos + 3] = 1.0
     mujoco.mj_kinematics(model, data)
     other = [joint for k, joint in enumerate(order.values()) if data.joint(joint).xaxis @ AXES[k % 3] < 0.999]
     what = [f"{', '.join(other)} do not turn about the axes of Unitree's joints"] if other else []

@@ -8,10 +8,10 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.export.samples import Samples
 from levade.feedback import Feedback, names
 from levade.motion import Motion
-from levade.trajectory import Array
 
 UNITS = {
     "time": "s",

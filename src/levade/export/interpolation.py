@@ -20,7 +20,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from levade.trajectory import Array
+from levade.arrays import Array
+from levade.rotations import conjugate, exponential, log, multiply
 
 _SNAP = 1e-9
 """Steps: times this near to a recorded instant are that instant."""
@@ -101,28 +102,3 @@ def _vector_rate(vector: Array, rate: Array) -> Array:
     share = np.where(angle < 1e-4, 1 / 12, 1 / near**2 - 1 / (2 * near * np.tan(near / 2)))
     across = np.cross(vector, rate)
     return rate + across / 2 + share * np.cross(vector, across)
-
-
-def multiply(a: Array, b: Array) -> Array:
-    """Hamilton product of quaternions (..., 4)."""
-    w, u, x, v = a[..., :1], a[..., 1:], b[..., :1], b[..., 1:]
-    return np.concatenate([w * x - np.sum(u * v, axis=-1, keepdims=True), w * v + x * u + np.cross(u, v)], axis=-1)
-
-
-def conjugate(quaternion: Array) -> Array:
-    """(..., 4), the inverse rotation."""
-    return quaternion * np.array([1.0, -1.0, -1.0, -1.0])
-
-
-def exponential(vector: Array) -> Array:
-    """Rotation by |vector| [rad] about it: (..., 3) to quaternions (..., 4)."""
-    half = np.linalg.norm(vector, axis=-1, keepdims=True) / 2
-    return np.concatenate([np.cos(half), np.sinc(half / np.pi) / 2 * vector], axis=-1)
-
-
-def log(quaternion: Array) -> Array:
-    """Rotation vector [rad], no longer than pi: quaternions (..., 4) to (..., 3). Inverse of `exponential`."""
-    quaternion = np.where(quaternion[..., :1] < 0, -quaternion, quaternion)
-    sine = np.linalg.norm(quaternion[..., 1:], axis=-1, keepdims=True)
-    angle = 2 * np.arctan2(sine, quaternion[..., :1])
-    return np.where(sine > 1e-12, angle / np.maximum(sine, 1e-12), 2.0) * quaternion[..., 1:]

@@ -10,11 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.export.interpolation import hermite, linear, locate
 from levade.motion import Motion
 from levade.policies import GaussianKernels
-from levade.trajectory import Array
 
 _SAME = 1e-9
 """[rad]: the policy of the weights is the motion's if it gives the recorded references to this."""

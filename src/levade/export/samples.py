@@ -26,12 +26,14 @@ from dataclasses import dataclass, replace
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError, did_you_mean
-from levade.export.interpolation import conjugate, hermite, linear, locate, mean, rotations
-from levade.export.model import gains, holding_torque, joint_addresses, root_addresses
+from levade.export.interpolation import hermite, linear, locate, mean, rotations
+from levade.export.model import gains, holding_torque
 from levade.export.references import commands
 from levade.motion import Motion
-from levade.trajectory import Array, rotate
+from levade.robots.addresses import Addresses
+from levade.rotations import conjugate, rotate
 
 REFERENCES = ("measured", "commanded")
 
@@ -183,7 +185,7 @@ def _joints(
         names=names,
         kp=own_kp if kp is None else np.full(len(names), float(kp)),
         kd=own_kd if kd is None else np.full(len(names), float(kd)),
-        start_position=motion["qpos0"][joint_addresses(model, names)[0]],
+        start_position=motion["qpos0"][Addresses.of(model, motion.meta["trunk"], names).joint_qpos],
         start_torque=holding_torque(motion, model),
         **limits,
     )
@@ -192,17 +194,17 @@ def _joints(
 def _state(motion: Motion, model: mujoco.MjModel, time: Array, timestep: float) -> dict[str, Array]:
     """State of joints and trunk at the times: the start, then the end of each step."""
     qpos, qvel = motion["qpos0"], motion["qvel0"]
-    at, rates = joint_addresses(model, motion["joint_names"].tolist())
-    root, rate = root_addresses(model, motion.meta["trunk"])
+    at = Addresses.of(model, motion.meta["trunk"], motion["joint_names"].tolist())
 
     def knots(first: Array, name: str) -> Array:
         return np.concatenate([first[None], motion[name]])
 
-    angle, speed = knots(qpos[at], "joint_position"), knots(qvel[rates], "joint_velocity")
-    place, going = knots(qpos[root : root + 3], "trunk_position"), knots(qvel[rate : rate + 3], "trunk_linear_velocity")
-    first = qpos[root + 3 : root + 7] / np.linalg.norm(qpos[root + 3 : root + 7])
+    angle, speed = knots(qpos[at.joint_qpos], "joint_position"), knots(qvel[at.joint_qvel], "joint_velocity")
+    place = knots(qpos[at.trunk_position], "trunk_position")
+    going = knots(qvel[at.trunk_linear_velocity], "trunk_linear_velocity")
+    first = qpos[at.trunk_quaternion] / np.linalg.norm(qpos[at.trunk_quaternion])
     attitude = knots(first, "trunk_quaternion")
-    turning = knots(rotate(first, qvel[rate + 3 : rate + 6]), "trunk_angular_velocity")
+    turning = knots(rotate(first, qvel[at.trunk_angular_velocity]), "trunk_angular_velocity")
     interval, share = locate(time, timestep, len(angle) - 1)
     position = hermite(interval, share, place, going, timestep)
     quaternion = rotations(interval, share, attitude, rotate(conjugate(attitude), turning), timestep)

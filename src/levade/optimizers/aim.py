@@ -18,8 +18,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from levade.arrays import Array
 from levade.optimizers.blas import single_threaded
-from levade.trajectory import Array
 
 RIDGE = 1e-3
 """Of the mean squared length of the differences: damps directions in which the trials hardly differ."""

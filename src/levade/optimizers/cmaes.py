@@ -11,10 +11,10 @@ from typing import Literal
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.optimizers.blas import single_threaded
 from levade.optimizers.library import cma
-from levade.trajectory import Array
 
 # cma's stop rules answer a flat or noisy cost; when to stop is for the staged loop to say
 _NEVER = {"tolfun": 0, "tolfunhist": 0, "tolfunrel": 0, "tolx": 0, "tolstagnation": 10**9, "tolflatfitness": 10**9}

@@ -10,9 +10,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from levade.arrays import Array
 from levade.optimizers.aim import corrected, ridge, sizes
 from levade.optimizers.blas import single_threaded
-from levade.trajectory import Array
 
 PROBE = 0.01
 """[rad], along each direction of the ending."""

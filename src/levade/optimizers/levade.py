@@ -7,11 +7,11 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.optimizers.aim import WITHIN, Aim, sizes
 from levade.optimizers.cmaes import CMAES
 from levade.optimizers.finish import Finish
-from levade.trajectory import Array
 
 _TAG = 1_095_322_957
 """Keeps the random numbers of aimed candidates apart from those of CMA-ES."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.optimizers.sampling import Sampler, checked_positive, checked_share, softmax
-from levade.trajectory import Array
 
 
 class MPPI(Sampler):

@@ -12,8 +12,8 @@ import math
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.optimizers.sampling import Sampler, checked_positive, checked_share, softmax
-from levade.trajectory import Array
 
 
 def probabilities(cost: Array, eliteness: float) -> Array:

@@ -7,7 +7,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-from levade.trajectory import Array
+from levade.arrays import Array
 
 
 class Optimizer(Protocol):

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from levade.arrays import Array
 from levade.optimizers.sampling import Sampler
-from levade.trajectory import Array
 
 
 class RandomSearch(Sampler):

@@ -11,9 +11,9 @@ from abc import ABC, abstractmethod
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.optimizers.blas import single_threaded
-from levade.trajectory import Array
 
 _FAR = 10.0
 """Costs beyond so many times the median's distance from the best count as that: a trial that broke down costs 1e12, and

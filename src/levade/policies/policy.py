@@ -14,11 +14,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.policies.ends import Ends
 from levade.policies.groups import Group, expansion
 from levade.policies.kernels import GaussianKernels
-from levade.trajectory import Array, JointReference
+from levade.trajectory import JointReference
 
 # Singular values of the basis below this share of the largest are left out of a fit: with kernels that overlap almost
 # entirely they ask for huge weights of opposite sign to follow details that no kernel can show.

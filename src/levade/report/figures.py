@@ -23,13 +23,13 @@ from typing import Any
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError, did_you_mean
 from levade.motion import Motion
 from levade.policies import GaussianKernels
 from levade.report.files import writing
 from levade.report.series import QUANTITIES, Progress, goals, policy_names, read_progress, short, trunk_values
 from levade.report.style import LIGHT, leg_colours
-from levade.trajectory import Array
 
 FORMATS = ("pdf", "svg", "png")
 

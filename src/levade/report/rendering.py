@@ -23,11 +23,12 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.motion import Motion
 from levade.report.style import LIGHT
+from levade.robots.addresses import Addresses
 from levade.scenes.scene import GROUND
-from levade.trajectory import Array
 
 Image = NDArray[np.uint8]
 
@@ -215,10 +216,9 @@ def replay(motion: Motion) -> Poses:
 
 def _recorded(motion: Motion, model: Any) -> Poses:
     qpos = np.repeat(motion["qpos0"][None], len(motion["time"]) + 1, axis=0)
-    root = int(model.jnt_qposadr[model.body(motion.meta["trunk"]).jntadr[0]])
-    qpos[1:, root : root + 3], qpos[1:, root + 3 : root + 7] = motion["trunk_position"], motion["trunk_quaternion"]
-    for column, joint in enumerate(motion["joint_names"]):
-        qpos[1:, int(model.joint(str(joint)).qposadr[0])] = motion["joint_position"][:, column]
+    at = Addresses.of(model, motion.meta["trunk"], motion["joint_names"].tolist())
+    qpos[1:, at.trunk_position], qpos[1:, at.trunk_quaternion] = motion["trunk_position"], motion["trunk_quaternion"]
+    qpos[1:, at.joint_qpos] = motion["joint_position"]
     return Poses(model, np.concatenate([[0.0], motion["time"]]), qpos)
 
 

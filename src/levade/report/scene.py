@@ -19,12 +19,14 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from levade.arrays import Array
 from levade.motion import Motion
 from levade.report.packing import pack, pack_unit
 from levade.report.rendering import FIELD_OF_VIEW, Camera, replay
 from levade.report.shapes import moving_bodies, shapes_of
 from levade.report.style import DARK, LIGHT, Theme, leg_colours
-from levade.trajectory import Array, roll_pitch_yaw
+from levade.robots.addresses import Addresses
+from levade.rotations import roll_pitch_yaw
 
 Rows = NDArray[np.int64]
 
@@ -98,15 +100,13 @@ def frame_rows(steps: int, horizon_steps: int, timestep: float, rate: float = RA
 
 def configurations(motion: Motion, model: Any) -> Array:
     """(steps + 1, nq): the start, and what was recorded. Replayed, if the model has more joints than were recorded."""
-    free = int(model.body(motion.meta["trunk"]).jntadr[0])
-    root = int(model.jnt_qposadr[free])
-    joints = _joint_addresses(motion, model)
-    if model.nq != 7 + len(joints):
+    at = Addresses.of(model, motion.meta["trunk"], motion["joint_names"].tolist())
+    if model.nq != 7 + len(motion["joint_names"]):
         return replay(motion).qpos
     qpos = np.tile(motion["qpos0"], (len(motion["time"]) + 1, 1))
-    qpos[1:, root : root + 3] = motion["trunk_position"]
-    qpos[1:, root + 3 : root + 7] = motion["trunk_quaternion"]
-    qpos[1:, joints] = motion["joint_position"]
+    qpos[1:, at.trunk_position] = motion["trunk_position"]
+    qpos[1:, at.trunk_quaternion] = motion["trunk_quaternion"]
+    qpos[1:, at.joint_qpos] = motion["joint_position"]
     sound = np.isfinite(qpos).all(axis=1)  # a trial that diverged stays where it last was
     return qpos[np.maximum.accumulate(np.where(sound, np.arange(len(qpos)), 0))]
 
@@ -126,10 +126,6 @@ def body_poses(model: Any, qpos: Array) -> tuple[Array, Array]:
     return position, quaternion
 
 
-def _joint_addresses(motion: Motion, model: Any) -> list[int]:
-    return [int(model.joint(str(name)).qposadr[0]) for name in motion["joint_names"]]
-
-
 def _recorded(values: Array, rows: Rows) -> Array:
     """Rows of something recorded at the end of each step; the start is like the first step. Never NaN."""
     return np.nan_to_num(values[np.maximum(rows - 1, 0)], posinf=0.0, neginf=0.0)
@@ -138,7 +134,8 @@ def _recorded(values: Array, rows: Rows) -> Array:
 def _reference(motion: Motion, model: Any, rows: Rows, qpos: Array) -> dict[str, Any]:
     """Poses of the legs at the reference angles, on the measured trunk: bodies (places), position, quaternion."""
     wanted = qpos.copy()
-    wanted[:, _joint_addresses(motion, model)] = _recorded(motion["joint_position_reference"], rows)
+    at = Addresses.of(model, motion.meta["trunk"], motion["joint_names"].tolist())
+    wanted[:, at.joint_qpos] = _recorded(motion["joint_position_reference"], rows)
     bodies, trunk = moving_bodies(model), model.body(motion.meta["trunk"]).id
     legs = [place for place, body in enumerate(bodies) if model.body_weldid[body] != model.body_weldid[trunk]]
     position, quaternion = body_poses(model, wanted)

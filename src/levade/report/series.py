@@ -15,12 +15,13 @@ from typing import Any
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.motion import Motion
 from levade.policies import GaussianKernels
 from levade.report.packing import pack
 from levade.report.style import leg_places
-from levade.trajectory import Array, roll_pitch_yaw
+from levade.rotations import roll_pitch_yaw
 
 _TOUCHES = 1.0
 """[N], contact force from which a foot counts as on the ground."""

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
+from levade.embodiment import JointLimits, TorqueCurve
 from levade.errors import LevadeError, did_you_mean
 from levade.robots.actuation import DCMotor
 from levade.robots.driving import SERVO, find_actuation, find_limits
@@ -33,7 +35,6 @@ from levade.robots.standing import (
 )
 from levade.robots.understanding import Leg, NoFootError, find_legs, find_trunk, roles
 from levade.robots.visuals import thin_visuals
-from levade.trajectory import Array, JointLimits, TorqueCurve
 
 if TYPE_CHECKING:
     from levade.robots.description import RobotForm

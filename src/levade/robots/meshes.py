@@ -9,8 +9,8 @@ from pathlib import Path, PurePosixPath
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
-from levade.trajectory import Array
 
 READABLE = (".stl", ".obj", ".msh")
 """Suffixes that MuJoCo reads."""

@@ -16,12 +16,12 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.robots.findings import Finding, named, note, warning
 from levade.robots.meshes import find_mesh, read_mesh
 from levade.robots.servos import Servo, read_servos
 from levade.robots.urdf import read_urdf
-from levade.trajectory import Array
 
 _UNITS = "kg and kg m2"
 _FUSED = " The static bodies of the spec were fused before this error, and remain so."

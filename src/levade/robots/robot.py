@@ -19,12 +19,13 @@ from functools import cached_property
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
+from levade.embodiment import Embodiment, JointLimits, LegGeometry
 from levade.errors import LevadeError, did_you_mean
 from levade.robots.actuation import Actuation
 from levade.robots.findings import Finding
 from levade.robots.shapes import support
 from levade.robots.understanding import Leg
-from levade.trajectory import Array, JointLimits, LegGeometry
 
 
 @dataclass(frozen=True, eq=False)
@@ -183,6 +184,18 @@ class Robot:
                 )
             )
         return tuple(geometry)
+
+    @cached_property
+    def embodiment(self) -> Embodiment:
+        """The robot as simulations, costs and motion files know it."""
+        return Embodiment(
+            trunk=self.trunk,
+            joint_names=self.joint_names,
+            feet=self.feet,
+            limits=self.limits,
+            trunk_com_offset=self.trunk_com_offset,
+            legs=self.leg_geometry,
+        )
 
     @cached_property
     def mass(self) -> float:

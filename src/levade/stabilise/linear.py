@@ -13,10 +13,12 @@ import mujoco
 import numpy as np
 from mujoco.batch import Batch
 
-from levade.engines.engine import Layout
+from levade.arrays import Array
+from levade.engines.layout import Layout
 from levade.engines.simulating import RESET_OFF, SENSORS_OFF, STATE, quiet
 from levade.feedback import sensed
-from levade.trajectory import Array, JointReference, rotate
+from levade.rotations import conjugate, rotate
+from levade.trajectory import JointReference
 
 UNSENSED = 4
 """Height and velocity of the trunk; after them come the states of the actuators."""
@@ -141,7 +143,7 @@ def state_of(layout: Layout, qpos: Array, qvel: Array, act: Array | None = None)
     """(..., states) of MuJoCo's (..., nq), (..., nv) and (..., na)."""
     root, rate = layout.root_qpos, layout.root_qvel
     quaternion = qpos[..., root + 3 : root + 7]
-    inverse = quaternion * np.array([1.0, -1.0, -1.0, -1.0])
+    inverse = conjugate(quaternion)
     seen = sensed(
         quaternion, qvel[..., rate + 3 : rate + 6], qpos[..., layout.joint_qpos], qvel[..., layout.joint_qvel]
     )

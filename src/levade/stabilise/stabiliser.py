@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from levade.arrays import Array
 from levade.check import Subject
 from levade.check.perturbed import Judged, judge
 from levade.engines import Perturbation
@@ -18,7 +19,6 @@ from levade.feedback import Feedback, SensorErrors
 from levade.motion import Motion
 from levade.stabilise.linear import Linear, Scales, linearise, state_of
 from levade.stabilise.regulator import expectation, project, steady, sweep
-from levade.trajectory import Array
 
 WEIGHED = Scales(attitude=0.03, height=0.03, speed=0.3, rate=1.0, joint=0.3, joint_speed=10.0, drive=math.inf)
 """Deviations at the end that cost 1 each; on the way, a tenth. Weighed are things of unlike sizes, so that all count."""
@@ -174,7 +174,7 @@ def _size(subject: Subject) -> float:
     """[m]: how high the robot stands, about: 0.7 of its longest leg."""
     lengths = [
         float(np.linalg.norm(np.diff(np.concatenate([leg.anchors, leg.foot[None]]), axis=0), axis=1).sum())
-        for leg in subject.names.legs
+        for leg in subject.embodiment.legs
     ]
     return 0.7 * max(lengths, default=0.0) or 0.6
 

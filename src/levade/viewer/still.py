@@ -20,6 +20,7 @@ import mujoco
 import numpy as np
 
 from levade import __version__
+from levade.arrays import Array
 from levade.costs import Posture
 from levade.costs.success import QUANTITIES
 from levade.errors import LevadeError
@@ -29,10 +30,11 @@ from levade.report.shapes import moving_bodies, shapes_of
 from levade.report.style import leg_places
 from levade.report.summary import WHEN
 from levade.robots import Leg, Robot, builtin_robots, mirror_signs
+from levade.robots.addresses import Addresses
+from levade.rotations import rotate
 from levade.scenes import Scene, compose
 from levade.solve import Objective
 from levade.tasks import builtin_tasks, load_task, task_to_dict, task_to_yaml
-from levade.trajectory import Array, rotate
 
 _GROUPS = {
     "pairs": "a policy for each pair of legs",
@@ -64,7 +66,7 @@ def robot_data(robot: Robot) -> dict[str, Any]:
         "joints": _joints(robot),
         "together": _together(robot),
         "tree": _tree(model, robot),
-        "trunk": {"position": qpos[_root(model, robot)][:3].tolist()},
+        "trunk": {"position": qpos[Addresses.of(model, robot.trunk, robot.joint_names).trunk_position].tolist()},
         "postures": {name: np.round(angles, 6).tolist() for name, angles in robot.postures.items()},
         "facts": [
             ["Mass", f"{robot.mass:.4g} kg"],
@@ -84,8 +86,8 @@ def task_data(objective: Objective) -> dict[str, Any]:
     qpos = objective.state.qpos
     shapes = shapes_of(model)
     moving = _moving(model, qpos)
-    root = _root(model, robot)
-    position, quaternion = qpos[root][:3], qpos[root][3:]
+    at = objective.engine.layout
+    position, quaternion = qpos[at.trunk_position], qpos[at.trunk_quaternion]
     com = position + rotate(quaternion, robot.trunk_com_offset)
     criteria = task_to_dict(task)["success"]
     moving["goal"] = goal_box(model, robot.trunk, robot.trunk_com_offset, criteria, com, quaternion)
@@ -132,17 +134,10 @@ def _legs(robot: Robot) -> dict[str, dict[str, Any]]:
 def _configuration(model: Any, robot: Robot, position: Any, quaternion: Any, angles: Array) -> Array:
     """(nq,): trunk frame at a position [m] and quaternion w-x-y-z, joints at (joints,) [rad]."""
     qpos = model.qpos0.copy()
-    root = _root(model, robot)
-    qpos[root] = [*position, *quaternion]
-    for joint, angle in zip(robot.joint_names, angles, strict=True):
-        qpos[model.joint(joint).qposadr[0]] = angle
+    at = Addresses.of(model, robot.trunk, robot.joint_names)
+    qpos[at.trunk_pose] = [*position, *quaternion]
+    qpos[at.joint_qpos] = angles
     return qpos
-
-
-def _root(model: Any, robot: Robot) -> slice:
-    """Where the trunk's pose is in qpos."""
-    address = int(model.jnt_qposadr[int(model.body(robot.trunk).jntadr[0])])
-    return slice(address, address + 7)
 
 
 def _moving(model: Any, qpos: Array) -> dict[str, Any]:
@@ -255,12 +250,12 @@ def _ghost(
 ) -> tuple[dict[str, Any], str] | None:
     """The robot, or only its trunk where nothing is said about the joints, as the goal has it; and what to call it."""
     task, robot = objective.task, objective.robot
-    root = _root(model, robot)
-    position, quaternion = qpos[root][:3], qpos[root][3:]
+    at = objective.engine.layout
+    position, quaternion = qpos[at.trunk_position], qpos[at.trunk_quaternion]
     if goal is not None:
         quaternion = np.roll(goal["quaternion"], 1)
         position = np.array(goal["centre"]) - rotate(quaternion, robot.trunk_com_offset)
-    now = qpos[_joint_addresses(model, robot)]
+    now = qpos[at.joint_qpos]
     required = [cost.term.position for cost in task.costs.values() if isinstance(cost.term, Posture)]
     angles = None
     if required:
@@ -276,10 +271,6 @@ def _ghost(
     shown = [place for place, body in enumerate(bodies) if whole or model.body_weldid[body] == model.body_weldid[trunk]]
     ghost = {"bodies": shown, "position": pack(poses[:, shown]), "quaternion": pack_unit(turned[:, shown])}
     return ghost, "goal posture" if whole else "trunk at the goal"
-
-
-def _joint_addresses(model: Any, robot: Robot) -> list[int]:
-    return [int(model.joint(joint).qposadr[0]) for joint in robot.joint_names]
 
 
 def _goal_row(criterion: Mapping[str, Any]) -> dict[str, Any]:

@@ -21,13 +21,13 @@ from typing import Any
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.costs.success import QUANTITIES
 from levade.errors import LevadeError, did_you_mean
 from levade.motion import Motion, record
 from levade.run import MOTION, Outcome, so_far
 from levade.solve import Generation, Objective
 from levade.tasks import Change
-from levade.trajectory import Array
 
 _MOVING = ("motion", "layers")
 """Parts of a scene that differ between motions of one solve."""

@@ -19,10 +19,10 @@ from typing import IO, Any
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.engines.ode.simulation import Record, Simulation
 from levade.engines.ode.skeleton import skeleton
 from levade.engines.physics import Physics
-from levade.trajectory import Array
 
 _WORTH = 1500
 """Steps, over all trials, from which on a roll-out is shared."""

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
+from levade.embodiment import Embodiment
 from levade.engines.engine import Engine
 from levade.engines.ode.crew import Crew
 from levade.engines.ode.simulation import Record, Simulation
@@ -19,8 +21,9 @@ from levade.engines.physics import Physics
 from levade.engines.start import State
 from levade.errors import LevadeError
 from levade.robots import Robot
+from levade.rotations import conjugate, rotate
 from levade.scenes import Scene
-from levade.trajectory import Array, JointLimits, JointReference, LegGeometry, Trajectories, rotate
+from levade.trajectory import JointReference, Trajectories
 
 if TYPE_CHECKING:
     from levade.engines.ode.ensemble import OdeEnsemble
@@ -38,11 +41,7 @@ class OdeEngine(Engine):
             self.xml,
             self.assets,
             physics,
-            joints=robot.joint_names,
-            feet=robot.feet,
-            limits=robot.limits,
-            trunk_com_offset=robot.trunk_com_offset,
-            legs=robot.leg_geometry,
+            robot.embodiment,
             threads=threads,
         )
 
@@ -56,18 +55,7 @@ class OdeEngine(Engine):
         """For simulating versions of the model: robots that differ from the nominal one."""
         from levade.engines.ode.ensemble import OdeEnsemble
 
-        robot = self.robot
-        return OdeEnsemble(
-            self._stage,
-            self.physics,
-            self.layout,
-            trunk=robot.trunk,
-            joint_names=robot.joint_names,
-            limits=robot.limits,
-            trunk_com_offset=robot.trunk_com_offset,
-            legs=robot.leg_geometry,
-            threads=self.threads,
-        )
+        return OdeEnsemble(self._stage, self.physics, self.layout, threads=self.threads)
 
     def _settle(self, model: mujoco.MjModel, data: mujoco.MjData, posture: Array, time: float) -> State:
         steps = round(time / self.physics.timestep)
@@ -87,8 +75,7 @@ class OdeEngine(Engine):
 class OdeStage:
     """A model in ODE, by names: what a motion file has is enough.
 
-    xml, assets: MJCF and its files. joints, feet, limits, trunk_com_offset: as in `levade.robots.Robot`; legs: its
-    ``leg_geometry``.
+    xml, assets: MJCF and its files.
     """
 
     def __init__(
@@ -96,20 +83,15 @@ class OdeStage:
         xml: str,
         assets: Mapping[str, bytes],
         physics: Physics,
+        embodiment: Embodiment,
         *,
-        joints: Sequence[str],
-        feet: Sequence[str],
-        limits: JointLimits,
-        trunk_com_offset: Array,
-        legs: tuple[LegGeometry, ...] = (),
         threads: int = 0,
     ) -> None:
-        self._legs = legs
         self._crew = Crew(xml, assets, physics, threads)
-        self._physics, self._limits, self._offset = physics, limits, trunk_com_offset
-        self._to, self._from = _order(self._crew.simulation, joints)
+        self._physics, self._embodiment = physics, embodiment
+        self._to, self._from = _order(self._crew.simulation, embodiment.joint_names)
         self.model = self._crew.simulation.skeleton.model
-        self._feet = [self.model.geom(foot).id for foot in feet]
+        self._feet = [self.model.geom(foot).id for foot in embodiment.feet]
 
     def rollout(
         self,
@@ -144,11 +126,9 @@ class OdeStage:
             trunk_position=record.position,
             trunk_quaternion=record.quaternion,
             trunk_linear_velocity=record.linear,
-            trunk_angular_velocity=rotate(_inverse(record.quaternion), record.angular),
-            trunk_com_offset=self._offset,
+            trunk_angular_velocity=rotate(conjugate(record.quaternion), record.angular),
             reference=reference,
-            limits=self._limits,
-            legs=self._legs,
+            embodiment=self._embodiment,
             timestep=self._physics.timestep,
             horizon_steps=reference.horizon_steps,
             diverged=record.diverged,
@@ -163,7 +143,3 @@ def _order(simulation: Simulation, joints: Sequence[str]) -> tuple[list[int], li
     """Where the joints are among the hinges, and the hinges among the joints."""
     names = simulation.skeleton.hinges.names
     return [names.index(joint) for joint in joints], [list(joints).index(name) for name in names]
-
-
-def _inverse(quaternion: Array) -> Array:
-    return quaternion * np.array([1.0, -1.0, -1.0, -1.0])

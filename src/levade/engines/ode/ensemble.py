@@ -13,15 +13,16 @@ from typing import Any
 
 import numpy as np
 
-from levade.engines.engine import Layout
+from levade.arrays import Array
 from levade.engines.ensemble import Ensemble, Variations, delayed, repeated
+from levade.engines.layout import Layout
 from levade.engines.ode.engine import OdeStage
 from levade.engines.ode.simulation import Record, Simulation
 from levade.engines.ode.skeleton import skeleton
 from levade.engines.physics import Physics
 from levade.errors import LevadeError
 from levade.feedback import Feedback
-from levade.trajectory import Array, JointReference, Trajectories
+from levade.trajectory import JointReference, Trajectories
 
 _KEPT = 64
 """Versions whose worlds are kept."""

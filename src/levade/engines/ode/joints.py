@@ -10,8 +10,9 @@ from collections.abc import Mapping
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.engines.ode.skeleton import Skeleton
-from levade.trajectory import Array, rotation_matrix
+from levade.rotations import rotation_matrix
 
 _STIFF = 0.2
 """Share of its speed that damping may take off a hinge in one step and still be left to explicit integration."""

@@ -11,8 +11,8 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from levade.arrays import Array
 from levade.engines.ode.skeleton import Index, Skeleton
-from levade.trajectory import Array
 
 _MARGIN = 0.04
 """[m]: pairs this far apart are passed on as well, so that the answer holds until something has moved by half of it."""

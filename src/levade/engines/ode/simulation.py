@@ -15,13 +15,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from levade.arrays import Array
 from levade.engines.ode.joints import Angles, Torques, link_motion
 from levade.engines.ode.library import load
 from levade.engines.ode.nearness import Nearness
 from levade.engines.ode.skeleton import Skeleton
 from levade.engines.ode.worlds import CONTACTS, Worlds
 from levade.engines.physics import Ode
-from levade.trajectory import Array, rotate
+from levade.rotations import conjugate, rotate
 
 _SPEED = 1e4
 """[m/s], [rad/s]: a simulation in which something is faster has broken down."""
@@ -92,7 +93,7 @@ class Simulation:
         last = (trial, -1)
         qpos[s.root_qpos : s.root_qpos + 7] = [*record.position[last], *record.quaternion[last]]
         qvel[s.root_qvel : s.root_qvel + 3] = record.linear[last]
-        inverse = record.quaternion[last] * np.array([1.0, -1.0, -1.0, -1.0])
+        inverse = conjugate(record.quaternion[last])
         qvel[s.root_qvel + 3 : s.root_qvel + 6] = rotate(inverse, record.angular[last])
         qpos[s.hinges.qpos], qvel[s.hinges.qvel] = record.angle[last], record.speed[last]
         lagging = s.drives.act >= 0

@@ -13,9 +13,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from levade.arrays import Array
 from levade.engines.ode.shapes import Shape, shape_of
 from levade.errors import LevadeError
-from levade.trajectory import Array
 
 Index = NDArray[np.intp]
 

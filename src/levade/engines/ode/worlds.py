@@ -14,12 +14,12 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from levade.arrays import Array
 from levade.engines.ode import library
 from levade.engines.ode.library import Library
 from levade.engines.ode.shapes import Shape
 from levade.engines.ode.skeleton import Skeleton
 from levade.engines.physics import Ode
-from levade.trajectory import Array
 
 CONTACTS = 8
 """At most, of one pair of shapes: a box on a plane has four."""
