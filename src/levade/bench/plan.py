@@ -22,7 +22,7 @@ from typing import Any, Literal, get_args
 from levade.document import build, read_yaml
 from levade.errors import LevadeError, did_you_mean
 from levade.optimizers import OPTIMIZERS
-from levade.solve import Objective
+from levade.search import make_objective
 from levade.tasks import Task, load_task, task_to_yaml
 
 Until = Literal["success", "budget"]
@@ -163,6 +163,6 @@ def _changes(changes: Mapping[str, Any]) -> list[str]:
 def _fits(task: Task) -> str:
     """Name of the robot, once the task has been put together with it."""
     try:
-        return Objective(task, threads=1).robot.name
+        return make_objective(task, threads=1).robot.name
     except LevadeError as error:
         raise LevadeError(f"{task.name} on {task.robot.name}: {error}") from None

@@ -16,8 +16,8 @@ from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console, motion_summary
 from levade.cli.watching import Watching, watched
 from levade.motion import met_on_the_model_only
-from levade.run import Outcome, damage, read_run, resume, run, unfinished
-from levade.solve import Generation, Objective
+from levade.search import Generation, Stopped, make_objective
+from levade.search.run import Outcome, check_replaceable, read_run, resume, run
 from levade.tasks import load_task
 
 
@@ -40,19 +40,19 @@ def solve_and_report(
     quiet = as_json and not console.is_terminal
     # whatever is wrong with the input is said before the display opens
     if resume_from is not None:
-        chosen, header, _ = read_run(resume_from)
-        seed, out = int(header["seed"]), resume_from
-        objective = Objective(chosen, threads=threads)
+        chosen, checkpoint = read_run(resume_from)
+        seed, out = checkpoint.header.seed, resume_from
+        objective = make_objective(chosen, threads=threads)
         go = functools.partial(resume, out, objective=objective)
-        if (harm := damage(out)) is not None:
-            console.print(f"[yellow]warning:[/] {escape(harm)}", soft_wrap=True)
+        if checkpoint.damage is not None:
+            console.print(f"[yellow]warning:[/] {escape(checkpoint.damage)}", soft_wrap=True)
     else:
         assert task is not None
         chosen = load_task(task, robot=robot, changes=changes)
         out = directory or Path(chosen.name)
         if not force:
-            unfinished(out)
-        objective = Objective(chosen, threads=threads)
+            check_replaceable(out)
+        objective = make_objective(chosen, threads=threads)
         go = functools.partial(run, objective, seed=seed, directory=out)
     tell_warnings(console, objective.robot, objective.task.robot.name)
     with ExitStack() as stack:
@@ -64,12 +64,11 @@ def solve_and_report(
         note = (lambda: "") if watch is None else (lambda: watch.note)
         with Display(console, chosen, quiet=quiet, note=note) as display:
 
-            def observe(generation: Generation) -> None:
+            def observe(generation: Generation) -> Stopped | None:
                 display.update(generation)
                 if watch is not None:
                     watch.observe(generation)
-                if stopping():
-                    raise KeyboardInterrupt
+                return Stopped.INTERRUPTED if stopping() else None
 
             outcome = go(observe=observe, steer=None if watch is None else watch.steer)
         if watch is not None:
@@ -95,7 +94,7 @@ def summary(outcome: Outcome) -> dict[str, object]:
         "cost": meta["cost"],
         "cost_terms": meta["cost_terms"],
         "errors": meta["errors"],
-        "stopped": solution.stopped,
+        "stopped": str(solution.stopped),
         "diverged": solution.diverged,
         "out": str(outcome.directory),
     }
@@ -109,7 +108,7 @@ def _tell(console: Console, outcome: Outcome) -> None:
     spent = f"{solution.trials} trials in {outcome.wall:.1f} s"
     if met_on_the_model_only(outcome.motion.meta):
         console.print("All of this is met on the model, but not on enough of the robots that differ from it.")
-    if solution.stopped == "interrupted":
+    if solution.stopped is Stopped.INTERRUPTED:
         console.print(f"[yellow]Interrupted[/] after {spent}. To go on: levade solve --resume {directory}")
     elif outcome.motion.meta["success"]:
         console.print(f"[green]Success[/] at trial {first}; {spent}.")

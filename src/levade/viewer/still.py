@@ -1,7 +1,7 @@
 """Robots and tasks as a page shows them: a scene that stands still, what is known about it, and for a robot its joints.
 
     robot_data(load_robot("hyq2max"))       # JSON: web/src/view.js draws it
-    task_data(Objective(load_task("rearing")))
+    task_data(make_objective(load_task("rearing")))
 
 The scene is that of `levade.report.scene` with one pose. ``tree``: how bodies hang together, so that the page can pose the
 robot by itself: of each body its parent, place in the scene's bodies (-1 if it has no shape), pos [m] and quat x-y-z-w in
@@ -33,7 +33,7 @@ from levade.robots import Leg, Robot, builtin_robots, mirror_signs
 from levade.robots.addresses import Addresses
 from levade.rotations import rotate
 from levade.scenes import Scene, compose
-from levade.solve import Objective
+from levade.search import Objective
 from levade.tasks import builtin_tasks, load_task, task_to_dict, task_to_yaml
 
 _GROUPS = {

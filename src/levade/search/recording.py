@@ -1,0 +1,95 @@
+"""From a solution to a motion: the best trial is simulated once more, with everything recorded."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from levade.costs import errors, evaluate, success
+from levade.motion import ARRAYS, LATER_ARRAYS, SCHEMA, Motion, finite, versions
+from levade.rotations import rotate
+from levade.search.objective import Objective
+from levade.search.outcome import Solution
+from levade.tasks import task_to_dict
+
+
+def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
+    """Simulate the best trial of a solution once more, with everything recorded."""
+    engine = objective.engine
+    task = replace(objective.task, search=replace(objective.task.search, changes=solution.changes))
+    weights = solution.best.weights
+    trajectories = objective.rollout(weights[None], feet=True)
+    reference = trajectories.reference
+    values = evaluate(objective.terms, trajectories)
+    off = errors(task.success, trajectories)
+    state, limits = objective.state, objective.robot.limits
+    com = trajectories.trunk_com_position()[0]
+    assert trajectories.foot_contact_force is not None
+    arrays = {
+        "qpos0": state.qpos,
+        "qvel0": state.qvel,
+        "act0": state.act,
+        "ctrl": engine.ctrl(reference)[0],
+        "time": trajectories.time,
+        "joint_names": np.array(objective.robot.joint_names),
+        "joint_position_reference0": state.joint_reference,
+        "joint_position_reference": reference.position[0],
+        "joint_velocity_reference": reference.velocity[0],
+        "joint_position": trajectories.joint_position[0],
+        "joint_velocity": trajectories.joint_velocity[0],
+        "joint_torque": trajectories.joint_torque[0],
+        "trunk_position": trajectories.trunk_position[0],
+        "trunk_com_position": com,
+        "trunk_quaternion": trajectories.trunk_quaternion[0],
+        "trunk_linear_velocity": trajectories.trunk_linear_velocity[0],
+        "trunk_angular_velocity": rotate(trajectories.trunk_quaternion[0], trajectories.trunk_angular_velocity[0]),
+        "foot_contact_force": trajectories.foot_contact_force[0],
+        "weights": weights,
+    }
+    meta = {
+        "schema": SCHEMA,
+        "task": task_to_dict(task),
+        "robot": objective.robot.name,
+        "trunk": objective.robot.trunk,
+        "legs": {
+            leg.name: {
+                "joints": list(leg.joints),
+                "foot": leg.foot,
+                "side": leg.side,
+                "end": leg.end,
+                "geometry": {
+                    "anchors": shape.anchors.tolist(),
+                    "axes": shape.axes.tolist(),
+                    "foot": shape.foot.tolist(),
+                    "sole": shape.sole,
+                },
+            }
+            for leg, shape in zip(objective.robot.legs, objective.robot.leg_geometry, strict=True)
+        },
+        "limits": {
+            "lower": finite(limits.lower),
+            "upper": finite(limits.upper),
+            "velocity": finite(limits.velocity),
+            "torque": finite(limits.torque),
+        },
+        "trunk_com_offset": objective.robot.trunk_com_offset.tolist(),
+        "engine": task.physics.engine,
+        "versions": versions(task.physics.engine),
+        "seed": seed,
+        "timestep": task.physics.timestep,
+        "horizon": task.horizon_steps * task.physics.timestep,
+        "horizon_steps": task.horizon_steps,
+        # of a robust search also on enough of its perturbed models, which only the search can tell
+        "success": bool(success(task.success, trajectories)[0]) and (task.robust is None or solution.best.success),
+        "diverged": bool(trajectories.diverged[0]),
+        "errors": {name: float(error[0]) for name, error in off.items()},
+        "cost": float(solution.best.cost),
+        "cost_weights": dict(solution.cost_weights),
+        "cost_terms": {name: float(value[0]) for name, value in values.items()},
+        "trials": solution.trials,
+        "trials_to_success": solution.trials_to_success,
+        "stopped": str(solution.stopped),
+    }
+    arrays = {name: np.ascontiguousarray(arrays[name]).copy() for name in (*ARRAYS, *LATER_ARRAYS)}
+    return Motion(meta, engine.xml, arrays, dict(engine.assets))
