@@ -34,6 +34,7 @@ import numpy as np
 
 from levade.arrays import Array
 from levade.costs import errors, evaluate, success
+from levade.engines.table import engine_kind
 from levade.errors import LevadeError
 from levade.feedback import ARRAYS as FEEDBACK_ARRAYS
 from levade.feedback import META as FEEDBACK_META
@@ -243,13 +244,13 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
     com = trajectories.trunk_com_position()[0]
     assert trajectories.foot_contact_force is not None
     arrays = {
-        "qpos0": state.qpos,
-        "qvel0": state.qvel,
-        "act0": state.act,
+        "qpos0": state.qpos[0],
+        "qvel0": state.qvel[0],
+        "act0": state.act[0],
         "ctrl": engine.ctrl(reference)[0],
         "time": trajectories.time,
         "joint_names": np.array(objective.robot.joint_names),
-        "joint_position_reference0": state.joint_reference,
+        "joint_position_reference0": state.joint_reference[0],
         "joint_position_reference": reference.position[0],
         "joint_velocity_reference": reference.velocity[0],
         "joint_position": trajectories.joint_position[0],
@@ -338,11 +339,7 @@ def _versions(engine: str) -> dict[str, str]:
     from levade import __version__
 
     made = {"levade": __version__, **{name: version(name) for name in ("mujoco", "numpy", "cma")}}
-    if engine == "ode":
-        from levade.engines.ode.library import load
-
-        made["ode"] = load().name
-    return made
+    return made | engine_kind(engine).versions()
 
 
 def _finite(limit: Array) -> list[float | None]:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from levade.arrays import Array
-from levade.engines import Engine, State, Variations
+from levade.engines import Engine, Models, State, perturbed_models
 from levade.tasks import Robust
 from levade.trajectory import JointReference, Trajectories
 
@@ -77,30 +77,41 @@ class Judged(Protocol):
     def diverged(self) -> NDArray[np.bool_]: ...
 
 
+@dataclass(frozen=True, eq=False)
+class Drawn:
+    """Perturbed models, and where each starts."""
+
+    starts: State
+    models: Models
+
+    def __len__(self) -> int:
+        return len(self.models)
+
+    def __getitem__(self, rows: NDArray[np.intp] | list[int]) -> Drawn:
+        return Drawn(self.starts[rows], self.models[rows])
+
+
 class Sampler:
     """Perturbed models of one task."""
 
     def __init__(self, engine: Engine, state: State, robust: Robust) -> None:
-        self._ensemble = engine.ensemble()
-        self._start = (state.qpos, state.qvel, state.act)
-        self._robust = robust
-        self._drawn: tuple[tuple[int, int], Variations] | None = None
+        self._engine, self._start, self._robust = engine, state, robust
+        self._drawn: tuple[tuple[int, int], Drawn] | None = None
 
-    def models(self, seed: int, generation: int) -> Variations:
+    def models(self, seed: int, generation: int) -> Drawn:
         """The models of a generation; those of generation 0 for all where they are never redrawn."""
         key = (seed, 0 if self._robust.redraw == "never" else generation)
         if self._drawn is None or self._drawn[0] != key:
-            ensemble = self._ensemble
-            robust = self._robust
+            engine, robust = self._engine, self._robust
             perturb, n = robust.perturb, robust.samples if key[1] else robust.fixed
-            sample = perturb.spread(ensemble.model, ensemble.joints, n=n, seed=(*key, _TAG))
-            self._drawn = (key, ensemble.vary(self._start, sample))
+            sample = perturb.spread(engine.model, engine.embodiment.joints, n=n, seed=(*key, _TAG))
+            self._drawn = (key, Drawn(*perturbed_models(engine.model, engine.layout, sample, self._start)))
         return self._drawn[1]
 
     def rollouts(
         self,
         samples: Samples,
-        models: Variations,
+        models: Drawn,
         reference: JointReference,
         pairs: tuple[NDArray[np.intp], NDArray[np.intp]],
         *,
@@ -111,7 +122,9 @@ class Sampler:
         candidates, columns = (axis.ravel() for axis in np.meshgrid(*pairs, indexing="ij"))
         for first in range(0, len(candidates), _AT_ONCE):
             at = (candidates[first : first + _AT_ONCE], columns[first : first + _AT_ONCE])
-            found = judge(self._ensemble.rollout(models[at[1]], reference[at[0]], bodies=bodies))
+            tried = models[at[1]]
+            out = self._engine.rollout(tried.starts, reference[at[0]], models=tried.models, record=bodies)
+            found = judge(out)
             for name, values in found.terms.items():
                 samples.terms[name][at] = values
             samples.success[at], samples.diverged[at], samples.known[at] = found.success, found.diverged, True

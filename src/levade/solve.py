@@ -25,13 +25,13 @@ from numpy.typing import NDArray
 from levade.arrays import Array
 from levade.costs import DIVERGED, evaluate, total
 from levade.costs.risk import ranked_behind, risk
-from levade.engines import Variations, make_engine
+from levade.engines import FOOT_CONTACT_FORCE, make_engine, start_state
 from levade.errors import LevadeError, did_you_mean, located
 from levade.optimizers import OPTIMIZERS, Informed, Optimizer, settings, takes
 from levade.optimizers.blas import single_threaded
 from levade.policies import smoothness_factor
 from levade.robots import load_robot
-from levade.robust import Sampler, Samples
+from levade.robust import Drawn, Sampler, Samples
 from levade.tasks import Change, Stage, Task, looks_at_hold
 from levade.tasks.policy import goal_posture, make_policy
 from levade.tasks.reach import check_reach
@@ -93,8 +93,8 @@ class Objective:
                 raise LevadeError(f"costs.{name}.bodies: no body {body!r} in {self.robot.name}; {hint}")
         check_reach(task, self.robot, self.engine.model)
         self._bodies = tuple(sorted({body for named in bodies.values() for body in named}))
-        self.state = self.engine.start(task.start.choice)
-        self.policy = make_policy(task, self.robot, start=self.state.joint_reference)
+        self.state = start_state(self.engine, self.robot, task.scene, task.start.choice)
+        self.policy = make_policy(task, self.robot, start=self.state.joint_reference[0])
         self.sampler = None if task.robust is None else Sampler(self.engine, self.state, task.robust)
         self.evaluate(self.initial_weights[None])  # terms that cannot be evaluated say so now
         make_optimizer(self, seed=0)  # and so do settings of its own that an optimizer does not take
@@ -104,8 +104,8 @@ class Objective:
         """(d,) [rad], the first mean of the search."""
         choice = self.task.policy
         if choice.initial == "hold":
-            return self.policy.hold(self.state.joint_reference)
-        return self.policy.interpolate(self.state.joint_position, goal_posture(choice, self.robot))
+            return self.policy.hold(self.state.joint_reference[0])
+        return self.policy.interpolate(self.state.joint_position[0], goal_posture(choice, self.robot))
 
     @cached_property
     def factor(self) -> Array:
@@ -130,14 +130,15 @@ class Objective:
     def rollout(self, weights: Array, *, hold_steps: int | None = None, feet: bool = False) -> Trajectories:
         """Simulate trials (n, d), through ``hold_steps`` of the hold; through all of it if None."""
         reference = self.policy.reference(weights, hold_steps=hold_steps)
-        return self.engine.rollout(self.state, reference, feet=feet, bodies=self._bodies)
+        record = (FOOT_CONTACT_FORCE, *self._bodies) if feet else self._bodies
+        return self.engine.rollout(self.state, reference, record=record)
 
     def evaluate(
         self,
         weights: Array,
         *,
         hold_steps: int | None = None,
-        models: Variations | None = None,
+        models: Drawn | None = None,
         race: Mapping[str, float] | None = None,
         through: bool = True,
     ) -> Evaluation:
@@ -182,7 +183,7 @@ class Objective:
         nominal: Evaluation,
         weights: Array,
         hold_steps: int,
-        models: Variations,
+        models: Drawn,
         race: Mapping[str, float] | None,
     ) -> Evaluation:
         """The same trials, tried on perturbed models as well."""
@@ -192,7 +193,9 @@ class Objective:
 
         def run(samples: Samples, trials: NDArray[np.intp], columns: NDArray[np.intp], steps: int) -> None:
             reference = self.policy.reference(weights, hold_steps=steps)
-            reference = replace(reference, before=self.state.joint_reference)  # as a check has it, of the motion's file
+            reference = replace(
+                reference, before=self.state.joint_reference[0]
+            )  # as a check has it, of the motion's file
             judge = partial(self._judge, hold_steps=steps)
             sampler.rollouts(samples, models, reference, (trials, columns), bodies=self._bodies, judge=judge)
 

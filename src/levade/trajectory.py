@@ -30,7 +30,8 @@ class JointReference:
     velocity: (n, steps, joints) [rad/s], its analytic time derivative.
     timestep: [s].
     horizon_steps: number of rows up to the horizon T; later rows are the hold.
-    before: (joints,) [rad], what the joints were told until the first row came, at rest; None where it is not known.
+    before: (joints,) or (n, joints) [rad], what the joints were told until the first row came, at rest; None where it is not
+        known.
     """
 
     position: Array
@@ -45,7 +46,16 @@ class JointReference:
 
     def __getitem__(self, trials: slice | NDArray[np.integer | np.bool_] | list[int]) -> JointReference:
         """The same reference for a subset of the trials."""
-        return replace(self, position=self.position[trials], velocity=self.velocity[trials])
+        before = self.before if self.before is None or self.before.ndim == 1 else self.before[trials]
+        return replace(self, position=self.position[trials], velocity=self.velocity[trials], before=before)
+
+    def repeated(self, n: int) -> JointReference:
+        """The same reference for n trials, if it is of one trial; itself if it is of n."""
+        if len(self.position) == n:
+            return self
+        shape = (n, *self.position.shape[1:])
+        position, velocity = np.broadcast_to(self.position, shape), np.broadcast_to(self.velocity, shape)
+        return replace(self, position=position, velocity=velocity)
 
 
 @dataclass(frozen=True)
