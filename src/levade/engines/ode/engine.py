@@ -8,7 +8,6 @@ and has worlds of its own. Versions that come again, such as those that candidat
 
 from __future__ import annotations
 
-import copy
 from collections import OrderedDict
 from collections.abc import Sequence
 from importlib.metadata import version
@@ -20,7 +19,7 @@ import numpy as np
 from levade.arrays import Array
 from levade.engines.engine import Engine, Trials, broke_down
 from levade.engines.layout import FOOT_CONTACT_FORCE
-from levade.engines.models import Models
+from levade.engines.models import Models, with_free_frames
 from levade.engines.ode.library import load
 from levade.engines.ode.multibody import multibody_of
 from levade.engines.ode.simulation import Record, Simulation
@@ -113,7 +112,7 @@ class OdeEngine(Engine):
     def _version(self, key: bytes, models: Models, row: int) -> Simulation:
         """The worlds of a version."""
         if key not in self._kept:
-            model = copy.deepcopy(self.model)
+            model = with_free_frames(self.model, self.layout)
             for name, values in models.fields.items():
                 getattr(model, name)[:] = values[row]
             self._kept[key] = self._simulation(model)
