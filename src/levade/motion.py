@@ -32,6 +32,7 @@ import mujoco
 import numpy as np
 
 from levade.arrays import Array
+from levade.engines.table import engine_kind
 from levade.errors import LevadeError
 from levade.feedback import ARRAYS as FEEDBACK_ARRAYS
 from levade.feedback import META as FEEDBACK_META
@@ -252,11 +253,7 @@ def _versions(engine: str) -> dict[str, str]:
     from levade import __version__
 
     made = {"levade": __version__, **{name: version(name) for name in ("mujoco", "numpy", "cma")}}
-    if engine == "ode":
-        from levade.engines.ode.library import load
-
-        made["ode"] = load().name
-    return made
+    return made | engine_kind(engine).versions()
 
 
 def finite(limit: Array) -> list[float | None]:

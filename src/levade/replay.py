@@ -10,25 +10,19 @@ file's own state, wherever the engine itself would have the robot settle.
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import mujoco
 import numpy as np
-from mujoco.batch import Batch, SimulationError
 
 from levade.arrays import Array
 from levade.costs import errors, success
 from levade.embodiment import Embodiment, JointLimits, LegGeometry
-from levade.engines import Ode
-from levade.engines.layout import Layout
-from levade.errors import LevadeError, did_you_mean
+from levade.engines import FOOT_CONTACT_FORCE, Ode, engine_kind
 from levade.motion import Motion
-from levade.tasks import Task, task_from_dict
+from levade.tasks import task_from_dict
 from levade.trajectory import JointReference, Trajectories
-
-ENGINES = ("mujoco", "ode")
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,12 +38,11 @@ class Replay:
 def replay_in(engine: str, motion: Motion, *, ode: Ode | None = None) -> Replay:
     """The motion's references, simulated from its start in an engine.
 
-    engine: "mujoco" or "ode". ode: settings of the latter; those of the motion's task if None. In the engine that made
-    the motion, with the same versions, it is the motion itself, to the bit. Raises LevadeError for an engine that is not
-    there, or cannot simulate the motion's model.
+    engine: a name in `levade.engines.ENGINES`. ode: settings of the engine ode; those of the motion's task if None.
+    In the engine that made the motion, with the same versions, it is the motion itself, to the bit.
+    Raises LevadeError for an engine that is not there, or cannot simulate the motion's model.
     """
-    if engine not in ENGINES:
-        raise LevadeError(f"no engine {engine!r}; {did_you_mean(engine, ENGINES)}")
+    kind = engine_kind(engine)
     task = task_from_dict(motion.meta["task"], where="the motion's task")
     reference = JointReference(
         motion["joint_position_reference"][None],
@@ -58,11 +51,10 @@ def replay_in(engine: str, motion: Motion, *, ode: Ode | None = None) -> Replay:
         motion.horizon_steps,
     )
     model = motion.compiled()
-    robot = embodiment(motion, model)
-    if engine == "ode":
-        trajectories = _in_ode(motion, robot, task, reference, ode or task.physics.ode)
-    else:
-        trajectories = _in_mujoco(motion, model, robot, reference)
+    physics = replace(task.physics, engine=engine, timestep=reference.timestep, ode=ode or task.physics.ode)
+    simulated = kind.make(motion.model_xml, motion.assets, embodiment(motion, model), physics, threads=1)
+    start = simulated.layout.state(motion["qpos0"], motion["qvel0"], motion["act0"])
+    trajectories = simulated.rollout(start, reference, record=[FOOT_CONTACT_FORCE])
     off = errors(task.success, trajectories)
     return Replay(
         engine=engine,
@@ -123,39 +115,3 @@ def _lines(model: mujoco.MjModel, joint_names: tuple[str, ...]) -> tuple[Array, 
 
 def _limit(values: Sequence[float | None], none: float) -> Array:
     return np.array([none if value is None else value for value in values], dtype=float)
-
-
-def _in_ode(motion: Motion, robot: Embodiment, task: Task, reference: JointReference, settings: Ode) -> Trajectories:
-    from levade.engines.ode.engine import OdeStage
-
-    stage = OdeStage(
-        motion.model_xml,
-        motion.assets,
-        dataclasses.replace(task.physics, engine="ode", timestep=reference.timestep, ode=settings),
-        robot,
-        threads=1,
-    )
-    return stage.rollout((motion["qpos0"], motion["qvel0"], motion["act0"]), reference, feet=True)
-
-
-def _in_mujoco(motion: Motion, model: mujoco.MjModel, robot: Embodiment, reference: JointReference) -> Trajectories:
-    model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
-    layout, batch = Layout.of_model(model, robot), Batch(model, 1, 1)
-    data = mujoco.MjData(model)
-    data.qpos[:], data.qvel[:], data.act[:] = motion["qpos0"], motion["qvel0"], motion["act0"]
-    whole = mujoco.mjtState.mjSTATE_INTEGRATION
-    mujoco.mj_getState(model, data, batch.state[0], whole)
-    ctrl = np.zeros((1, reference.steps, model.nu))
-    ctrl[..., layout.ctrl_position] = reference.position
-    ctrl[..., layout.ctrl_velocity] = reference.velocity
-    recorded = ["qpos", "qvel", "actuator_force", "sensordata"]
-    try:
-        out = batch.rollout(reference.steps, ctrl, record=recorded)
-    except SimulationError:
-        raise LevadeError("the motion's model breaks down in MuJoCo before the first step") from None
-    return layout.trajectories(
-        out,
-        reference,
-        diverged=np.array([np.any(batch.warning[0])]),
-        feet=True,
-    )

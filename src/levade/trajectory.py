@@ -10,8 +10,8 @@ SI units; quaternions w-x-y-z; joint order is the robot's.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 
 import numpy as np
@@ -30,7 +30,8 @@ class JointReference:
     velocity: (n, steps, joints) [rad/s], its analytic time derivative.
     timestep: [s].
     horizon_steps: number of rows up to the horizon T; later rows are the hold.
-    before: (joints,) [rad], what the joints were told until the first row came, at rest; None where it is not known.
+    before: (joints,) or (n, joints) [rad], what the joints were told until the first row came, at rest; None where it is not
+        known.
     """
 
     position: Array
@@ -45,7 +46,40 @@ class JointReference:
 
     def __getitem__(self, trials: slice | NDArray[np.integer | np.bool_] | list[int]) -> JointReference:
         """The same reference for a subset of the trials."""
-        return replace(self, position=self.position[trials], velocity=self.velocity[trials])
+        before = self.before if self.before is None or self.before.ndim == 1 else self.before[trials]
+        return replace(self, position=self.position[trials], velocity=self.velocity[trials], before=before)
+
+    def repeated(self, n: int) -> JointReference:
+        """The same reference for n trials, if it is of one trial; itself if it is of n."""
+        if len(self.position) == n:
+            return self
+        shape = (n, *self.position.shape[1:])
+        position, velocity = np.broadcast_to(self.position, shape), np.broadcast_to(self.velocity, shape)
+        return replace(self, position=position, velocity=velocity)
+
+    @classmethod
+    def stacked(cls, references: Sequence[JointReference]) -> JointReference:
+        """The trials of several references of one length, one after another.
+
+        Raises:
+            ValueError: If their lengths, time steps or horizons differ, or some know what came before and some do not.
+        """
+        first = references[0]
+        alike = {(one.steps, one.timestep, one.horizon_steps, one.before is None) for one in references}
+        if len(alike) > 1:
+            raise ValueError(f"references: of several kinds (steps, timestep, horizon, known before): {sorted(alike)}")
+        before = None
+        if first.before is not None:
+            rows = [
+                np.broadcast_to(one.before, (len(one.position), one.position.shape[2]))
+                for one in references
+                if one.before is not None
+            ]
+            before = np.concatenate(rows)
+        position, velocity = (
+            np.concatenate([getattr(one, name) for one in references]) for name in ("position", "velocity")
+        )
+        return replace(first, position=position, velocity=velocity, before=before)
 
 
 @dataclass(frozen=True)
@@ -83,6 +117,14 @@ class Trajectories:
     diverged: NDArray[np.bool_]
     foot_contact_force: Array | None = None
     body_contact_force: Mapping[str, Array] = field(default_factory=dict)
+
+    def __getitem__(self, trials: slice) -> Trajectories:
+        """The trajectories of some of the trials; views, not copies."""
+        arrays = {
+            one.name: value[trials] for one in fields(self) if isinstance(value := getattr(self, one.name), np.ndarray)
+        }
+        forces = {body: force[trials] for body, force in self.body_contact_force.items()}
+        return replace(self, **arrays, reference=self.reference[trials], body_contact_force=forces)
 
     @property
     def limits(self) -> JointLimits:

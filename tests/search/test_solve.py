@@ -108,7 +108,7 @@ def by_hand(objective: Objective, weights: np.ndarray) -> tuple[float, dict[str,
     model = mujoco.MjModel.from_xml_string(objective.engine.xml, objective.engine.assets)
     data = mujoco.MjData(model)
     state = objective.state
-    data.qpos[:], data.qvel[:], data.act[:] = state.qpos, state.qvel, state.act
+    data.qpos[:], data.qvel[:], data.act[:] = state.qpos[0], state.qvel[0], state.act[0]
     limit = {"haa": 120.0, "hfe": 245.0, "kfe": 250.0}
     reach = {name: model.joint(name).range for name in objective.robot.joint_names}
     effort = excess = 0.0
@@ -174,9 +174,9 @@ def test_interpolation_leads_to_the_goal_posture() -> None:
     plain = ["policy.variance=0.01", "policy.time=normalised", "policy.kernels=16", "policy.goal=neutral"]
     objective = make_objective(load_task("posture-recovery", changes=plain), threads=1)
     reference = objective.policy.reference(objective.space.mean[None])
-    span = np.abs(objective.robot.posture("neutral") - objective.state.joint_position)
+    span = np.abs(objective.robot.posture("neutral") - objective.state.joint_position[0])
     np.testing.assert_allclose(reference.position[0, -1], objective.robot.posture("neutral"), atol=0.02 * span.max())
-    np.testing.assert_allclose(reference.position[0, 0], objective.state.joint_position, atol=0.03 * span.max())
+    np.testing.assert_allclose(reference.position[0, 0], objective.state.joint_position[0], atol=0.03 * span.max())
 
 
 def test_a_trial_has_the_same_bits_alone_and_in_a_batch() -> None:

@@ -9,8 +9,9 @@ from levade.check.numerics import apart
 from levade.check.subject import Subject
 from levade.costs import errors, success
 from levade.costs.orientation import geodesic
+from levade.engines import ENGINES
 from levade.errors import LevadeError
-from levade.replay import ENGINES, replay_in
+from levade.replay import replay_in
 from levade.trajectory import Trajectories
 
 _ROWS = 20

@@ -11,7 +11,7 @@ import numpy as np
 from levade.check.subject import Subject
 from levade.costs import errors, success
 from levade.costs.orientation import geodesic
-from levade.engines import Perturbation
+from levade.engines import Perturbation, perturbed_models
 from levade.trajectory import Trajectories
 
 
@@ -74,10 +74,10 @@ def numerics(subject: Subject) -> dict[str, Numeric]:
 def simulate_at(subject: Subject, variant: Variant) -> tuple[Trajectories, str]:
     """The motion, computed another way; and where its references come from."""
     reference, source = subject.reference_at(variant.parts)
-    ensemble = subject.ensemble(varied(subject.model_copy(), variant))
-    nominal = Perturbation().nominal(ensemble.model, ensemble.joints)
-    variations = ensemble.vary(subject.start, nominal)
-    return ensemble.rollout(variations, reference, feedback=subject.motion.feedback), source
+    engine = subject.engine.with_model(varied(subject.model_copy(), variant))
+    nominal = Perturbation().nominal(engine.model, subject.joints)
+    starts, models = perturbed_models(engine.model, engine.layout, nominal, subject.start)
+    return engine.rollout(starts, reference, models=models, feedback=subject.motion.feedback), source
 
 
 def varied(model: mujoco.MjModel, variant: Variant) -> mujoco.MjModel:

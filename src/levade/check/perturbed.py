@@ -13,7 +13,7 @@ from levade.arrays import Array
 from levade.check.statistics import rank_correlation, wilson
 from levade.check.subject import Subject
 from levade.costs import DIVERGED, errors, success
-from levade.engines import Ensemble, Perturbation, Sample
+from levade.engines import Engine, Perturbation, Sample, perturbed_models
 from levade.engines.perturbation import PARAMETERS, joined, labels
 from levade.feedback import Feedback, SensorErrors
 from levade.trajectory import JointReference
@@ -109,18 +109,16 @@ def perturbed(
     """
     model = subject.model_copy()
     model.opt.timestep /= divide
-    ensemble, reference = subject.ensemble(model), subject.reference_at(divide)[0]
-    sample = perturbation.draw(ensemble.model, ensemble.joints, n=runs, seed=seed)
+    engine, reference = subject.engine.with_model(model), subject.reference_at(divide)[0]
+    sample = perturbation.draw(engine.model, subject.joints, n=runs, seed=seed)
     names = [
         name
         for name, values in sample.values.items()
         if values.shape[1] and getattr(perturbation, name) not in (None, (PARAMETERS[name].nominal,) * 2)
     ]
-    corners = {
-        name: perturbation.corners(ensemble.model, ensemble.joints, name, n=_CORNERS, seed=seed) for name in names
-    }
+    corners = {name: perturbation.corners(engine.model, subject.joints, name, n=_CORNERS, seed=seed) for name in names}
     every = joined([sample, *corners.values()])
-    whole = judge(subject, ensemble, reference, every, feedback=feedback, seed=seed, stopping=stopping)
+    whole = judge(subject, engine, reference, every, feedback=feedback, seed=seed, stopping=stopping)
     drawn, alone, first = whole.part(0, runs), {}, runs
     runs = len(drawn.success)
     sample = Sample({name: values[:runs] for name, values in sample.values.items()})
@@ -155,7 +153,7 @@ def perturbed(
             "errors": {name: float(values[worst]) for name, values in drawn.errors.items()},
             "values": {name: sample.values[name][worst].tolist() for name in names},
         },
-        sensitivity=_sensitivities(subject, ensemble, perturbation, sample, drawn, alone, names),
+        sensitivity=_sensitivities(subject, perturbation, sample, drawn, alone, names),
     )
 
 
@@ -176,7 +174,7 @@ class Judged:
 
 def judge(
     subject: Subject,
-    ensemble: Ensemble,
+    engine: Engine,
     reference: JointReference,
     sample: Sample,
     *,
@@ -196,9 +194,9 @@ def judge(
         wrong = None
         if feedback is not None:
             ticks = -(-reference.steps // feedback.steps(reference.timestep))
-            wrong = SensorErrors().draw(_AT_ONCE, ticks, ensemble.joints, seed=(seed, first, _SENSING))[: len(part)]
-        variations = ensemble.vary(subject.start, part)
-        trajectories = ensemble.rollout(variations, reference, feedback=feedback, sensor_errors=wrong)
+            wrong = SensorErrors().draw(_AT_ONCE, ticks, subject.joints, seed=(seed, first, _SENSING))[: len(part)]
+        starts, models = perturbed_models(engine.model, engine.layout, part, subject.start)
+        trajectories = engine.rollout(starts, reference, models=models, feedback=feedback, sensor_errors=wrong)
         parts.append((errors(criteria, trajectories), success(criteria, trajectories), trajectories.diverged))
     off = {name: np.concatenate([part[0][name] for part in parts]) for name in criteria}
     met, diverged = (np.concatenate([part[i] for part in parts]) for i in (1, 2))
@@ -212,7 +210,6 @@ def judge(
 
 def _sensitivities(
     subject: Subject,
-    ensemble: Ensemble,
     perturbation: Perturbation,
     sample: Sample,
     drawn: Judged,
@@ -238,7 +235,7 @@ def _sensitivities(
                 parameter=name,
                 unit=PARAMETERS[name].unit,
                 explains=float(np.clip(squared.sum() - by_chance, 0.0, 1.0)),
-                number=labels(ensemble.model, subject.embodiment.joint_names, name)[which],
+                number=labels(subject.model, subject.embodiment.joint_names, name)[which],
                 failed=float(failed.mean()) if failed.size else None,
                 succeeded=float(succeeded.mean()) if succeeded.size else None,
                 alone=(int(alone[name].sum()), len(alone[name])),

@@ -12,8 +12,7 @@ import numpy as np
 
 from levade.arrays import Array
 from levade.costs import Criterion
-from levade.engines import Ensemble
-from levade.engines.layout import Layout
+from levade.engines import MujocoEngine, State
 from levade.errors import LevadeError
 from levade.motion import Motion
 from levade.replay import embodiment
@@ -37,16 +36,26 @@ class Subject:
         self.model = motion.compiled()
         self.embodiment = embodiment(motion, self.model)
         self.timestep = float(motion.meta["timestep"])
-        self.start = (motion["qpos0"], motion["qvel0"], motion["act0"])
-        self.layout = Layout.of_model(self.model, self.embodiment)
+        self.layout = self.engine.layout
 
     @property
     def joints(self) -> int:
         return self.embodiment.joints
 
-    def ensemble(self, model: mujoco.MjModel | None = None) -> Ensemble:
-        """For simulating versions of a model; the motion's own if None."""
-        return Ensemble(self.model if model is None else model, self.layout, threads=self.threads)
+    @cached_property
+    def engine(self) -> MujocoEngine:
+        """MuJoCo with the motion's model, whichever engine made the motion."""
+        motion, physics = self.motion, replace(self.task.physics, engine="mujoco", timestep=self.timestep)
+        return MujocoEngine(
+            motion.model_xml, motion.assets, self.embodiment, physics, threads=self.threads, model=self.model
+        )
+
+    @cached_property
+    def start(self) -> State:
+        """Where the motion starts, one row."""
+        motion = self.motion
+        told = motion.arrays.get("joint_position_reference0")
+        return self.layout.state(motion["qpos0"], motion["qvel0"], motion["act0"], joint_reference=told)
 
     def model_copy(self) -> mujoco.MjModel:
         """The motion's model, to be changed."""

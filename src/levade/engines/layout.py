@@ -11,8 +11,12 @@ from numpy.typing import NDArray
 
 from levade.arrays import Array
 from levade.embodiment import Embodiment
+from levade.engines.state import State
 from levade.robots.addresses import Addresses, Index, compact
 from levade.trajectory import JointReference, Trajectories
+
+FOOT_CONTACT_FORCE = "foot_contact_force"
+"""In what a roll-out records: the contact force on each foot. Every other name is that of a body."""
 
 _FOOT_SENSOR, _BODY_SENSOR = "_contact_force", "_scene_force"
 """What follows the name of a foot's geom, or of a body, in the name of its sensor."""
@@ -62,14 +66,27 @@ class Layout(Addresses):
             },
         )
 
+    def state(self, qpos: Array, qvel: Array, act: Array, *, joint_reference: Array | None = None) -> State:
+        """Make a state of the model's vectors, copied.
+
+        Args:
+            qpos: Positions, shape (nq,) or (rows, nq).
+            qvel: Velocities, shape (nv,) or (rows, nv).
+            act: States of the actuators, shape (na,) or (rows, na).
+            joint_reference: What the joints were commanded last [rad], shape (joints,) or (rows, joints). Defaults to
+                where they are.
+        """
+        joint_position = np.asarray(qpos)[..., self.joint_qpos]
+        parts = (qpos, qvel, act, joint_position, joint_position if joint_reference is None else joint_reference)
+        return State(*(np.array(np.atleast_2d(part), dtype=float) for part in parts))
+
     def trajectories(
         self,
         out: Mapping[str, Array],
         reference: JointReference,
         *,
         diverged: NDArray[np.bool_],
-        feet: bool = False,
-        bodies: Sequence[str] = (),
+        record: Sequence[str] = (),
     ) -> Trajectories:
         """Make trajectories of what MuJoCo recorded.
 
@@ -77,8 +94,7 @@ class Layout(Addresses):
             out: qpos, qvel, actuator_force, and sensordata if forces are asked for; each (n, steps, ...).
             reference: What was asked of the joints in the same n trials.
             diverged: Trials that broke down, shape (n,).
-            feet: Whether to include the force on each foot.
-            bodies: Bodies whose contact force with the scene to include.
+            record: Forces to include: `FOOT_CONTACT_FORCE`, and bodies whose contact force with the scene is meant.
         """
         qpos, qvel = out["qpos"], out["qvel"]
         return Trajectories(
@@ -94,8 +110,10 @@ class Layout(Addresses):
             timestep=reference.timestep,
             horizon_steps=reference.horizon_steps,
             diverged=diverged,
-            foot_contact_force=self.foot_forces(out["sensordata"]) if feet else None,
-            body_contact_force={body: self.force_on(body, out["sensordata"]) for body in bodies},
+            foot_contact_force=self.foot_forces(out["sensordata"]) if FOOT_CONTACT_FORCE in record else None,
+            body_contact_force={
+                body: self.force_on(body, out["sensordata"]) for body in record if body != FOOT_CONTACT_FORCE
+            },
         )
 
     def foot_forces(self, sensordata: Array) -> Array:

@@ -199,22 +199,8 @@ class Renderer:
 
 
 def replay(motion: Motion) -> Poses:
-    """Simulate the motion from its file; take it as recorded if another engine than MuJoCo made it."""
+    """The robot's poses in a motion, as recorded: the start, then every row."""
     model = motion.compiled()
-    if motion.meta["engine"] != "mujoco":
-        return _recorded(motion, model)
-    data = mujoco.MjData(model)
-    data.qpos[:], data.qvel[:], data.act[:] = motion["qpos0"], motion["qvel0"], motion["act0"]
-    qpos = np.empty((len(motion["ctrl"]) + 1, model.nq))
-    qpos[0] = data.qpos
-    for row, ctrl in enumerate(motion["ctrl"], start=1):
-        data.ctrl[:] = ctrl
-        mujoco.mj_step(model, data)
-        qpos[row] = data.qpos
-    return Poses(model, np.concatenate([[0.0], motion["time"]]), qpos)
-
-
-def _recorded(motion: Motion, model: Any) -> Poses:
     qpos = np.repeat(motion["qpos0"][None], len(motion["time"]) + 1, axis=0)
     at = Addresses.of(model, motion.meta["trunk"], motion["joint_names"].tolist())
     qpos[1:, at.trunk_position], qpos[1:, at.trunk_quaternion] = motion["trunk_position"], motion["trunk_quaternion"]

@@ -9,7 +9,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 
@@ -17,7 +17,7 @@ import numpy as np
 
 from levade.arrays import Array
 from levade.costs import evaluate
-from levade.engines import Engine, State, Variations, make_engine
+from levade.engines import FOOT_CONTACT_FORCE, Engine, Models, State, make_engine, perturbed_models, start_state
 from levade.errors import LevadeError, did_you_mean
 from levade.policies import Policy, smoothness_factor
 from levade.robots import Robot, load_robot
@@ -66,11 +66,41 @@ class Simulation:
         choice = asdict(task.robot)
         robot = load_robot(choice.pop("name"), **choice)
         engine = make_engine(robot, task.scene, task.physics, threads=threads)
-        return cls(robot, engine, engine.start(task.start.choice))
+        return cls(robot, engine, start_state(engine, robot, task.scene, task.start.choice))
 
     def starting(self, start: State) -> Simulation:
         """The same simulation from another start."""
         return replace(self, start=start)
+
+
+@dataclass(frozen=True, eq=False)
+class Rollouts:
+    """What an engine is asked to simulate: `levade.engines.Engine.rollout` says what each is."""
+
+    starts: State
+    reference: JointReference
+    models: Models | None
+
+    def __getitem__(self, rows: slice) -> Rollouts:
+        if rows == slice(0, len(self.reference.position)):
+            return self  # a search starts all its trials from one state, which the engine knows again
+        starts = self.starts if len(self.starts) == 1 else self.starts[rows]
+        return Rollouts(starts, self.reference[rows], None if self.models is None else self.models[rows])
+
+    @classmethod
+    def joined(cls, parts: Sequence[Rollouts]) -> Rollouts:
+        """Several, one after another; all on perturbed models, or none."""
+        first = parts[0]
+        if len(parts) == 1:
+            return first
+        rows = [len(part.reference.position) for part in parts]
+        if all(part.starts is first.starts for part in parts) and len(first.starts) == 1:
+            starts = first.starts
+        else:
+            starts = State.stacked([part.starts.repeated(n) for part, n in zip(parts, rows, strict=True)])
+        models = [part.models for part in parts if part.models is not None]
+        reference = JointReference.stacked([part.reference for part in parts])
+        return cls(starts, reference, Models.stacked(models) if models else None)
 
 
 class Objective:
@@ -90,8 +120,8 @@ class Objective:
         self.terms = {name: cost.term for name, cost in task.costs.items()}
         self.bodies = _bodies(task, simulation)
         check_reach(task, self.robot, self.engine.model)
-        self.policy = make_policy(task, self.robot, start=self.state.joint_reference)
-        self._models: dict[tuple[int, int], Variations] = {}
+        self.policy = make_policy(task, self.robot, start=self.state.joint_reference[0])
+        self._drawn: dict[tuple[int, int], tuple[State, Models]] = {}
 
     def with_task(self, task: Task) -> Objective:
         """Another task with the same robot, scene, physics and start, on the same simulation."""
@@ -102,9 +132,9 @@ class Objective:
         """Where the task's search begins."""
         search, policy, choice = self.task.search, self.policy, self.task.policy
         if choice.initial == "hold":
-            mean = policy.hold(self.state.joint_reference)
+            mean = policy.hold(self.state.joint_reference[0])
         else:
-            mean = policy.interpolate(self.state.joint_position, goal_posture(choice, self.robot))
+            mean = policy.interpolate(self.state.joint_position[0], goal_posture(choice, self.robot))
         if search.smoothness > 0 or search.modes is not None:
             smooth = smoothness_factor(policy.kernels, search.smoothness, policy.independent_joints, modes=search.modes)
         else:
@@ -127,7 +157,8 @@ class Objective:
             feet: Whether to record the contact forces on the feet.
         """
         reference = self.policy.reference(weights, hold_steps=hold_steps)
-        return self.engine.rollout(self.state, reference, feet=feet, bodies=self.bodies)
+        record = (FOOT_CONTACT_FORCE, *self.bodies) if feet else self.bodies
+        return self.engine.rollout(self.state, reference, record=record)
 
     def evaluate(self, trials: Trials | Array) -> Evaluation:
         """Simulate trials and judge them.
@@ -148,23 +179,16 @@ class Objective:
         """
         self.evaluate(self.space.mean[None])
 
-    def reference(self, trials: Trials) -> JointReference:
-        """What trials ask of the joints, one row a roll-out."""
+    def rollouts(self, trials: Trials) -> Rollouts:
+        """What an engine needs to simulate trials, one row a roll-out."""
         reference = self.policy.reference(trials.weights, hold_steps=trials.hold_steps)
-        if trials.pairs is None:
-            return reference
-        # perturbed models have latency: until the first reference arrives, the joints have what they were commanded last
-        return replace(reference[trials.pairs[0]], before=self.state.joint_reference)
-
-    def models(self, trials: Trials) -> Variations | None:
-        """The perturbed models of trials, one row a roll-out. None for the nominal model."""
         if trials.draw is None or trials.pairs is None:
-            return None
-        key = (trials.seed, trials.draw)
-        if key not in self._models:
-            kept = {other: models for other, models in self._models.items() if other[1] == 0}
-            self._models = {**kept, key: self._drawn(*key)}
-        return self._models[key][trials.pairs[1]]
+            return Rollouts(self.state, reference, None)
+        candidates, models = trials.pairs
+        starts, drawn = self._models(trials.seed, trials.draw)
+        # perturbed models have latency: until the first reference arrives, the joints have what they were commanded last
+        reference = replace(reference[candidates], before=self.state.joint_reference[0])
+        return Rollouts(starts[models], reference, drawn[models])
 
     def judge(self, trajectories: Trajectories, hold_steps: int) -> Evaluation:
         """Judge trajectories of which ``hold_steps`` of the hold were simulated.
@@ -192,17 +216,16 @@ class Objective:
             slack={name: slack[name] for name, criterion in self.task.success.items() if criterion.target is None},
         )
 
-    def _drawn(self, seed: int, draw: int) -> Variations:
-        robust = self.task.robust
+    def _models(self, seed: int, draw: int) -> tuple[State, Models]:
+        """A draw of perturbed models and where each starts. The latest is kept, and the models that stay the same."""
+        robust, engine, key = self.task.robust, self.engine, (seed, draw)
         assert robust is not None
-        ensemble = self._ensemble
-        n = robust.samples if draw else robust.fixed
-        sample = robust.perturb.spread(ensemble.model, ensemble.joints, n=n, seed=(seed, draw, _TAG))
-        return ensemble.vary((self.state.qpos, self.state.qvel, self.state.act), sample)
-
-    @cached_property
-    def _ensemble(self):
-        return self.engine.ensemble()
+        if key not in self._drawn:
+            n = robust.samples if draw else robust.fixed
+            sample = robust.perturb.spread(engine.model, engine.embodiment.joints, n=n, seed=(seed, draw, _TAG))
+            kept = {other: models for other, models in self._drawn.items() if other[1] == 0}
+            self._drawn = {**kept, key: perturbed_models(engine.model, engine.layout, sample, self.state)}
+        return self._drawn[key]
 
 
 def make_objective(task: Task, *, threads: int = 0) -> Objective:
@@ -217,20 +240,38 @@ def make_objective(task: Task, *, threads: int = 0) -> Objective:
 
 
 def evaluate_many(asked: Sequence[tuple[Objective, Trials]]) -> list[Evaluation]:
-    """Evaluate the trials of several objectives on one simulation; each has the same bits as alone."""
-    evaluations: list[Evaluation] = []
-    for objective, trials in asked:
-        reference, models = objective.reference(trials), objective.models(trials)
-        parts = []
-        for first in range(0, trials.n, AT_ONCE):
-            rows = np.arange(first, min(first + AT_ONCE, trials.n))
-            if models is None:
-                done = objective.engine.rollout(objective.state, reference[rows], bodies=objective.bodies)
-            else:
-                done = objective._ensemble.rollout(models[rows], reference[rows], bodies=objective.bodies)
-            parts.append(objective.judge(done, trials.hold_steps))
-        evaluations.append(_joined(parts))
-    return evaluations
+    """Evaluate the trials of several objectives; those of one engine that last as long share batches.
+
+    Each has the same bits as alone.
+    """
+    found: list[Evaluation | None] = [None] * len(asked)
+    together: dict[tuple[int, int, bool, tuple[str, ...]], list[int]] = {}
+    for i, (objective, trials) in enumerate(asked):
+        steps = objective.policy.horizon_steps + trials.hold_steps
+        key = (id(objective.engine), steps, trials.draw is None, objective.bodies)
+        together.setdefault(key, []).append(i)
+    for members in together.values():
+        for i, evaluation in zip(members, _evaluate_together([asked[i] for i in members]), strict=True):
+            found[i] = evaluation
+    return [evaluation for evaluation in found if evaluation is not None]
+
+
+def _evaluate_together(asked: Sequence[tuple[Objective, Trials]]) -> Iterator[Evaluation]:
+    """Evaluate trials of one engine, of one length, all on the nominal model or all on perturbed ones."""
+    engine, record = asked[0][0].engine, asked[0][0].bodies
+    rollouts = Rollouts.joined([objective.rollouts(trials) for objective, trials in asked])
+    owner = np.repeat(np.arange(len(asked)), [trials.n for _, trials in asked])
+    parts: list[list[Evaluation]] = [[] for _ in asked]
+    for first in range(0, len(owner), AT_ONCE):
+        rows = slice(first, min(first + AT_ONCE, len(owner)))
+        part = rollouts[rows]
+        trajectories = engine.rollout(part.starts, part.reference, models=part.models, record=record)
+        for i in np.unique(owner[rows]):
+            objective, trials = asked[i]
+            own = np.flatnonzero(owner[rows] == i)
+            judged = trajectories if len(own) == trajectories.n else trajectories[slice(own[0], own[-1] + 1)]
+            parts[i].append(objective.judge(judged, trials.hold_steps))
+    return map(_joined, parts)
 
 
 def _joined(parts: Sequence[Evaluation]) -> Evaluation:

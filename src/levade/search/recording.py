@@ -27,13 +27,13 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
     com = trajectories.trunk_com_position()[0]
     assert trajectories.foot_contact_force is not None
     arrays = {
-        "qpos0": state.qpos,
-        "qvel0": state.qvel,
-        "act0": state.act,
+        "qpos0": state.qpos[0],
+        "qvel0": state.qvel[0],
+        "act0": state.act[0],
         "ctrl": engine.ctrl(reference)[0],
         "time": trajectories.time,
         "joint_names": np.array(objective.robot.joint_names),
-        "joint_position_reference0": state.joint_reference,
+        "joint_position_reference0": state.joint_reference[0],
         "joint_position_reference": reference.position[0],
         "joint_velocity_reference": reference.velocity[0],
         "joint_position": trajectories.joint_position[0],

@@ -14,8 +14,8 @@ import numpy as np
 from mujoco.batch import Batch
 
 from levade.arrays import Array
-from levade.engines.layout import Layout
-from levade.engines.simulating import RESET_OFF, SENSORS_OFF, STATE, quiet
+from levade.engines import Layout, State
+from levade.engines.batches import RESET_OFF, SENSORS_OFF, STATE, quiet
 from levade.feedback import sensed
 from levade.rotations import conjugate, rotate
 from levade.trajectory import JointReference
@@ -88,14 +88,14 @@ class Linear:
 def linearise(
     model: mujoco.MjModel,
     layout: Layout,
-    start: tuple[Array, Array, Array],
+    start: State,
     reference: JointReference,
     *,
     period: int,
     size: float = 0.6,
     threads: int = 0,
 ) -> Linear:
-    """Of a motion in MuJoCo. start: qpos, qvel, act. reference: of one trial. period: steps from tick to tick. size: [m], of
+    """Of a motion in MuJoCo. start: one row. reference: of one trial. period: steps from tick to tick. size: [m], of
     the robot.
     """
     model = copy.deepcopy(model)
@@ -126,10 +126,10 @@ def linearise(
     return Linear(np.array(a), np.array(b), state[:, : 6 + 2 * joints], state, drives)
 
 
-def _rows(model: mujoco.MjModel, start: tuple[Array, Array, Array], ctrl: Array, period: int) -> Array:
+def _rows(model: mujoco.MjModel, start: State, ctrl: Array, period: int) -> Array:
     """MuJoCo's states at the ticks of a motion, (ticks, size of a state)."""
     data = mujoco.MjData(model)
-    data.qpos[:], data.qvel[:], data.act[:] = start
+    data.qpos[:], data.qvel[:], data.act[:] = start.qpos[0], start.qvel[0], start.act[0]
     first = np.empty(mujoco.mj_stateSize(model, STATE))
     mujoco.mj_getState(model, data, first, STATE)
     batch = Batch(model, 1, 1)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from levade.arrays import Array
 from levade.check import Subject
 from levade.check.perturbed import Judged, judge
-from levade.engines import Perturbation
+from levade.engines import ENGINES, Perturbation, engine_kind, perturbed_models
 from levade.engines.perturbation import Sample
 from levade.errors import LevadeError
 from levade.feedback import Feedback, SensorErrors
@@ -95,10 +95,9 @@ def stabilise(
     linear = linearise(
         subject.model, subject.layout, subject.start, subject.reference, period=period, size=size, threads=threads
     )
-    ensemble = subject.ensemble()
     drawing = perturbation or Perturbation()
     sample, fresh = (
-        drawing.draw(ensemble.model, ensemble.joints, n=runs, seed=(seed, tag)) for tag in (_TRAINING, _JUDGING)
+        drawing.draw(subject.model, subject.joints, n=runs, seed=(seed, tag)) for tag in (_TRAINING, _JUDGING)
     )
     expected = _expectations(subject, linear, sample, period)
 
@@ -108,7 +107,7 @@ def stabilise(
 
     def runs_of(design: Design | None, sample: Sample, tag: int, what: str = "") -> Judged:
         given = None if design is None else feedback(design)
-        found = judge(subject, ensemble, subject.reference, sample, feedback=given, seed=seed + tag)
+        found = judge(subject, subject.engine, subject.reference, sample, feedback=given, seed=seed + tag)
         if tell is not None:
             tell(f"{what}{'no feedback' if design is None else _text(design)}: {found.success.mean():.1%}")
         return found
@@ -146,9 +145,11 @@ def stabilise(
 
 def _check(subject: Subject, rate: float, bound: float, runs: int) -> None:
     motion = subject.motion
-    if motion.meta["engine"] != "mujoco":
+    if not engine_kind(motion.meta["engine"]).feedback:
+        able = " or ".join(kind.title for kind in ENGINES.values() if kind.feedback)
         raise LevadeError(
-            f"stabilise: the motion was made in {motion.meta['engine']}; only MuJoCo's can be stabilised: solve the task in it"
+            f"stabilise: the motion was made in {motion.meta['engine']}, which simulates no feedback;"
+            f" solve the task in {able}"
         )
     if motion.meta["diverged"]:
         raise LevadeError(
@@ -213,10 +214,11 @@ def _expectations(subject: Subject, linear: Linear, sample: Sample, period: int)
 
     From perturbed runs without feedback.
     """
-    ensemble, joints = subject.ensemble(), subject.joints
+    engine, joints = subject.engine, subject.joints
     ticks = len(linear.a)
     fields = ["qpos", "qvel", *(["act"] if subject.model.na else [])]
-    found, _ = ensemble.record(ensemble.vary(subject.start, sample), subject.reference, fields)
+    starts, models = perturbed_models(engine.model, engine.layout, sample, subject.start)
+    found, _ = engine.states(starts, subject.reference, fields, models=models)
     every = slice(period - 1, None, period)  # the end of the last step before each tick but the first
     state = state_of(subject.layout, *(found[name][:, every] for name in fields))
     errors = SensorErrors()

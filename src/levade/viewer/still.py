@@ -83,7 +83,7 @@ def robot_data(robot: Robot) -> dict[str, Any]:
 def task_data(objective: Objective) -> dict[str, Any]:
     """The page of a task: the start, the scene, and what the goal says about robot and trunk."""
     task, robot, model = objective.task, objective.robot, objective.engine.model
-    qpos = objective.state.qpos
+    qpos = objective.state.qpos[0]
     shapes = shapes_of(model)
     moving = _moving(model, qpos)
     at = objective.engine.layout

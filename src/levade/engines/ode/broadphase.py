@@ -1,4 +1,6 @@
-"""Which shapes may touch: a quick, safe answer for all pairs of all trials at once, so that ODE is asked about few.
+"""The broad phase of collision: which shapes may touch.
+
+It is a quick, safe answer for all pairs of all trials at once, so that ODE is asked about few.
 
 Every shape is enclosed in a box with rounded edges. A pair is passed on unless a plane, or a face of one of the boxes,
 keeps the two apart; no pair that touches is left out.
@@ -12,20 +14,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from levade.arrays import Array
-from levade.engines.ode.skeleton import Index, Skeleton
+from levade.engines.ode.multibody import Index, Multibody
 
 _MARGIN = 0.04
 """[m]: pairs this far apart are passed on as well, so that the answer holds until something has moved by half of it."""
 
 
-class Nearness:
-    """The test for one skeleton. It remembers its last answer: call it once a step, after `forget`."""
+class BroadPhase:
+    """The test for one multibody. It remembers its last answer: call it once a step, after `forget`."""
 
-    def __init__(self, skeleton: Skeleton) -> None:
-        shapes = skeleton.shapes
+    def __init__(self, multibody: Multibody) -> None:
+        shapes = multibody.shapes
         moving = np.array([shape.link >= 0 for shape in shapes], dtype=bool)
         self._link = np.array([max(shape.link, 0) for shape in shapes])
-        com = np.array([skeleton.com[s.link] if s.link >= 0 else np.zeros(3) for s in shapes]).reshape(-1, 3)
+        com = np.array([multibody.com[s.link] if s.link >= 0 else np.zeros(3) for s in shapes]).reshape(-1, 3)
         self._centre = np.array([shape.position for shape in shapes]).reshape(-1, 3) - com  # from the body's origin
         self._axes = np.array([shape.rotation.T for shape in shapes]).reshape(-1, 3, 3)  # rows: the box's axes
         self._core = np.array([shape.core for shape in shapes]).reshape(-1, 3)
@@ -33,8 +35,8 @@ class Nearness:
         self._reach = np.linalg.norm(self._core, axis=1) + self._radius
         self._fixed = ~moving
         flat = np.array([shape.kind == "plane" for shape in shapes], dtype=bool)
-        first, second = skeleton.pairs.T
-        on_plane = flat[second] if len(skeleton.pairs) else np.zeros(0, dtype=bool)
+        first, second = multibody.pairs.T
+        on_plane = flat[second] if len(multibody.pairs) else np.zeros(0, dtype=bool)
         self._planes = []
         for plane in np.unique(second[on_plane]):
             pairs = np.flatnonzero(second == plane)
@@ -43,7 +45,7 @@ class Nearness:
         self._others = np.flatnonzero(~on_plane)
         self._first, self._second = first[self._others], second[self._others]
         self._near = (self._reach[self._first] + self._reach[self._second] + _MARGIN) ** 2
-        self._extent = np.zeros(len(skeleton.mass))  # of each link, from its centre of mass
+        self._extent = np.zeros(len(multibody.mass))  # of each link, from its centre of mass
         np.maximum.at(self._extent, self._link[moving], (np.linalg.norm(self._centre, axis=1) + self._reach)[moving])
         self._moved: Array | None = None
         self._found: list[list[int]] = []

@@ -18,20 +18,22 @@ from typing import IO, Any
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from levade.arrays import Array
+from levade.engines.ode.multibody import multibody_of
 from levade.engines.ode.simulation import Record, Simulation
-from levade.engines.ode.skeleton import skeleton
 from levade.engines.physics import Physics
+from levade.engines.state import State
 
 _WORTH = 1500
 """Steps, over all trials, from which on a roll-out is shared."""
 
-_HIRE = 20_000
+_START = 20_000
 """Steps simulated before another process is started, which costs as much as thousands."""
 
 
-class Crew:
+class WorkerPool:
     """Simulations of one model, in this process and others.
 
     threads: how many processes at most, this one included; 0 for one per core.
@@ -42,63 +44,66 @@ class Crew:
         self.simulation = simulation(*self._model)
         self._size = threads or _cores()
         self._done = 0
-        self._helpers: list[subprocess.Popen[bytes]] = []
-        weakref.finalize(self, _dismiss, self._helpers)
+        self._workers: list[subprocess.Popen[bytes]] = []
+        weakref.finalize(self, _stop_workers, self._workers)
 
-    def run(self, start: tuple[Array, Array, Array], position: Array, velocity: Array, **forces: Any) -> Record:
-        """`Simulation.run` of n trials; start: qpos, qvel, act."""
+    def run(self, starts: State, position: Array, velocity: Array, **forces: Any) -> Record:
+        """Simulate n trials, from starts of 1 or n rows; the rest as of `Simulation.run`."""
         n, steps = position.shape[:2]
         self._done += n * steps
-        size = min(self._size, n) if n * steps >= _WORTH and self._done >= _HIRE else 1
+        size = min(self._size, n) if n * steps >= _WORTH and self._done >= _START else 1
         shares = np.array_split(np.arange(n), size)
-        while len(self._helpers) < size - 1:
-            self._helpers.append(_hire(self._model))
+        while len(self._workers) < size - 1:
+            self._workers.append(_start_worker(self._model))
+
+        def arguments(share: NDArray[np.intp]) -> tuple[Array, ...]:
+            of = starts if len(starts) == 1 else starts[share]
+            return of.qpos, of.qvel, of.act, position[share], velocity[share]
+
         try:
-            for helper, share in zip(self._helpers, shares[1:], strict=False):
-                _send(helper.stdin, ((*start, position[share], velocity[share]), forces))
-            records = [self.simulation.run(*start, position[shares[0]], velocity[shares[0]], **forces)]
-            for helper, _ in zip(self._helpers, shares[1:], strict=False):
-                records.append(_receive(helper.stdout))
+            for worker, share in zip(self._workers, shares[1:], strict=False):
+                _send(worker.stdin, (arguments(share), forces))
+            records = [self.simulation.run(*arguments(shares[0]), **forces)]
+            for worker, _ in zip(self._workers, shares[1:], strict=False):
+                records.append(_receive(worker.stdout))
         except BaseException:  # an answer that nobody waits for would be taken for the next one
-            _dismiss(self._helpers)
+            _stop_workers(self._workers)
             raise
-        if len(records) == 1:
-            return records[0]
-        return Record(**{name: np.concatenate([getattr(r, name) for r in records]) for name in vars(records[0])})
+        return Record.joined(records)
 
 
 def simulation(xml: str, assets: Mapping[str, bytes], physics: Physics) -> Simulation:
     """The simulation of a model. Raises LevadeError for what ODE cannot simulate."""
     model = mujoco.MjModel.from_xml_string(xml, dict(assets))
-    return Simulation(skeleton(model), physics.ode, physics.timestep)
+    return Simulation(multibody_of(model), physics.ode, physics.timestep)
 
 
 def _cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def _hire(model: tuple[str, dict[str, bytes], Physics]) -> subprocess.Popen[bytes]:
+def _start_worker(model: tuple[str, dict[str, bytes], Physics]) -> subprocess.Popen[bytes]:
     paths = [path for path in sys.path if path]
-    helper = subprocess.Popen(
-        [sys.executable, "-m", "levade.engines.ode.crew"],
+    worker = subprocess.Popen(
+        [sys.executable, "-m", "levade.engines.ode.workers"],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)},
         process_group=0,  # Ctrl-C is for this process, which knows what to do
     )
-    _send(helper.stdin, model)
-    return helper
+    _send(worker.stdin, model)
+    return worker
 
 
-def _dismiss(helpers: list[subprocess.Popen[bytes]]) -> None:
-    while helpers:
-        helper = helpers.pop()
-        helper.kill()
-        for pipe in (helper.stdin, helper.stdout):
+def _stop_workers(workers: list[subprocess.Popen[bytes]]) -> None:
+    while workers:
+        worker = workers.pop()
+        worker.kill()
+        for pipe in (worker.stdin, worker.stdout):
             if pipe is not None:
                 with suppress(BrokenPipeError):  # of what was not yet sent
                     pipe.close()
-        helper.wait()
+        worker.wait()
 
 
 def _send(pipe: IO[bytes] | None, content: object) -> None:
@@ -116,7 +121,7 @@ def _receive(pipe: IO[bytes] | None) -> Record:
 
 
 def _work() -> None:
-    """A helper's life: a model, then roll-outs until the pipe ends."""
+    """What a worker does: read a model, then simulate roll-outs until the pipe ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # nothing that a library prints may come between the answers

@@ -69,8 +69,8 @@ class Drives:
 
 
 @dataclass(frozen=True, eq=False)
-class Skeleton:
-    """Links, and all that is on and between them; link 0 is the trunk.
+class Multibody:
+    """A multibody system: links, and all that is on and between them; link 0 is the trunk.
 
     mass: (L,) [kg]. com: (L, 3) [m] and inertia: (L, 3, 3) [kg m²] about it, in the link's frame. body: (L,) the
     model's body with the joint. shapes: of the links and, with link -1, of the world. pairs: (P, 2) shapes that may
@@ -92,8 +92,8 @@ class Skeleton:
     root_qvel: int
 
 
-def skeleton(model: mujoco.MjModel) -> Skeleton:
-    """The skeleton of a model with one free body and hinges. Raises LevadeError for what ODE cannot simulate."""
+def multibody_of(model: mujoco.MjModel) -> Multibody:
+    """Read a model with one free body and hinges. Raises LevadeError for what ODE cannot simulate."""
     _refuse(model)
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
@@ -112,7 +112,7 @@ def skeleton(model: mujoco.MjModel) -> Skeleton:
     pairs, friction = _pairs(model, geoms, [shape.link for shape in shapes])
     hinges = _hinges(model, data, roots, link_of)
     free = int(model.body_jntadr[trunk])
-    return Skeleton(
+    return Multibody(
         model=model,
         mass=np.array(mass),
         com=np.array(com),
