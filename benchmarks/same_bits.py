@@ -41,7 +41,6 @@ SHOWN = 8
 """Arrays of a case that differ and are printed; the rest is counted."""
 
 EXPECTED: dict[str, str] = {
-    "*.wall_s": "a time",
     "motion.meta.versions.*": "names the versions",
     "checkpoint.versions.*": "names the versions",
     "checkpoint.task_checksum": "of the task's text, which may gain keys; the task itself is compared in the motion's meta",
@@ -214,7 +213,9 @@ def cut(run: Path, to: Path) -> None:
 def arrays_of(folder: Path) -> dict[str, np.ndarray]:
     """Name -> array, of everything that a case made; texts are arrays of texts."""
     found: dict[str, np.ndarray] = {}
-    for path in sorted(folder.iterdir()):
+    for path in sorted(
+        folder.iterdir(), key=lambda path: (path.name != "run", path.name)
+    ):  # what the rest is made of first
         if path.suffix == ".failed":
             found[f"{path.stem} failed"] = np.array(path.read_text(encoding="utf-8"))
         elif path.suffix == ".json":
@@ -258,12 +259,21 @@ def of_lines(text: str, name: str) -> Iterator[tuple[str, np.ndarray]]:
         for key, array in flat(record, name):
             columns.setdefault(key, []).append(array)
     for key, rows in columns.items():
-        alike = len({row.shape for row in rows}) == 1
-        if alike:
-            yield key, np.stack(rows)
-        else:  # how long each is, and all in a row
-            yield f"{key} lengths", np.array([row.size for row in rows])
-            yield key, np.concatenate([row.ravel() for row in rows])
+        if len({row.shape for row in rows}) > 1:  # generations of other sizes
+            yield f"{key} sizes", np.array([row.size for row in rows])
+            rows = (
+                padded(rows) if all(row.dtype.kind in "bif" for row in rows) else [np.array(str(row)) for row in rows]
+            )
+        yield key, np.stack(rows)
+
+
+def padded(rows: list[np.ndarray]) -> list[np.ndarray]:
+    """The same arrays of numbers, with NaN up to the size of the largest in every direction."""
+    directions = max(row.ndim for row in rows)
+    rows = [row.reshape(row.shape + (1,) * (directions - row.ndim)).astype(float) for row in rows]
+    shape = np.max([row.shape for row in rows], axis=0)
+    ends = [[(0, most - size) for most, size in zip(shape, row.shape, strict=True)] for row in rows]
+    return [np.pad(row, end, constant_values=np.nan) for row, end in zip(rows, ends, strict=True)]
 
 
 def of_table(text: str, name: str) -> Iterator[tuple[str, np.ndarray]]:
@@ -313,7 +323,8 @@ def texts_or_numbers(values: list[str]) -> np.ndarray:
 def compare(before: Mapping[str, np.ndarray], now: Mapping[str, np.ndarray]) -> Comparison:
     """What differs between the arrays of the other version and of this one."""
     found = Comparison()
-    before = {renamed(name): array for name, array in before.items()}
+    before = {renamed(name): array for name, array in before.items() if not name.endswith(".wall_s")}
+    now = {name: array for name, array in now.items() if not name.endswith(".wall_s")}
     for name, array in before.items():
         if name.endswith(" failed"):
             note = f"{'in both' if name in now else 'in the other version'}: {shown(array)}"
@@ -348,6 +359,8 @@ def difference(before: np.ndarray, now: np.ndarray) -> str | None:
     """Where two arrays first differ, and by how much at most; None if every bit is the same."""
     if before.shape != now.shape:
         return f"shape {before.shape}, now {now.shape}{first_apart(before, now)}"
+    if before.dtype.kind != now.dtype.kind and {before.dtype.kind, now.dtype.kind} <= set("bif"):
+        before, now = before.astype(float), now.astype(float)  # 0 and 0.0 in a JSON document
     if before.dtype.kind != now.dtype.kind:
         return f"{before.dtype}, now {now.dtype}: {shown(before)}, now {shown(now)}"
     if before.dtype.kind != "f":
@@ -367,7 +380,8 @@ def difference(before: np.ndarray, now: np.ndarray) -> str | None:
     ]
     most = np.nanmax(np.append(np.abs(before - now)[tuple(where.T)], -1.0))
     much = f"by at most {most:.3g} ({max(apart)} ULP)" if most >= 0 else "where one is no number"
-    return f"{len(where)} of {before.size}, first at {place(first)}: {before[first]!r}, now {now[first]!r}; {much}"
+    old, new = float(before[first]), float(now[first])
+    return f"{len(where)} of {before.size}, first at {place(first)}: {old!r}, now {new!r}; {much}"
 
 
 def first_apart(before: np.ndarray, now: np.ndarray) -> str:
@@ -398,19 +412,19 @@ def shown(value: Any) -> str:
 # ---- the whole
 
 
-def checkout_of(revision: str, tree: Path, to: Path) -> tuple[Path, str]:
+def checkout_of(revision: str, to: Path) -> tuple[Path, str]:
     """The package at a git revision, and the name of its commit."""
     commit = subprocess.run(
         ["git", "rev-parse", "--verify", f"{revision}^{{commit}}"],
-        cwd=tree,
+        cwd=HERE,
         capture_output=True,
         text=True,
         check=False,
     )
     if commit.returncode:
-        sys.exit(f"{revision}: no such revision of {tree}")
+        sys.exit(f"{revision}: no such revision")
     name = commit.stdout.strip()
-    archive = subprocess.run(["git", "archive", name, "src"], cwd=tree, capture_output=True, check=True)
+    archive = subprocess.run(["git", "archive", name, "src"], cwd=HERE.parent, capture_output=True, check=True)
     subprocess.run(["tar", "-x", "-C", str(to)], input=archive.stdout, check=True)
     return to, name
 
@@ -427,6 +441,11 @@ def made(case: Case, checkout: Path, scratch: Path, kept: Path | None) -> dict[s
         shutil.copytree(folder, kept / f".{folder.name}", dirs_exist_ok=True)
         (kept / f".{folder.name}").replace(kept / folder.name)
     return arrays_of(folder)
+
+
+def lacking(arrays: Mapping[str, np.ndarray]) -> bool:
+    """Whether a case could not run because a robot's package or an engine's library is not installed."""
+    return "not installed" in str(arrays.get("solve failed", ""))
 
 
 def tell(case: Case, found: Comparison, everything: bool) -> None:
@@ -480,24 +499,27 @@ def main() -> None:
         parser.error("give a revision, or --checkout DIR")
     cases, started = chosen(arguments), time.perf_counter()
     with tempfile.TemporaryDirectory(prefix="same-bits-") as scratch:
-        place = Path(scratch)
+        folder = Path(scratch)
         if arguments.checkout is not None:
             other, kept = arguments.checkout.resolve(), None
         else:
-            (place / "other").mkdir()
-            other, commit = checkout_of(arguments.revision, arguments.tree, place / "other")
+            (folder / "other").mkdir()
+            other, commit = checkout_of(arguments.revision, folder / "other")
             kept = None if arguments.keep is None else arguments.keep.resolve() / commit
-        ours = place / "this"  # a copy: files that change on the way would make one comparison of two trees
+        ours = folder / "this"  # a copy: files that change on the way would make one comparison of two trees
         shutil.copytree(arguments.tree / "src", ours / "src")
         found: dict[str, Comparison] = {}
         with ThreadPoolExecutor(arguments.jobs) as pool:
             work = {}
             for case in cases:
-                before = pool.submit(made, case, other, place / "before", kept)
-                now = pool.submit(made, case, ours, place / "now", None)
+                before = pool.submit(made, case, other, folder / "before", kept)
+                now = pool.submit(made, case, ours, folder / "now", None)
                 work[now] = (case, before)
             for now in as_completed(work):
                 case, before = work[now]
+                if lacking(before.result()) and lacking(now.result()):
+                    print(f"left out {case.name}: {now.result()['solve failed']}", flush=True)
+                    continue
                 found[case.name] = compare(before.result(), now.result())
                 tell(case, found[case.name], arguments.all)
     overall(found)
