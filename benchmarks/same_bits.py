@@ -29,6 +29,7 @@ import time
 import zlib
 from collections.abc import Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor, as_completed
+from contextlib import suppress
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 from pathlib import Path
@@ -438,8 +439,11 @@ def made(case: Case, checkout: Path, scratch: Path, kept: Path | None) -> dict[s
     make(case, checkout, folder)
     if kept is not None:
         kept.mkdir(parents=True, exist_ok=True)
-        shutil.copytree(folder, kept / f".{folder.name}", dirs_exist_ok=True)
-        (kept / f".{folder.name}").replace(kept / folder.name)
+        partial = Path(tempfile.mkdtemp(prefix=".", dir=kept))
+        shutil.copytree(folder, partial, dirs_exist_ok=True)
+        with suppress(OSError):  # another comparison has just kept the same
+            partial.replace(kept / folder.name)
+        shutil.rmtree(partial, ignore_errors=True)
     return arrays_of(folder)
 
 
