@@ -29,7 +29,7 @@ from mujoco.batch import Batch
 
 from levade.costs import errors
 from levade.costs.orientation import geodesic
-from levade.engines.simulating import RESET_OFF, SENSORS_OFF, STATE, simulate
+from levade.engines.batches import RESET_OFF, SENSORS_OFF, STATE, simulate
 from levade.motion import versions
 from levade.solve import Objective, make_optimizer, solve
 from levade.tasks import load_task, looks_at_hold

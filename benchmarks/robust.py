@@ -110,9 +110,8 @@ def experiment(task: str, robot: str, kind: str, seed: int) -> dict[str, Any]:
         "versions": versions("ode"),
     }
     if KINDS[kind][1] == "ode":
-        ensemble = objective.engine.ensemble()
-        sample = Perturbation().draw(ensemble.model, ensemble.joints, n=RUNS_IN_ODE, seed=CHECK_SEED)
-        there = judge(subject, ensemble, subject.reference, sample)
+        sample = Perturbation().draw(objective.engine.model, subject.joints, n=RUNS_IN_ODE, seed=CHECK_SEED)
+        there = judge(subject, objective.engine, subject.reference, sample)
         row |= {"runs_in_ode": RUNS_IN_ODE, "successes_in_ode": int(there.success.sum())}
     return row
 
@@ -297,8 +296,7 @@ def page(rows: list[dict[str, Any]]) -> str:
     from levade.tasks import Robust, load_task
 
     objective = Objective(load_task("rearing"), threads=1)
-    ensemble = objective.engine.ensemble()  # type: ignore[attr-defined]
-    drawn = Perturbation().draw(ensemble.model, ensemble.joints, n=1, seed=0)
+    drawn = Perturbation().draw(objective.engine.model, objective.robot.embodiment.joints, n=1, seed=0)
     default = Robust()
     cpu = sum(math.fsum(row["cpu_s"]) for row in rows)
     versions = rows[-1]["versions"] if rows else {}

@@ -228,7 +228,7 @@ def export(objective: Objective, case: Path) -> None:
     arrays = {"mean": objective.initial_weights, "phi": phi, "phi_rate": phi_rate, "index": index, "sign": sign}
     for name, value in zip(("factor", "added", "factor_rate", "added_rate"), _ends(policy), strict=True):
         arrays[name] = value
-    np.savez(case / "arrays.npz", qpos=state.qpos, qvel=state.qvel, act=state.act, **arrays)
+    np.savez(case / "arrays.npz", qpos=state.qpos[0], qvel=state.qvel[0], act=state.act[0], **arrays)
 
 
 def _ends(policy: Policy) -> tuple[np.ndarray, ...]:

@@ -10,7 +10,7 @@ import pytest
 
 from levade.check import Demands, Subject, margins, perturbed
 from levade.costs import Criterion, success
-from levade.engines import Perturbation
+from levade.engines import Perturbation, perturbed_models
 from levade.motion import Motion
 
 NONE = dict.fromkeys(one.name for one in fields(Perturbation))
@@ -113,10 +113,11 @@ def test_the_line_of_the_actuators_is_a_criterion_in_a_check_too(standing: Motio
 
 def test_a_broken_simulation_is_a_failure_not_a_crash(standing: Motion) -> None:
     subject = Subject(standing)
-    ensemble = subject.ensemble()
-    sample = Perturbation().draw(ensemble.model, ensemble.joints, n=3, seed=0)
+    engine = subject.engine
+    sample = Perturbation().draw(engine.model, subject.joints, n=3, seed=0)
     sample.values["kd"][1] = 1e9
-    trajectories = ensemble.rollout(ensemble.vary(subject.start, sample), subject.reference)
+    starts, models = perturbed_models(engine.model, engine.layout, sample, subject.start)
+    trajectories = engine.rollout(starts, subject.reference, models=models)
     assert not success(subject.criteria, trajectories)[1] or trajectories.diverged[1] == 0
     whole = perturbed(subject, Perturbation(kd=(1e6, 1e9)), runs=10, seed=0)
     json.dumps(whole.to_json(), allow_nan=False)

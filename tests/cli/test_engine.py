@@ -33,7 +33,7 @@ def test_an_engine_that_is_none(levade, tmp_path: Path) -> None:
     status, out, err = levade("solve", "rearing", "--engine", "od")
     assert (status, out) == (2, "")
     assert err.startswith("levade: --set physics.engine: ")
-    assert "'mujoco' or 'ode'" in err
+    assert "no engine 'od'; did you mean ode?" in err
     assert list(tmp_path.iterdir()) == []
 
 

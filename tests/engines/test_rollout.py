@@ -66,11 +66,11 @@ def test_a_batch_equals_a_plain_loop_to_the_bit(actuation: str, wave: Callable[.
     state = start_state(engine, robot, Scene(), Settled(time=0.5))
     reference = wave(state.joint_reference, n=3, steps=120)
     expected = plain_loop(engine, state, reference)
-    for options in ({}, {"record": [FOOT_CONTACT_FORCE]}, {"record": ("trunk",)}, {}):
-        out = engine.rollout(state, reference, **options)
+    for record in ((), (FOOT_CONTACT_FORCE,), ("trunk",), ()):
+        out = engine.rollout(state, reference, record=record)
         assert not out.diverged.any()
         for name in ARRAYS:
-            np.testing.assert_array_equal(getattr(out, name), expected[name], err_msg=f"{name} {options}")
+            np.testing.assert_array_equal(getattr(out, name), expected[name], err_msg=f"{name} {record}")
 
 
 def test_threads_order_and_size_of_the_batch_do_not_matter(
@@ -230,8 +230,8 @@ def test_trials_that_break_down_are_marked_and_leave_the_others_alone(
     broken = dataclasses.replace(reference, position=reference.position.copy())
     broken.position[1, 30:] = 1e30  # from the middle on
     broken.position[4] = 1e30
-    for options in ({}, {"record": (FOOT_CONTACT_FORCE, "trunk")}):
-        out = engine.rollout(state, broken, **options)
+    for record in ((), (FOOT_CONTACT_FORCE, "trunk")):
+        out = engine.rollout(state, broken, record=record)
         np.testing.assert_array_equal(out.diverged, [False, True, False, False, True, False])
         ok = ~out.diverged
         for name in ARRAYS:

@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from levade.engines import MujocoEngine, Physics
+from levade.engines import Physics, make_engine
 from levade.errors import LevadeError
 from levade.export.model import gains, holding_torque
 from levade.export.samples import sample
@@ -121,7 +121,7 @@ def test_resampling_keeps_impulses_and_ends_where_it_should(held: Motion) -> Non
 def test_gains_are_the_robots(actuation: str) -> None:
     kp = {"hydraulic": None, "ideal": 451.0}[actuation]
     robot = load_robot("hyq2max", actuation=actuation, kp=kp)
-    model = MujocoEngine(robot, Scene(), Physics()).model
+    model = make_engine(robot, Scene(), Physics()).model
     found = gains(model, robot.joint_names)
     np.testing.assert_allclose(found, [robot.actuation.kp, robot.actuation.kd])
     # and MuJoCo's own torque is that much: at once by a pid, at the end of its lag by a dcmotor

@@ -14,7 +14,7 @@ import pytest
 from levade.check import Subject
 from levade.check.perturbed import judge
 from levade.costs import total
-from levade.engines import Ensemble, Perturbation, Variations
+from levade.engines import MujocoEngine, Perturbation, perturbed_models
 from levade.engines.ode.library import load
 from levade.errors import LevadeError
 from levade.motion import ARRAYS, Motion, record
@@ -55,22 +55,21 @@ def fixed() -> list[Generation]:
 
 @pytest.mark.parametrize("robust", BUDGET)
 def test_every_rollout_is_a_trial(robust: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    made, counted = objective(robust), [0]
-    one_model, models = Objective.rollout, Ensemble.rollout
+    """And every step of it a step that the engine says it made."""
+    made, counted = objective(robust), [0, 0]
+    rollout, before = MujocoEngine.rollout, made.engine.steps
 
-    def on_one(self: Objective, weights: np.ndarray, **options):
-        counted[0] += len(weights)
-        return one_model(self, weights, **options)
+    def count(self: MujocoEngine, *arguments, **options):
+        out = rollout(self, *arguments, **options)
+        counted[0] += out.n
+        counted[1] += out.n * out.steps
+        return out
 
-    def on_models(self: Ensemble, variations: Variations, *arguments, **options):
-        counted[0] += len(variations)
-        return models(self, variations, *arguments, **options)
-
-    monkeypatch.setattr(Objective, "rollout", on_one)
-    monkeypatch.setattr(Ensemble, "rollout", on_models)
+    monkeypatch.setattr(MujocoEngine, "rollout", count)
     solution = solve(made, seed=2)
     assert solution.trials == counted[0]
     assert solution.trials <= BUDGET[robust]
+    assert made.engine.steps - before == counted[1]
 
 
 def test_a_generation_takes_as_many_trials_as_racing_leaves(fixed: list[Generation]) -> None:
@@ -105,7 +104,6 @@ def test_a_candidates_cost_is_the_measure_of_its_whole_rollouts(fixed: list[Gene
 def test_samples_are_rollouts_of_the_perturbed_models_themselves(fixed: list[Generation]) -> None:
     made = objective()
     assert made.sampler is not None
-    ensemble = made.engine.ensemble()  # type: ignore[union-attr]
     models = made.sampler.models(2, 4)
     weights = made.initial_weights[None] + 0.1 * np.random.default_rng(0).normal(size=(2, 96))
     found = made.evaluate(weights, hold_steps=5, models=models)
@@ -113,7 +111,7 @@ def test_samples_are_rollouts_of_the_perturbed_models_themselves(fixed: list[Gen
     for i in range(2):
         reference = replace(made.policy.reference(weights[i : i + 1], hold_steps=5), before=made.state.joint_reference)
         for j in range(4):
-            alone = ensemble.rollout(models[[j]], reference)
+            alone = made.engine.rollout(models[[j]].starts, reference, models=models[[j]].models)
             for name, term in made.terms.items():
                 assert found.samples.terms[name][i, j] == term(alone)[0], name
 
@@ -156,16 +154,15 @@ def test_models_are_redrawn_when_asked_and_never_those_of_a_check() -> None:
     kept, redrawn = objective(FIXED).sampler, objective(REDRAWN).sampler
     assert kept is not None
     assert redrawn is not None
-    assert np.array_equal(kept.models(0, 1).qpos, kept.models(0, 2).qpos)
-    assert not np.array_equal(redrawn.models(0, 1).qpos, redrawn.models(0, 2).qpos)
-    assert not np.array_equal(kept.models(0, 1).qpos, kept.models(1, 1).qpos)
+    assert np.array_equal(kept.models(0, 1).starts.qpos, kept.models(0, 2).starts.qpos)
+    assert not np.array_equal(redrawn.models(0, 1).starts.qpos, redrawn.models(0, 2).starts.qpos)
+    assert not np.array_equal(kept.models(0, 1).starts.qpos, kept.models(1, 1).starts.qpos)
     # numpy's seeds 0 and (0, 0) are the same: a check with the solve's seed must not find the models that were trained on
-    ensemble = objective().engine.ensemble()  # type: ignore[union-attr]
+    made = objective()
     for draw in (Perturbation().spread, Perturbation().draw):
-        sample = draw(ensemble.model, ensemble.joints, n=4, seed=0)
-        state = objective().state
-        checked = ensemble.vary((state.qpos, state.qvel, state.act), sample)
-        assert not np.isclose(kept.models(0, 0).delay[:, None], checked.delay).any()
+        sample = draw(made.engine.model, 12, n=4, seed=0)
+        _, checked = perturbed_models(made.engine.model, made.engine.layout, sample, made.state)
+        assert not np.isclose(kept.models(0, 0).models.delay[:, None], checked.delay).any()
 
 
 def test_the_best_of_a_generation_is_compared_on_a_sample_of_its_own_size() -> None:
@@ -308,8 +305,7 @@ def test_an_interrupted_search_keeps_the_start_that_holds_best() -> None:
 
 
 def test_few_samples_cover_every_range_evenly() -> None:
-    ensemble = objective().engine.ensemble()  # type: ignore[union-attr]
-    sample = Perturbation(friction=(0.0 + 0.1, 1.1)).spread(ensemble.model, ensemble.joints, n=10, seed=1)
+    sample = Perturbation(friction=(0.0 + 0.1, 1.1)).spread(objective().engine.model, 12, n=10, seed=1)
     assert sorted(np.floor((sample.values["friction"][:, 0] - 0.1) * 10).tolist()) == list(range(10))
     for values in sample.values.values():
         assert len(np.unique(values[:, 0])) == 10 if values.shape[1] else True
@@ -426,12 +422,13 @@ def test_a_check_of_the_models_of_a_search_finds_what_the_search_did() -> None:
     assert made.sampler is not None
     solution = solve(made, seed=2)
     subject = Subject(record(made, solution, seed=2))
-    ensemble = subject.ensemble()
-    drawn = Perturbation().spread(ensemble.model, ensemble.joints, n=4, seed=(2, 0, TAG))
-    found = judge(subject, ensemble, subject.reference, drawn)
+    engine = subject.engine
+    drawn = Perturbation().spread(engine.model, 12, n=4, seed=(2, 0, TAG))
+    found = judge(subject, engine, subject.reference, drawn)
     samples = made.evaluate(solution.best.weights[None], models=made.sampler.models(2, 0)).samples
     assert samples is not None
     np.testing.assert_array_equal(found.success, samples.success[0])
-    trajectories = ensemble.rollout(ensemble.vary(subject.start, drawn), subject.reference)
+    starts, models = perturbed_models(engine.model, engine.layout, drawn, subject.start)
+    trajectories = engine.rollout(starts, subject.reference, models=models)
     for name, term in made.terms.items():
         np.testing.assert_allclose(term(trajectories), samples.terms[name][0], rtol=1e-9, atol=1e-12)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from levade.check import Subject, perturbed
-from levade.engines import Perturbation
+from levade.engines import Perturbation, perturbed_models
 from levade.errors import LevadeError
 from levade.export import export
 from levade.export.player import Motion as Played
@@ -82,17 +82,17 @@ def test_undisturbed_it_does_nothing_at_all(found: Stabilised, rearing: Motion) 
 def test_the_batch_is_the_loop(found: Stabilised) -> None:
     """Three pushed runs, one of them late by nothing; within rounding, which the robot's falling makes larger."""
     motion, subject = found.motion, Subject(found.motion)
-    ensemble = subject.ensemble()
+    engine = subject.engine
     start = Perturbation(**{**NONE, "start_rate": (-0.2, 0.2)})  # type: ignore[arg-type]
-    sample = start.draw(ensemble.model, ensemble.joints, n=3, seed=5)
-    variations = ensemble.vary(subject.start, sample)
-    batch = ensemble.rollout(variations, subject.reference, feedback=motion.feedback)
+    sample = start.draw(engine.model, subject.joints, n=3, seed=5)
+    starts, models = perturbed_models(engine.model, engine.layout, sample, subject.start)
+    batch = engine.rollout(starts, subject.reference, models=models, feedback=motion.feedback)
     for run in range(3):
-        qpos, corrections = loop(motion, variations.qvel[run] - motion["qvel0"])
+        qpos, corrections = loop(motion, starts.qvel[run] - motion["qvel0"])
         assert np.abs(corrections).max() > 0.01
         assert np.allclose(batch.joint_position[run], qpos[:, 7:], rtol=0, atol=1e-5)
         assert np.allclose(batch.trunk_position[run], qpos[:, :3], rtol=0, atol=1e-5)
-    alone = ensemble.rollout(variations[1:2], subject.reference, feedback=motion.feedback)
+    alone = engine.rollout(starts[1], subject.reference, models=models[1], feedback=motion.feedback)
     assert np.array_equal(alone.joint_position[0], batch.joint_position[1])
 
 
@@ -110,9 +110,10 @@ def test_threads_and_calls_do_not_change_it(rearing: Motion, found: Stabilised) 
 def test_the_linear_model_foretells_small_deviations(rearing: Motion) -> None:
     """Of everything at once, in the air, from the first tick to the next; to 5 %."""
     subject = Subject(rearing)
-    qpos, qvel, act = (part.copy() for part in subject.start)
+    qpos, qvel, act = (part.copy() for part in (subject.start.qpos[0], subject.start.qvel[0], subject.start.act[0]))
     qpos[2] += 1.0
-    linear = linearise(subject.model, subject.layout, (qpos, qvel, act), subject.reference, period=2)
+    start = subject.layout.state(qpos, qvel, act)
+    linear = linearise(subject.model, subject.layout, start, subject.reference, period=2)
     generator = np.random.default_rng(2)
     before, after = [], []
     for size in (0.0, 1.0):
