@@ -44,7 +44,7 @@ SHOWN = 8
 EXPECTED: dict[str, str] = {
     "motion.meta.versions.*": "names the versions",
     "checkpoint.versions.*": "names the versions",
-    "checkpoint.task_checksum": "of the task's text, which may gain keys; the task itself is compared in the motion's meta",
+    "checkpoint.*": "has a line for each evaluation instead of each generation; progress.csv has the costs of each generation",
     "motion.meta.schema": "names the layout",
 }
 """Name of an array -> why it may differ. Names are patterns, as `fnmatch` has them."""

@@ -27,6 +27,10 @@ FIT_CUTOFF = 1e-4
 LINE_CUTOFF = 1e-2
 
 
+_HEARD = 0.05
+"""Share of the kernels' reference in a blended row below which that row says nothing about the weights."""
+
+
 @dataclass(frozen=True)
 class Policy:
     """One kernel policy per independent joint, spread over the joints of the robot by the groups.
@@ -177,6 +181,31 @@ class Policy:
         deviation = sampled - sampled[:, :, :1]
         missed = leader - sampled[:, :, :1] - deviation @ self.basis[0].T
         return (sampled + missed @ np.linalg.pinv(self.basis[0], rcond=cutoff).T).reshape(len(position), self.size)
+
+    def imitate(self, position: Array) -> Array:
+        """Weights whose reference, blended at its ends, is nearest to given joint motions.
+
+        As `fit` does for the kernels alone. Rows where the blend leaves little of the kernels' reference count little, and so
+        does what the given motions do there.
+
+        Args:
+            position: Joint angles at the end of each step up to the horizon [rad], shape (n, horizon_steps, joints).
+
+        Returns:
+            Policy weights [rad], shape (n, size).
+        """
+        if self._blend is None:
+            return self.fit(position)
+        factor, added = self._blend[0][:, 0], self._blend[1]
+        heard = np.flatnonzero(factor > _HEARD)
+        nearest = heard[np.abs(np.arange(len(factor))[:, None] - heard).argmin(axis=1)]
+        wanted = ((position - added) / np.maximum(factor, _HEARD)[:, None])[:, nearest]
+        leader = self.project(wanted).transpose(0, 2, 1)
+        rows = np.clip(np.round(self.kernels.means * self.horizon_steps).astype(int) - 1, 0, None)
+        sampled = leader[:, :, rows]
+        missed = (leader - sampled[:, :, :1] - (sampled - sampled[:, :, :1]) @ self.basis[0].T) * factor
+        solve = np.linalg.pinv(factor[:, None] * self.basis[0], rcond=FIT_CUTOFF)
+        return (sampled + missed @ solve.T).reshape(len(position), self.size)
 
     def project(self, angles: Array) -> Array:
         """(..., joints) angles [rad] to (..., independent_joints): each leader's angle and its followers', averaged."""

@@ -1,8 +1,12 @@
-"""Where a search begins that does not begin from nothing: weights of earlier motions, or a distribution."""
+"""Where a search begins that does not begin from nothing: earlier motions, weights, or a distribution.
+
+guess = initial_guess(objective, [Motion.load("rearing/motion.npz")])
+solution = solve(objective, initial=guess)
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -10,6 +14,8 @@ import numpy as np
 
 from levade.arrays import Array
 from levade.errors import LevadeError
+from levade.motion import Motion
+from levade.policies import Policy
 from levade.search.space import SearchSpace
 
 
@@ -50,3 +56,57 @@ class InitialGuess:
         """The search space around one of the candidates."""
         factor = space.factor if self.factor is None else self.factor
         return replace(space, mean=mean, step=space.step * self.step, factor=factor)
+
+
+AROUND = 0.5
+"""Factor on the initial step size around motions: they are near, so the search looks nearer."""
+
+
+def initial_guess(policy: Policy, given: Motion | Array | InitialGuess | Sequence[Motion | Array]) -> InitialGuess:
+    """Make an initial guess of what a caller gives.
+
+    Args:
+        policy: The policy of the search that is to begin there.
+        given: Motions, whatever their kernels, horizon and groups; policy weights [rad], shape (size,) or (k, size); several
+            of these; or an `InitialGuess`, which is returned as it is.
+
+    Raises:
+        LevadeError: If a motion moves other joints than the policy's robot, or weights have another shape.
+    """
+    if isinstance(given, InitialGuess):
+        return given
+    several = [given] if isinstance(given, Motion | np.ndarray) else list(given)
+    if not several:
+        raise LevadeError("initial: there are no motions to begin around; leave it out to begin from nothing")
+    rows = []
+    for one in several:
+        weights = fitted(policy, one) if isinstance(one, Motion) else np.atleast_2d(np.asarray(one, dtype=float))
+        if weights.ndim != 2 or weights.shape[1] != policy.size:
+            raise LevadeError(f"initial: weights have the shape {weights.shape}, should be (k, {policy.size})")
+        rows.append(weights)
+    return InitialGuess(np.concatenate(rows), step=AROUND)
+
+
+def fitted(policy: Policy, motion: Motion) -> Array:
+    """Policy weights whose reference is nearest to a motion's [rad], shape (1, size).
+
+    A motion of another duration is stretched to the policy's horizon. Weights that give the motion itself are kept as they are.
+
+    Raises:
+        LevadeError: If the motion moves another number of joints.
+    """
+    position = motion["joint_position_reference"][: motion.horizon_steps]
+    if position.shape[1] != policy.joints:
+        raise LevadeError(
+            f"initial: the motion moves {position.shape[1]} joints, the task's robot has {policy.joints}; give a motion of"
+            " the same robot"
+        )
+    weights = motion["weights"][None]
+    if weights.shape[1] == policy.size and len(position) == policy.horizon_steps:
+        same = policy.reference(weights, hold_steps=0).position[0]
+        if np.array_equal(same, position):
+            return weights
+    share = np.arange(1, policy.horizon_steps + 1) / policy.horizon_steps * len(position)
+    rows = np.arange(1, len(position) + 1)
+    stretched = np.stack([np.interp(share, rows, angle) for angle in position.T], axis=1)
+    return policy.imitate(stretched[None])
