@@ -17,7 +17,6 @@ from __future__ import annotations
 import csv
 import json
 import time
-import zlib
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
@@ -30,7 +29,7 @@ from levade.document import read_yaml
 from levade.errors import LevadeError
 from levade.motion import Motion, record, versions
 from levade.solve import Generation, Objective, Record, Solution, solve
-from levade.tasks import Change, Task, task_from_dict, task_to_yaml
+from levade.tasks import Change, Task, task_checksum, task_from_dict, task_to_yaml
 
 TASK, MOTION, PROGRESS, CHECKPOINT = "task.yaml", "motion.npz", "progress.csv", "checkpoint.jsonl"
 
@@ -288,7 +287,7 @@ def so_far(generation: Generation) -> Solution:
 
 def _checksum(task: Task) -> int:
     """Of the task without the changes that a run makes in it on the way."""
-    return zlib.crc32(task_to_yaml(replace(task, search=replace(task.search, changes=()))).encode())
+    return task_checksum(replace(task, search=replace(task.search, changes=())))
 
 
 def _write(path: Path, text: str) -> None:

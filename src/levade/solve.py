@@ -27,7 +27,8 @@ from levade.costs import DIVERGED, evaluate, total
 from levade.costs.risk import ranked_behind, risk
 from levade.engines import Variations, make_engine
 from levade.errors import LevadeError, did_you_mean, located
-from levade.optimizers import OPTIMIZERS, Informed, Optimizer, settings, takes
+from levade.optimizers import Optimizer, SearchSpace, UsesErrors, settings
+from levade.optimizers import make_optimizer as make_optimizer_of
 from levade.optimizers.blas import single_threaded
 from levade.policies import smoothness_factor
 from levade.robots import load_robot
@@ -420,7 +421,7 @@ def solve(
             mean = optimizer.mean if by_mean else None
             record, replayed = _evaluate(objective, candidates, search, stage_weights, earlier, mean=mean)
             cost = objective.cost(record.evaluation, stage_weights)
-            if isinstance(optimizer, Informed):
+            if isinstance(optimizer, UsesErrors):
                 optimizer.tell(cost, _missed(task, record.evaluation))
             else:
                 optimizer.tell(cost)
@@ -520,28 +521,30 @@ def make_optimizer(objective: Objective, seed: int, *, attempt: int = 0, mean: A
     others around a mean.
     """
     search = objective.task.search
+    space = SearchSpace(
+        objective.initial_weights if mean is None else mean,
+        objective.factor,
+        step=search.step,
+        population=search.population,
+        ending=objective.ending,
+        one_sided=np.array([criterion.target is None for criterion in objective.task.success.values()], dtype=bool),
+    )
     own: dict[str, Any] = dict(search.settings)
-    if takes(search.optimizer, "ending"):
-        own["ending"] = objective.ending
-    if takes(search.optimizer, "one_sided"):
-        own["one_sided"] = np.array([criterion.target is None for criterion in objective.task.success.values()])
     if "step_adaptation" in settings(search.optimizer):
         own = {"step_adaptation": search.step_adaptation, **own}
     with located("search.settings."):
-        optimizer = OPTIMIZERS[search.optimizer](
-            objective.initial_weights if mean is None else mean,
-            factor=objective.factor,
-            step=search.step,
+        return make_optimizer_of(
+            search.optimizer,
+            space,
             seed=seed if not attempt else (seed, attempt) if mean is None else (seed, attempt, _AROUND),
-            population=search.population,
-            **own,
+            settings=own,
+            again=attempt > 0,
         )
-    return optimizer
 
 
 def _forget_costs(optimizer: Optimizer, task: Task, *, hold: bool = False) -> None:
     """Costs are weighed by other weights from now on. hold: whether another part of the hold is simulated, too."""
-    if isinstance(optimizer, Informed):
+    if isinstance(optimizer, UsesErrors):
         optimizer.forget_costs(np.array([hold and looks_at_hold(criterion) for criterion in task.success.values()]))
 
 
