@@ -7,8 +7,9 @@ from levade.optimizers.sampling import Sampler
 
 
 class RandomSearch(Sampler):
-    """Samples round the start, always the same distribution (Brooks, Operations Research 6(2), 1958). Arguments as
-    `Sampler`; nothing is learned.
+    """Samples around the start, always from the same distribution (Brooks, Operations Research 6(2), 1958).
+
+    Nothing is learned. The arguments are those of `Sampler`.
     """
 
     @property

@@ -15,8 +15,8 @@ import numpy as np
 from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.motion import Motion
+from levade.optimizers import SearchSpace
 from levade.policies import Policy
-from levade.search.space import SearchSpace
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,10 +19,10 @@ from levade.arrays import Array
 from levade.costs import evaluate
 from levade.engines import FOOT_CONTACT_FORCE, Engine, Models, State, make_engine, perturbed_models, start_state
 from levade.errors import LevadeError, did_you_mean
+from levade.optimizers import SearchSpace
 from levade.policies import Policy, smoothness_factor
 from levade.robots import Robot, load_robot
 from levade.search.evaluation import Evaluation, Trials
-from levade.search.space import SearchSpace
 from levade.tasks import Task, looks_at_hold
 from levade.tasks.policy import goal_posture, make_policy
 from levade.tasks.reach import check_reach
@@ -140,12 +140,12 @@ class Objective:
         else:
             smooth = np.eye(policy.size)
         return SearchSpace(
-            mean=mean,
-            factor=smooth,
+            mean,
+            smooth,
             step=search.step,
             population=search.population,
             ending=_ending(policy),
-            one_sided=np.array([criterion.target is None for criterion in self.task.success.values()]),
+            one_sided=np.array([criterion.target is None for criterion in self.task.success.values()], dtype=bool),
         )
 
     def rollout(self, weights: Array, *, hold_steps: int | None = None, feet: bool = False) -> Trajectories:

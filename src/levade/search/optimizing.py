@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from levade.errors import located
-from levade.optimizers import OPTIMIZERS, Optimizer, settings, takes
-from levade.search.space import SearchSpace
+from levade.optimizers import Optimizer, SearchSpace, make_optimizer, settings
 from levade.tasks import Task
 
 _AROUND = 1
@@ -25,18 +24,13 @@ def make_attempt(task: Task, space: SearchSpace, *, seed: int, attempt: int = 0,
     """
     search = task.search
     own: dict[str, Any] = dict(search.settings)
-    if takes(search.optimizer, "ending"):
-        own["ending"] = space.ending
-    if takes(search.optimizer, "one_sided"):
-        own["one_sided"] = space.one_sided
-    if "step_adaptation" in settings(search.optimizer):
+    if isinstance(search.optimizer, str) and "step_adaptation" in settings(search.optimizer):
         own = {"step_adaptation": search.step_adaptation, **own}
-    with located("search.settings."):
-        return OPTIMIZERS[search.optimizer](
-            space.mean,
-            factor=space.factor,
-            step=space.step,
+    with located("search.settings." if isinstance(search.optimizer, str) else "search."):
+        return make_optimizer(
+            search.optimizer,
+            space,
             seed=seed if not attempt else (seed, attempt, _AROUND) if around else (seed, attempt),
-            population=space.population,
-            **own,
+            settings=own,
+            again=attempt > 0,
         )

@@ -14,7 +14,6 @@ DIR/checkpoint.jsonl  a line per evaluation: see `levade.search.checkpoint`
 from __future__ import annotations
 
 import time
-import zlib
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -35,7 +34,7 @@ from levade.search.progress import PROGRESS, Progress
 from levade.search.recording import record
 from levade.search.search import Steer
 from levade.search.storage import closing, storing, write_text
-from levade.tasks import Change, Task, task_from_dict, task_to_yaml
+from levade.tasks import Change, Task, task_checksum, task_from_dict, task_to_yaml
 
 TASK, MOTION = "task.yaml", "motion.npz"
 
@@ -263,4 +262,4 @@ class _Run:
 
 def _checksum(task: Task) -> int:
     """Checksum of the task without the changes that a run makes in it on the way."""
-    return zlib.crc32(task_to_yaml(replace(task, search=replace(task.search, changes=()))).encode())
+    return task_checksum(replace(task, search=replace(task.search, changes=())))

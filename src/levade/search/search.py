@@ -19,15 +19,13 @@ import numpy as np
 from levade.arrays import Array
 from levade.costs import DIVERGED
 from levade.errors import LevadeError
-from levade.optimizers import Informed as UsesErrors
-from levade.optimizers import Optimizer
+from levade.optimizers import Optimizer, SearchSpace, UsesErrors
 from levade.search.evaluation import Evaluation, Trials
 from levade.search.initial import InitialGuess
 from levade.search.optimizing import make_attempt
 from levade.search.outcome import Generation, Solution, Stopped, Trial, better
 from levade.search.robust import Judge
 from levade.search.schedule import Level, Move, Report, Schedule, first_to_end, full_level, level_of, promoted
-from levade.search.space import SearchSpace
 from levade.tasks import Change, Task, looks_at_hold
 
 Steer = Callable[[int], "Mapping[str, float] | Stopped | None"]

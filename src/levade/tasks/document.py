@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import zlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -28,6 +29,7 @@ from levade.costs import (
 from levade.costs.success import QUANTITIES
 from levade.document import build, kind_of, parse_yaml, read_text, read_yaml
 from levade.errors import LevadeError, did_you_mean
+from levade.optimizers import ALIASES, canonical
 from levade.robots import Dimensions, dimensions, load_robot
 from levade.scenes import read_heights
 from levade.tasks.task import Cost, RobotChoice, Task
@@ -88,7 +90,10 @@ def load_task(name_or_path: str | Path, *, robot: str | None = None, changes: Se
         content = task_to_dict(task)
         for change in sorted(rest, key=lambda change: not change.startswith("search.optimizer=")):
             _apply(content, change)
-            if change.startswith("search.optimizer=") and content["search"]["optimizer"] != task.search.optimizer:
+            if (
+                change.startswith("search.optimizer=")
+                and canonical(content["search"]["optimizer"]) != task.search.optimizer
+            ):
                 content["search"]["settings"] = {}
         task = _changed(content)
     return task
@@ -230,13 +235,27 @@ def task_to_dict(task: Task) -> dict[str, Any]:
 
 def task_to_yaml(task: Task) -> str:
     """The text of a task file with every default filled in."""
+    return _yaml(task_to_dict(task))
+
+
+def task_checksum(task: Task, *more: object) -> int:
+    """A checksum of the task and of what else decides a result.
+
+    An optimizer counts by its first name, which may be an alias today: runs and benches of earlier versions go on.
+    """
+    content = task_to_dict(task)
+    first = {name: alias for alias, name in ALIASES.items()}
+    content["search"]["optimizer"] = first.get(task.search.optimizer, task.search.optimizer)
+    return zlib.crc32("".join([_yaml(content), *map(str, more)]).encode())
+
+
+def _yaml(content: dict[str, Any]) -> str:
     import yaml
 
     class Dumper(yaml.SafeDumper):
         pass
 
     Dumper.add_representer(_Row, lambda dumper, row: dumper.represent_sequence(_SEQUENCE, row, flow_style=True))
-    content = task_to_dict(task)
     if content["scene"]["terrain"] is not None:  # a line for each row, not for each number
         content["scene"]["terrain"]["heights"] = [_Row(row) for row in content["scene"]["terrain"]["heights"]]
     return yaml.dump(content, Dumper=Dumper, sort_keys=False, width=120, allow_unicode=True)

@@ -10,7 +10,7 @@ from typing import Literal
 from levade.costs import Criterion, Term
 from levade.engines import Fall, Physics, Settled
 from levade.errors import LevadeError, did_you_mean
-from levade.optimizers import OPTIMIZERS, settings
+from levade.optimizers import OPTIMIZERS, canonical, settings
 from levade.scenes import Scene
 from levade.tasks.robust import Robust
 
@@ -120,7 +120,8 @@ class Change:
 class Search:
     """How to look.
 
-    optimizer: name. trials: budget, all stages counted. population: trials per generation, the optimizer's default if None.
+    optimizer: name; an alias becomes the name. trials: budget, all stages counted.
+    population: trials per generation, the optimizer's default if None.
     step: initial standard deviation of the weights [rad].
     smoothness: correlation length of neighbouring weights in the initial covariance, as a share of the horizon; 0 for
         none, as plain CMA-ES has it. modes: search only over so many of the smoothest directions of each joint's weights;
@@ -133,7 +134,7 @@ class Search:
     changes: of the costs' weights on the way.
     """
 
-    optimizer: str = "levade"
+    optimizer: str = "cma-aimed"
     trials: int = 3000
     population: int | None = None
     step: float = 0.1
@@ -144,6 +145,11 @@ class Search:
     polish: int | None = 0
     settings: Mapping[str, float] = field(default_factory=dict)
     changes: tuple[Change, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(
+            self, "optimizer", canonical(self.optimizer)
+        )  # so that a search has one form, however it is named
 
     def factors(self, generation: int) -> dict[str, float]:
         """Cost -> factor on its weight in a generation; costs that nothing changed are left out."""

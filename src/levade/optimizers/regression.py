@@ -1,10 +1,10 @@
-"""Aimed candidates: a Gauss-Newton step on what misses the target, from trials that were made anyway.
+"""Aimed candidates: a Gauss-Newton step on the errors, by a regression on trials that were made anyway.
 
-Costs say how good a trial is; the signed errors behind them say which way it missed. From the trials nearest to the best one,
-a ridge regression gives the errors as a linear function of the candidate. Points drawn at some distances from the best trial,
-each moved by the smallest step after which the regression predicts no error, are candidates that differ from each other and
-are all predicted to be right. Contacts make the errors rough on the scale of a tight tolerance, whatever is predicted: some
-of them are right indeed. The regression costs no trials of its own.
+A cost says how good a trial is; the signed errors behind it say which way it missed. A ridge regression on the trials nearest
+to the best one gives the errors as a linear function of the candidate. Points are drawn at some distances from the best trial,
+and each is moved by the smallest step after which the regression predicts no error. These candidates differ from each other,
+and all are predicted to be right. Contacts make the errors rough on the scale of a tight tolerance, so only some of them are.
+The regression costs no trials of its own.
 
     J = argmin |D J - E|^2 + ridge |J|^2          D (trials, m): candidates, E (trials, k): errors, both less the best one's
     step = -J (J' J)^-1 e                         e (k,): predicted errors of the point
@@ -22,19 +22,22 @@ from levade.arrays import Array
 from levade.optimizers.blas import single_threaded
 
 RIDGE = 1e-3
-"""Of the mean squared length of the differences: damps directions in which the trials hardly differ."""
+"""Share of the mean squared length of the differences: damps directions in which the trials hardly differ."""
 SPREADS = (0.3, 0.1, 0.03)
-"""How far from the best trial `Aim.around` starts, in turns, in steps of the optimizer; once it starts at the best itself."""
+"""How far from the best trial `ErrorRegression.around` starts, in turns, in steps of the optimizer; once at the best itself."""
 WITHIN = 0.3
 """Share of the tolerance that predicted errors may have."""
 
 
-class Aim:
+class ErrorRegression:
     """Remembers trials and proposes candidates.
 
-    factor: (d, m), the optimizer's: distances are measured, and points drawn, in its coordinates.
-    one_sided: (k,), which of the errors are of a bound, with 1 at it and less inside: they cannot be too small. None for none.
-    memory: how many of the latest trials to choose from. neighbours: how many of them, nearest to the best, to regress on.
+    Args:
+        factor: Factor of the search space, shape (d, m): distances are measured, and points drawn, in its coordinates.
+        one_sided: Which of the errors belong to a bound, shape (k,): 1 at it and less inside, so that they cannot be too
+            small. None if none do.
+        memory: Latest trials to choose from.
+        neighbours: Trials, the nearest to the best, to regress on.
     """
 
     def __init__(
@@ -52,14 +55,17 @@ class Aim:
 
     @cached_property
     def _inverse(self) -> Array:
-        """(m, d), from candidates to the factor's coordinates."""
+        """From candidates to the factor's coordinates, shape (m, d)."""
         return np.asarray(np.linalg.pinv(self._factor, rcond=1e-8))
 
     def tell(self, candidates: Array, errors: Array, cost: Array) -> None:
-        """What came of a generation.
+        """Remember a generation.
 
-        candidates: (n, d). errors: (n, k), signed, as a share of what is allowed; NaN where unknown, all of a trial that
-        diverged. cost: (n,).
+        Args:
+            candidates: Candidates, shape (n, d).
+            errors: Signed errors as shares of the tolerances, shape (n, k). NaN where unknown; the whole row of a trial that
+                diverged.
+            cost: Costs, shape (n,).
         """
         known = np.isfinite(errors).any(axis=1)
         if not known.any():
@@ -72,7 +78,7 @@ class Aim:
         self._cost = np.concatenate([self._cost, cost[known]])[kept]
 
     def forget_costs(self, changed: NDArray[np.bool_]) -> None:
-        """From now on costs mean something else, and so do the ``changed`` (k,) of the errors."""
+        """From now on costs, and the ``changed`` (k,) of the errors, have another meaning."""
         self._cost = np.full_like(self._cost, np.inf)
         if len(self._cost):
             self._errors = np.where(changed, np.nan, self._errors)
@@ -84,14 +90,23 @@ class Aim:
 
     @property
     def best(self) -> tuple[Array, Array] | None:
-        """The trial of least cost, (d,), and its errors (k,); None before there is one."""
+        """The trial of least cost, shape (d,), and its errors (k,); None before there is one."""
         if not np.isfinite(self.least):
             return None
         best = int(np.argmin(self._cost))
         return self._candidates[best], self._errors[best]
 
     def around(self, count: int, *, step: float, generator: np.random.Generator) -> Array:
-        """Candidates (count, d) to try next; none, (0, d), while too few trials are known. step: the optimizer's."""
+        """Candidates to try next.
+
+        Args:
+            count: Candidates wanted.
+            step: Step size of the optimizer.
+            generator: Source of the random numbers.
+
+        Returns:
+            Candidates, shape (count, d), all finite; (0, d) while too few trials are known.
+        """
         none = np.empty((0, len(self._factor)))
         if count < 1 or not np.isfinite(self.least):
             return none
@@ -114,9 +129,9 @@ class Aim:
             return self._candidates[best] + corrected(drawn, errors[best], slope, farthest, one_sided) @ self._factor.T
 
     def _slope(self, coordinates: Array, errors: Array, best: int) -> tuple[Array, float] | None:
-        """(m, k), the slope of the errors near the best trial, and how far it may be trusted; None with too few trials.
+        """The slope of the errors near the best trial (m, k), and how far it may be trusted; None with too few trials.
 
-        What has been looked at only lately, such as the end of the hold, has fewer trials to regress on than the rest.
+        Errors that have been known for only a short time, such as those of the hold, have fewer trials to regress on.
         """
         length = np.einsum("nm,nm->n", coordinates, coordinates)
         known = np.isfinite(errors)
@@ -139,13 +154,13 @@ class Aim:
 
 
 def sizes(errors: Array, one_sided: NDArray[np.bool_] | None) -> Array:
-    """How large errors (..., k) are; of those that are ``one_sided`` only what is above 0 counts."""
+    """How large errors (..., k) are; of ``one_sided`` ones only the part above 0 counts."""
     size = np.abs(errors)
     return size if one_sided is None else np.where(one_sided, np.maximum(errors, 0.0), size)
 
 
 def unwanted(errors: Array, one_sided: NDArray[np.bool_] | None) -> Array:
-    """What is beyond `WITHIN` of errors (..., k), those that are ``one_sided`` above it only."""
+    """The part of errors (..., k) beyond `WITHIN`; of ``one_sided`` ones only above it."""
     low = -WITHIN if one_sided is None else np.where(one_sided, -np.inf, -WITHIN)
     return errors - np.clip(errors, low, WITHIN)
 
@@ -153,20 +168,39 @@ def unwanted(errors: Array, one_sided: NDArray[np.bool_] | None) -> Array:
 def corrected(
     drawn: Array, errors: Array, slope: Array, farthest: float, one_sided: NDArray[np.bool_] | None = None
 ) -> Array:
-    """Points (n, m), each moved by the smallest step after which no errors are predicted, within ``farthest`` of the origin.
+    """Move points by the smallest step after which no errors are predicted.
 
-    errors: (k,) at the origin. slope: (m, k). one_sided: (k,), see `Aim`.
+    Args:
+        drawn: Points, shape (n, m).
+        errors: Errors at the origin, shape (k,).
+        slope: Slope of the errors, shape (m, k).
+        farthest: Largest distance from the origin.
+        one_sided: See `ErrorRegression`.
+
+    Returns:
+        Moved points, shape (n, m), all finite. A point stays as drawn where no finite step is predicted to help: where trials
+        all missed by the same, the slope is zero.
     """
     excess = unwanted(errors + drawn @ slope, one_sided)
     normal = slope.T @ slope
     normal[np.diag_indices_from(normal)] += 1e-9 * np.trace(normal) + np.finfo(float).tiny  # safe to solve with
-    moved = drawn - np.linalg.solve(normal, excess.T).T @ slope.T
+    with np.errstate(over="ignore", invalid="ignore"):
+        moved = drawn - np.linalg.solve(normal, excess.T).T @ slope.T
+        moved = np.where(np.isfinite(np.linalg.norm(moved, axis=1, keepdims=True)), moved, drawn)
     reach = np.linalg.norm(moved, axis=1, keepdims=True)
     return np.asarray(moved * np.minimum(farthest / np.maximum(reach, np.finfo(float).tiny), 1.0))
 
 
 def ridge(difference: Array, change: Array) -> Array:
-    """(m, k), the slope J of errors. difference: (n, m). change: (n, k)."""
+    """The slope J of the errors by ridge regression.
+
+    Args:
+        difference: Candidates less the best one, shape (n, m).
+        change: Their errors less those of the best one, shape (n, k).
+
+    Returns:
+        J, shape (m, k).
+    """
     n, m = difference.shape
     damping = RIDGE * np.vdot(difference, difference) / n
     if m < n:  # the same in whichever space is smaller

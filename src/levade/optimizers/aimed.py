@@ -1,93 +1,94 @@
-"""The default: CMA-ES, with candidates beside its own that are aimed at the criteria, and a least-squares finish."""
+"""The default: CMA-ES with aimed candidates next to its own, and a refinement of the ending by least squares."""
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from levade.arrays import Array
 from levade.errors import LevadeError
-from levade.optimizers.aim import WITHIN, Aim, sizes
 from levade.optimizers.cmaes import CMAES
-from levade.optimizers.finish import Finish
+from levade.optimizers.ending import EndingRefinement
+from levade.optimizers.regression import WITHIN, ErrorRegression, sizes
+from levade.optimizers.space import SearchSpace
 
 _TAG = 1_095_322_957
 """Keeps the random numbers of aimed candidates apart from those of CMA-ES."""
 
 
-class Levade:
+class AimedCMAES:
     """Covariance matrix adaptation over smooth motions, with two uses of the signed errors behind the costs.
 
-    Each generation, some candidates are aimed (`levade.optimizers.aim`); the best of them, if it is among the best quarter of
-    the others, becomes a part of the next generation. If it is the best of all so far, aimed candidates alone follow, for as
-    long as they go on to be. When the best trial misses by little, and by half as much as at the last attempt, its ending is
-    finished by least squares (`levade.optimizers.finish`).
+    Each generation, some candidates are aimed (`levade.optimizers.regression`). The best of them becomes a part of the next
+    generation if it is among the best quarter of the others. If it is the best of all so far, only aimed candidates follow,
+    for as long as they go on to be. When the best trial misses by little, and by half as much as at the last attempt, its
+    ending is refined (`levade.optimizers.ending`).
 
-    mean, factor, step, seed, step_adaptation: as in `CMAES`. population: candidates of CMA-ES in a generation.
-    aimed: how many more there are beside them. finish: errors, in tolerances, from which the ending is finished; 0 for never.
-    ending: (q, d), directions that change the last part of a motion only; None where there are none.
-    one_sided: (k,), which of the errors are of a bound: 1 at it, less inside, the less the farther. None where none are.
+    Args:
+        space: Where to search. Its population counts the candidates of CMA-ES; the aimed ones come on top.
+        seed: Seed of this optimizer's own random numbers.
+        step_adaptation: See `CMAES`.
+        aimed: Aimed candidates in each generation.
+        finish: Largest error, in tolerances, from which the ending is refined; 0 for never.
+
+    Raises:
+        LevadeError: If ``aimed`` is not a whole number, or one of the two is negative.
     """
+
+    SETTINGS: ClassVar[tuple[str, ...]] = ("step_adaptation", "aimed", "finish")
 
     def __init__(
         self,
-        mean: Array,
+        space: SearchSpace,
         *,
-        factor: Array | None = None,
-        step: float,
         seed: int | tuple[int, ...],
-        population: int | None = None,
         step_adaptation: Literal["csa", "tpa"] = "csa",
         aimed: int = 6,
         finish: float = 40.0,
-        ending: Array | None = None,
-        one_sided: NDArray[np.bool_] | None = None,
     ) -> None:
         if aimed < 0 or aimed != int(aimed):
             raise LevadeError(f"aimed: {aimed:g} should be a whole number, 0 or more; 6 is usual")
         if not finish >= 0:
             raise LevadeError(f"finish: {finish:g} should be 0 or more tolerances; 40 is usual")
-        self._cma = CMAES(
-            mean, factor=factor, step=step, seed=seed, population=population, step_adaptation=step_adaptation
-        )
+        self._cma = CMAES(space, seed=seed, step_adaptation=step_adaptation)
         self._count, self._finish_at = int(aimed), finish
-        self._ending = None if ending is None or finish == 0 else ending
+        self._ending = None if finish == 0 else space.ending
         self._generator = np.random.default_rng((*(seed if isinstance(seed, tuple) else (seed,)), _TAG))
-        self._one_sided = one_sided if one_sided is not None and one_sided.any() else None
-        own = np.eye(len(mean)) if factor is None else np.asarray(factor, dtype=np.float64)
-        self._aim = Aim(own, one_sided=self._one_sided)
+        self._one_sided = space.one_sided if space.one_sided is not None and space.one_sided.any() else None
+        self._regression = ErrorRegression(space.factor, one_sided=self._one_sided)
         self._carried: Array | None = None
-        self._finish: Finish | None = None
+        self._refinement: EndingRefinement | None = None
         self._attempt_below = np.inf
         self._asked: Array | None = None
         self._own = 0
-        self._none = np.empty((0, len(mean)))
+        self._none = np.empty((0, space.size))
         self._pursuing = False
 
     @property
     def population(self) -> int:
-        """Candidates per generation, at most."""
+        """The most candidates of a generation."""
         return max(self._cma.population + self._count, 0 if self._ending is None else len(self._ending))
 
     @property
     def step(self) -> float:
+        """Step size of CMA-ES."""
         return self._cma.step
 
     @property
     def mean(self) -> Array:
-        """(d,), of the distribution of CMA-ES."""
+        """Mean of the distribution of CMA-ES, shape (d,)."""
         return self._cma.mean
 
     def ask(self) -> Array:
-        """The next candidates, (n, d) with n up to `population`."""
-        if self._finish is not None:
-            self._own, asked = 0, self._finish.ask()
+        """The next candidates, shape (n, d) with n up to `population`."""
+        if self._refinement is not None:
+            self._own, asked = 0, self._refinement.ask()
         else:
             own = self._none if self._pursuing else self._cma.ask()
             self._own = len(own)
-            aimed = self._aim.around(self._count, step=self.step, generator=self._generator)
+            aimed = self._regression.around(self._count, step=self.step, generator=self._generator)
             beside = aimed if self._carried is None or not self._count else self._carried[None]
             self._carried = None
             asked = np.concatenate([own, beside])
@@ -95,9 +96,12 @@ class Levade:
         return asked
 
     def tell(self, cost: Array, errors: Array | None = None) -> None:
-        """Costs (n,) of the candidates just asked for; all finite, lower is better.
+        """Learn from the candidates that `ask` returned last.
 
-        errors: (n, k), signed, as a share of what is allowed; NaN where unknown, all of a trial that diverged.
+        Args:
+            cost: Cost of each candidate, shape (n,); all finite, lower is better.
+            errors: Signed errors as shares of the tolerances, shape (n, k). NaN where unknown; the whole row of a trial that
+                diverged.
         """
         asked = self._asked
         if asked is None:
@@ -113,47 +117,47 @@ class Levade:
                 self._cma.inject(asked[self._own + int(np.argmin(cost[self._own :]))])
         if errors is None:
             return
-        if self._finish is not None:
-            # probes differ where the regression of `Aim` does not look; the cheapest of them may be the best so far
+        if self._refinement is not None:
+            # probes differ where the regression does not look; the cheapest of them may be the best so far
             cheapest = [int(np.argmin(cost))]
-            self._aim.tell(asked[cheapest], errors[cheapest], cost[cheapest])
-            self._finish.tell(errors)
-            if self._finish.over:
-                self._attempt_below = 0.5 * self._finish.miss
-                self._cma.inject(self._finish.best)
-                self._finish = None
+            self._regression.tell(asked[cheapest], errors[cheapest], cost[cheapest])
+            self._refinement.tell(errors)
+            if self._refinement.over:
+                self._attempt_below = 0.5 * self._refinement.miss
+                self._cma.inject(self._refinement.best)
+                self._refinement = None
         else:
             self._pursue(asked, errors, cost)
-            self._begin_to_finish()
+            self._begin_refinement()
 
     def scale_step(self, factor: float) -> None:
         """Multiply the step size, as at the start of a stage."""
         self._cma.scale_step(factor)
 
     def forget_costs(self, changed: NDArray[np.bool_]) -> None:
-        """From now on costs mean something else, and so do the ``changed`` (k,) of the errors."""
-        best = self._aim.best
+        """From now on costs, and the ``changed`` (k,) of the errors, have another meaning."""
+        best = self._regression.best
         self._carried = None if best is None else best[0]
-        self._aim.forget_costs(changed)
-        self._finish, self._attempt_below, self._pursuing = None, np.inf, False
+        self._regression.forget_costs(changed)
+        self._refinement, self._attempt_below, self._pursuing = None, np.inf, False
 
     def _pursue(self, asked: Array, errors: Array, cost: Array) -> None:
-        """Tell `Aim` of a generation. If one that it aimed is the best of all, the next generation is all its own."""
-        least = self._aim.least
-        self._aim.tell(asked, errors, cost)
+        """Tell the regression of a generation. If an aimed candidate is the best of all, the next generation is all aimed."""
+        least = self._regression.least
+        self._regression.tell(asked, errors, cost)
         pursued, aimed = self._pursuing, cost[self._own :]
         self._pursuing = len(aimed) > 0 and np.isfinite(least) and aimed.min() < cost[: self._own].min(initial=least)
-        if pursued and not self._pursuing and self._aim.best is not None:
-            self._cma.inject(self._aim.best[0])
+        if pursued and not self._pursuing and self._regression.best is not None:
+            self._cma.inject(self._regression.best[0])
 
-    def _begin_to_finish(self) -> None:
-        best = self._aim.best
+    def _begin_refinement(self) -> None:
+        best = self._regression.best
         if self._ending is None or best is None:
             return
         base, errors = best
         miss = np.nanmax(sizes(errors, self._one_sided))
         if WITHIN < miss <= min(self._finish_at, self._attempt_below):
             count = max(self._count, 1)
-            self._finish = Finish(
+            self._refinement = EndingRefinement(
                 base, errors, self._ending, count=count, generator=self._generator, one_sided=self._one_sided
             )
