@@ -93,7 +93,7 @@ META = (
 )
 """Keys of ``meta``."""
 
-LATER = ("cost_weights",)
+LATER = ("cost_weights", "held", "model_joints")
 """Keys of ``meta`` that files of earlier versions lack. ``feedback`` is there if the motion has a stabiliser."""
 
 # what numpy and zipfile raise for files that are damaged, or something else
@@ -289,6 +289,8 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
             "velocity": _finite(limits.velocity),
             "torque": _finite(limits.torque),
         },
+        "held": dict(objective.robot.held),
+        "model_joints": list(objective.robot.model_joints),
         "trunk_com_offset": objective.robot.trunk_com_offset.tolist(),
         "engine": task.physics.engine,
         "versions": versions(task.physics.engine),

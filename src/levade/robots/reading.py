@@ -42,6 +42,7 @@ class Draft:
 
     effort [Nm], velocity [rad/s]: joint -> limit, of those that have one. servos: joint -> position servo.
     driven: joints of an MJCF that an actuator drives. origins: what of the robot came from where, see `Robot`.
+    joints: of the file except the free one, in its order. held: those taken out of the model -> where [rad], slides [m].
     """
 
     path: Path
@@ -55,6 +56,8 @@ class Draft:
     keyframes: list[Keyframe] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)
     origins: dict[str, str] = field(default_factory=dict)
+    joints: list[str] = field(default_factory=list)
+    held: dict[str, float] = field(default_factory=dict)
 
     def compile(self) -> mujoco.MjModel:
         """The model. Raises LevadeError in one line."""
