@@ -24,7 +24,8 @@ senses, from the first row on; --no-feedback plays it without, and does not read
 
 At the rate of the file:
 
-1. The joints must be near the start already, and the trunk near its attitude there. Otherwise nothing is sent.
+1. The joints must be near the start already, within their ranges, and the trunk near its attitude there. Otherwise nothing
+   is sent.
 2. They are led from where they are to the start within the ramp, and must arrive.
 3. Every row is sent at its time; the last one, and --hold after it, with velocity 0.
 
@@ -448,6 +449,7 @@ def play(
     before = "before the ramp: bring it near the start first"
     # nothing is sent if the motion does not begin: the robot's own controller holds it
     present, _, _ = joints.read(motion.start_position, start_tolerance, before)
+    joints.check_range(present)
     if trunk is not None:
         trunk.read(0, before)
     ticks, rows, holding = round(ramp * motion.rate), len(motion.position), round(hold * motion.rate)
@@ -506,6 +508,10 @@ HOLDING = 0.02
 """[s], within which the torque that holds the start comes in: a robot that stands there already would sink without it."""
 
 
+BEYOND = 0.1
+"""[rad] beyond its range at which a joint may be before the ramp: soft stops give way."""
+
+
 def _smooth(s: float) -> float:
     """From 0 to 1, beginning and ending at rest."""
     return s * s * (3.0 - 2.0 * s)
@@ -557,6 +563,16 @@ class _Joints:
         self.position = position.copy()
         return position, velocity, off
 
+    def check_range(self, position: Array) -> None:
+        """Raise Stopped where a joint reads far beyond its range: the first command, clamped to it, would be a jump."""
+        beyond = np.maximum(self._lower - position, position - self._upper)
+        joint = int(np.argmax(beyond))
+        if not beyond[joint] <= BEYOND:
+            raise Stopped(
+                f"{self.motion.joints[joint]} is at {position[joint]:.3f} rad, {beyond[joint]:.3f} beyond its range: check"
+                " its zero, or bring it into the range first"
+            )
+
     def write(self, position: Array, velocity: Array, torque: Array, kp: Array, kd: Array) -> None:
         """Send a command. Raises Stopped, and sends nothing, if it is not made of numbers."""
         limit = self.motion.torque_limit
@@ -576,7 +592,7 @@ class _Trunk:
     def read(self, row: int, when: str) -> tuple[Array, Array]:
         """Attitude, a unit quaternion (4,), and rate (3,) [rad/s]. Raises Stopped if it is not as in the simulation."""
         quaternion, rate = _pair("the trunk's attitude and the trunk's rate", self._robot.read_trunk(), (4, 3))
-        length = float(np.linalg.norm(quaternion))
+        length = math.hypot(*quaternion)
         if not abs(length - 1.0) < 0.01:
             raise Stopped(f"the robot's trunk reads {quaternion.tolist()}; should be a unit quaternion")
         quaternion = quaternion / length
@@ -586,7 +602,7 @@ class _Trunk:
             raise Stopped(
                 f"the trunk is tilted by {tilt:.3f} rad from the simulation, should be by at most {self._most:g} {when}"
             )
-        speed = float(np.linalg.norm(rate))
+        speed = math.hypot(*rate)
         if not speed <= self._fastest:
             raise Stopped(f"the trunk turns at {speed:.4g} rad/s, should be at most {self._fastest:.4g} {when}")
         return quaternion, rate
