@@ -125,7 +125,7 @@ def load_robot(
         source=str(path),
         findings=tuple(draft.findings),
         origins=draft.origins,
-        held={joint: draft.held[joint] for joint in draft.joints if joint in draft.held},
+        held={joint: draft.held[joint] for joint in [*draft.joints, *draft.held] if joint in draft.held},
         model_joints=tuple(draft.joints),
     )
 

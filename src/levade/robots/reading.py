@@ -125,7 +125,9 @@ def _read_urdf(path: Path, root: ET.Element) -> Draft:
             for geom in body.geoms:
                 if geom.contype or geom.conaffinity:
                     geom.group = 3  # where there is something to look at, what collides need not be drawn
-    return Draft(path, spec, source.assets, True, source.effort, source.velocity, findings=source.findings)
+    return Draft(
+        path, spec, source.assets, True, source.effort, source.velocity, findings=source.findings, held=source.held
+    )
 
 
 def _read_mjcf(path: Path) -> Draft:
