@@ -24,7 +24,7 @@ from levade.export.player import Stopped, canonical, checksum, main, play
 from levade.feedback import Feedback
 from levade.feedback import sensed as sensed_on
 from levade.motion import Motion
-from levade.trajectory import rotate
+from levade.rotations import rotate
 
 VALUES: tuple[Any, ...] = (
     *(math.nan, math.inf, -math.inf, None, True, "1", "", [], {}, [1.0], 0, -1, 1e9, -1e9, 1e308, 10**400),

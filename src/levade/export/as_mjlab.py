@@ -14,10 +14,10 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.export import as_csv
 from levade.export.content import Content, held
 from levade.export.links import body_frames, frames_of, links_of
-from levade.trajectory import Array
 
 RATE = 50.0
 """[Hz], control rate of mjlab's tracking task: a step of 5 ms, four of them between controls."""
