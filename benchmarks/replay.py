@@ -81,7 +81,14 @@ def distance(motion: Motion, reference: str, drives: str, gain: float) -> tuple[
         export(motion, "csv", Path(directory), reference=reference, **gains)
         played = player.Motion.load(Path(directory) / "motion.csv")
     worst = player.play(
-        played, robot, ramp=1.0, start_tolerance=NEVER, tolerance=NEVER, clamp=False, wait=lambda instant: 0.0
+        played,
+        robot,
+        ramp=1.0,
+        start_tolerance=NEVER,
+        tolerance=NEVER,
+        speed_tolerance=NEVER,
+        clamp=False,
+        wait=lambda instant: 0.0,
     )
     between = np.zeros(3)
     mujoco.mju_subQuat(between, robot.last[3:7], motion["trunk_quaternion"][-1])

@@ -89,7 +89,7 @@ META = (
 )
 """Keys of ``meta``."""
 
-LATER = ("cost_weights",)
+LATER = ("cost_weights", "held", "model_joints")
 """Keys of ``meta`` that files of earlier versions lack. ``feedback`` is there if the motion has a stabiliser."""
 
 # what numpy and zipfile raise for files that are damaged, or something else

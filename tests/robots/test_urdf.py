@@ -260,6 +260,7 @@ def test_joints_that_mimic_others_and_a_world_link_are_no_trouble(file: Path, qu
     assert robot.trunk == "trunk"
     assert robot.mass == pytest.approx(quadruped().mass + 0.3)
     assert any("joint wag: mimics another joint" in said for said in findings(robot, "note"))
+    assert robot.held == {"wag": 0.0}
 
 
 def test_light_links_get_armature_for_stable_servos(file: Path, quadruped: type) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -78,8 +79,28 @@ def surroundings(motion: Motion) -> str:
     return " and ".join(parts)
 
 
-def describe(samples: Samples, provenance: dict[str, Any], feedback: Feedback | None = None) -> dict[str, Any]:
-    """All about a table of samples that is not in its rows; JSON. Limits are null where there is none."""
+def held(motion: Motion) -> dict[str, float]:
+    """Joints that the simulation holds, and nothing commands -> their positions [rad], of slides [m]."""
+    return dict(motion.meta.get("held", {}))
+
+
+def describe(
+    samples: Samples,
+    provenance: dict[str, Any],
+    feedback: Feedback | None = None,
+    held: Mapping[str, float] | None = None,
+) -> dict[str, Any]:
+    """Describe a table of samples beyond its rows.
+
+    Args:
+        samples: The rows.
+        provenance: See `provenance`.
+        feedback: The stabiliser, if one goes with the rows.
+        held: See `held`.
+
+    Returns:
+        JSON. Limits are null where there is none.
+    """
     joints = samples.joints
     return {
         "provenance": provenance,
@@ -93,6 +114,7 @@ def describe(samples: Samples, provenance: dict[str, Any], feedback: Feedback | 
         "kd": joints.kd.tolist(),
         "limits": {name: _finite(getattr(joints, name)) for name in ("lower", "upper", "velocity", "torque")},
         "start": {"position": joints.start_position.tolist(), "torque": joints.start_torque.tolist()},
+        "held": dict(held or {}),
         "units": UNITS,
         "feedback": None if feedback is None else _describe(feedback, joints.names),
     }

@@ -10,7 +10,7 @@ import numpy as np
 
 from levade.errors import LevadeError, did_you_mean
 from levade.export import as_csv, as_json, as_mjlab, as_ros2, as_unitree
-from levade.export.content import Content, provenance, surroundings
+from levade.export.content import Content, held, provenance, surroundings
 from levade.export.directory import filling
 from levade.export.samples import Samples, sample
 from levade.feedback import Feedback
@@ -129,6 +129,11 @@ def _notes(motion: Motion, samples: Samples) -> list[str]:
     if samples.rate < SLOW:
         notes.append(
             f"{samples.rate:g} Hz is slow for sending to a robot, for whose motion {SLOW:g} Hz or more is right"
+        )
+    if still := held(motion):
+        angles = ", ".join(f"{joint} {angle:g}" for joint, angle in still.items())
+        notes.append(
+            f"the simulation holds {angles} [rad, slides m], and no command says so: hold them there (meta: held)"
         )
     joints = samples.joints
     over = np.maximum(joints.lower - samples.command_position, samples.command_position - joints.upper).max(axis=0)

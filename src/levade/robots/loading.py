@@ -125,6 +125,8 @@ def load_robot(
         source=str(path),
         findings=tuple(draft.findings),
         origins=draft.origins,
+        held={joint: draft.held[joint] for joint in [*draft.joints, *draft.held] if joint in draft.held},
+        model_joints=tuple(draft.joints),
     )
 
 
@@ -177,6 +179,7 @@ def _understand(draft: Draft, path: Path, form: RobotForm) -> Bare:
         )
     free = int(model.body_jntadr[trunk])
     movable = [model.joint(j).name for j in range(model.njnt) if j != free]
+    draft.joints = movable
     fixed = per_joint(form.fixed, movable, f"{path}: fixed", all_joints=False)
     if fixed:
         fix_joints(draft, fixed, path)

@@ -68,6 +68,7 @@ def fix_joints(draft: Draft, angles: Mapping[str, float], path: Path) -> None:
             raise LevadeError(f"{path}: joint {name} cannot be held fixed: it is neither a hinge nor a slide")
         body.pos = np.asarray(body.pos, dtype=float) + turned
         spec.delete(joint)
+        draft.held[name] = float(angle)
 
 
 def _loosen(spec: mujoco.MjSpec, joints: set[str]) -> None:

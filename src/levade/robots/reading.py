@@ -42,6 +42,7 @@ class Draft:
 
     effort [Nm], velocity [rad/s]: joint -> limit, of those that have one. servos: joint -> position servo.
     driven: joints of an MJCF that an actuator drives. origins: what of the robot came from where, see `Robot`.
+    joints: of the file except the free one, in its order. held: those taken out of the model -> where [rad], slides [m].
     """
 
     path: Path
@@ -55,6 +56,8 @@ class Draft:
     keyframes: list[Keyframe] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)
     origins: dict[str, str] = field(default_factory=dict)
+    joints: list[str] = field(default_factory=list)
+    held: dict[str, float] = field(default_factory=dict)
 
     def compile(self) -> mujoco.MjModel:
         """The model. Raises LevadeError in one line."""
@@ -122,7 +125,9 @@ def _read_urdf(path: Path, root: ET.Element) -> Draft:
             for geom in body.geoms:
                 if geom.contype or geom.conaffinity:
                     geom.group = 3  # where there is something to look at, what collides need not be drawn
-    return Draft(path, spec, source.assets, True, source.effort, source.velocity, findings=source.findings)
+    return Draft(
+        path, spec, source.assets, True, source.effort, source.velocity, findings=source.findings, held=source.held
+    )
 
 
 def _read_mjcf(path: Path) -> Draft:

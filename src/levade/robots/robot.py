@@ -39,6 +39,8 @@ class Robot:
     linkage: whether ``limits`` has the linkage's torque curves. source: the description's path, for messages.
     findings: what was noticed, chosen and left out when the robot was read.
     origins: of "legs", "neutral", "torque", "velocity", "gains" and, where there are such joints, "fixed": what decided.
+    held: joints of the file that are held fixed -> where [rad], slides [m].
+    model_joints: all joints of the file except the free one, in its order, with those that are held.
     """
 
     name: str
@@ -55,6 +57,8 @@ class Robot:
     source: str = ""
     findings: tuple[Finding, ...] = ()
     origins: Mapping[str, str] = field(default_factory=dict, repr=False)
+    held: Mapping[str, float] = field(default_factory=dict, repr=False)
+    model_joints: tuple[str, ...] = ()
 
     @property
     def joint_names(self) -> tuple[str, ...]:

@@ -33,6 +33,7 @@ class UrdfSource:
 
     text: for MuJoCo's reader; its meshes are named by bare, unique names. assets: name -> content.
     effort [Nm], velocity [rad/s]: joint -> limit, where the file has a positive one.
+    held: joints that follow others, and are fixed instead -> where [rad].
     """
 
     text: str
@@ -40,6 +41,7 @@ class UrdfSource:
     effort: dict[str, float] = field(default_factory=dict)
     velocity: dict[str, float] = field(default_factory=dict)
     findings: list[Finding] = field(default_factory=list)
+    held: dict[str, float] = field(default_factory=dict)
 
 
 def read_urdf(path: Path, root: ET.Element) -> UrdfSource:
@@ -147,6 +149,7 @@ def _check_joints(path: Path, joints: dict[str, ET.Element], source: UrdfSource)
             )
         if joint.find("mimic") is not None and kind != "fixed":
             joint.set("type", "fixed")
+            source.held[name] = 0.0
             source.findings.append(note(f"joint {name}", "mimics another joint, which is not simulated: held fixed"))
             continue
         limit = joint.find("limit")

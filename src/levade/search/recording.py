@@ -73,6 +73,8 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
             "velocity": finite(limits.velocity),
             "torque": finite(limits.torque),
         },
+        "held": dict(objective.robot.held),
+        "model_joints": list(objective.robot.model_joints),
         "trunk_com_offset": objective.robot.trunk_com_offset.tolist(),
         "engine": task.physics.engine,
         "versions": versions(task.physics.engine),
