@@ -6,27 +6,29 @@ import numpy as np
 import pytest
 
 from levade.errors import LevadeError
-from levade.optimizers import CMAES, Informed, Levade
-from levade.optimizers.finish import FARTHEST, PROBE, Finish
+from levade.optimizers import CMAES, AimedCMAES, SearchSpace, UsesErrors
+from levade.optimizers.ending import FARTHEST, PROBE, EndingRefinement
 
 D = 24
 ENDING = np.kron(np.eye(4), np.array([0.0, 0.0, 0.0, 0.0, 0.5, 1.0]))  # of four joints with six weights
 
 
 def test_without_errors_it_is_cma_es() -> None:
-    own = CMAES(np.ones(6), step=0.3, seed=5, population=8)
-    levade = Levade(np.ones(6), step=0.3, seed=5, population=8, aimed=6)
+    own = CMAES(SearchSpace(np.ones(6), step=0.3, population=8), seed=5)
+    aimed = AimedCMAES(SearchSpace(np.ones(6), step=0.3, population=8), seed=5, aimed=6)
     for _ in range(5):
         x = own.ask()
-        np.testing.assert_array_equal(levade.ask(), x)
+        np.testing.assert_array_equal(aimed.ask(), x)
         own.tell((x**2).sum(axis=1))
-        levade.tell((x**2).sum(axis=1))
-    assert levade.step == own.step
-    assert isinstance(levade, Informed)
-    assert not isinstance(own, Informed)
+        aimed.tell((x**2).sum(axis=1))
+    assert aimed.step == own.step
+    assert isinstance(aimed, UsesErrors)
+    assert not isinstance(own, UsesErrors)
 
 
-def trials_until_right(optimizer: Levade | CMAES, slope: np.ndarray, offset: np.ndarray, *, most: int = 4000) -> int:
+def trials_until_right(
+    optimizer: AimedCMAES | CMAES, slope: np.ndarray, offset: np.ndarray, *, most: int = 4000
+) -> int:
     """Trials until one misses nothing by more than is allowed."""
     trials = 0
     while trials < most:
@@ -37,7 +39,7 @@ def trials_until_right(optimizer: Levade | CMAES, slope: np.ndarray, offset: np.
         if (np.abs(errors) <= 1).all(axis=1).any():
             return trials
         cost = (errors**2).sum(axis=1)
-        if isinstance(optimizer, Levade):
+        if isinstance(optimizer, AimedCMAES):
             optimizer.tell(cost, errors)
         else:
             optimizer.tell(cost)
@@ -48,8 +50,8 @@ def trials_until_right(optimizer: Levade | CMAES, slope: np.ndarray, offset: np.
 def test_tight_tolerances_take_a_fraction_of_the_trials_of_cma_es(seed: int) -> None:
     generator = np.random.default_rng(seed)
     slope, offset = 300 * generator.standard_normal((D, 4)), 300 * generator.standard_normal(4)
-    plain = trials_until_right(CMAES(np.zeros(D), step=0.1, seed=seed, population=12), slope, offset)
-    aimed = trials_until_right(Levade(np.zeros(D), step=0.1, seed=seed, population=12), slope, offset)
+    plain = trials_until_right(CMAES(SearchSpace(np.zeros(D), step=0.1, population=12), seed=seed), slope, offset)
+    aimed = trials_until_right(AimedCMAES(SearchSpace(np.zeros(D), step=0.1, population=12), seed=seed), slope, offset)
     assert aimed < 0.4 * plain
 
 
@@ -60,8 +62,9 @@ def test_errors_of_bounds_need_not_vanish(kind: str) -> None:
     slope = 300 * generator.standard_normal((D, 4))
     slope[:, 3] = -slope[:, 2]
     offset, one_sided = np.array([30.0, 20.0, 20.0, -120.0]), np.array([False, True, True, True])
-    own = {"aimed": 6, "finish": 0.0} if kind == "aimed" else {"aimed": 0, "finish": 200.0, "ending": ENDING}
-    optimizer = Levade(np.zeros(D), step=0.01, seed=0, population=12, one_sided=one_sided, **own)
+    space = SearchSpace(np.zeros(D), step=0.01, population=12, ending=ENDING, one_sided=one_sided)
+    own = {"aimed": 6, "finish": 0.0} if kind == "aimed" else {"aimed": 0, "finish": 200.0}
+    optimizer = AimedCMAES(space, seed=0, **own)
     trials = 0
     while trials < 120:
         x = optimizer.ask()
@@ -73,12 +76,25 @@ def test_errors_of_bounds_need_not_vanish(kind: str) -> None:
     raise AssertionError("no candidate was right within 120 trials")
 
 
+def test_aimed_candidates_are_finite_where_trials_all_miss_by_the_same() -> None:
+    """As motions do that are too short to change anything, or whose joints are all at the end of their range."""
+    optimizer = AimedCMAES(SearchSpace(np.zeros(D), step=0.1, ending=ENDING), seed=0)
+    for _ in range(40):
+        x = optimizer.ask()
+        assert np.isfinite(x).all()
+        assert len(np.unique(x, axis=0)) == len(x)
+        optimizer.tell(np.full(len(x), 1000.0), np.tile([170.0, -16.0], (len(x), 1)))
+    assert len(x) == optimizer.population  # aimed ones among them
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_what_the_ending_can_mend_is_mended_at_the_second_look(seed: int) -> None:
     """A generation of CMA-ES, one of probes, one of steps."""
     generator = np.random.default_rng(seed)
     slope, offset = 300 * generator.standard_normal((D, 2)), 30 * generator.standard_normal(2)
-    finished = Levade(np.zeros(D), step=0.01, seed=seed, population=12, aimed=0, ending=ENDING, finish=200)
+    finished = AimedCMAES(
+        SearchSpace(np.zeros(D), step=0.01, population=12, ending=ENDING), seed=seed, aimed=0, finish=200
+    )
     assert trials_until_right(finished, slope, offset) <= 12 + len(ENDING) + 1
 
 
@@ -86,7 +102,7 @@ def test_the_same_seed_gives_the_same_candidates_and_another_others() -> None:
     slope, offset = np.random.default_rng(0).standard_normal((D, 3)), np.array([20.0, -10.0, 5.0])
     asked: list[list[np.ndarray]] = []
     for seed in (1, 1, (1, 1)):
-        optimizer, asked_of = Levade(np.zeros(D), step=0.1, seed=seed, ending=ENDING), []
+        optimizer, asked_of = AimedCMAES(SearchSpace(np.zeros(D), step=0.1, ending=ENDING), seed=seed), []
         for _ in range(12):
             asked_of.append(x := optimizer.ask())
             errors = x @ slope + offset
@@ -98,7 +114,7 @@ def test_the_same_seed_gives_the_same_candidates_and_another_others() -> None:
 
 
 def test_a_new_stage_begins_with_the_best_of_the_last() -> None:
-    optimizer = Levade(np.zeros(D), step=0.1, seed=0, population=12)
+    optimizer = AimedCMAES(SearchSpace(np.zeros(D), step=0.1, population=12), seed=0)
     slope = np.random.default_rng(0).standard_normal((D, 2))
     best, least = np.zeros(D), np.inf
     for _ in range(4):
@@ -113,7 +129,7 @@ def test_a_new_stage_begins_with_the_best_of_the_last() -> None:
 
 
 def test_a_generation_in_which_all_diverge_is_survived() -> None:
-    optimizer = Levade(np.zeros(D), step=0.1, seed=0, ending=ENDING)
+    optimizer = AimedCMAES(SearchSpace(np.zeros(D), step=0.1, ending=ENDING), seed=0)
     for _ in range(3):
         n = len(optimizer.ask())
         optimizer.tell(np.full(n, 1e12), np.full((n, 3), np.nan))
@@ -123,11 +139,11 @@ def test_a_generation_in_which_all_diverge_is_survived() -> None:
 @pytest.mark.parametrize(("name", "value"), [("aimed", -1), ("aimed", 2.5), ("finish", -1.0), ("finish", np.nan)])
 def test_settings_that_make_no_sense_are_refused(name: str, value: float) -> None:
     with pytest.raises(LevadeError, match=name):
-        Levade(np.zeros(4), step=0.1, seed=0, **{name: value})
+        AimedCMAES(SearchSpace(np.zeros(4), step=0.1), seed=0, **{name: value})
 
 
-def finish(errors: np.ndarray) -> Finish:
-    return Finish(np.ones(D), errors, ENDING, count=3, generator=np.random.default_rng(0))
+def finish(errors: np.ndarray) -> EndingRefinement:
+    return EndingRefinement(np.ones(D), errors, ENDING, count=3, generator=np.random.default_rng(0))
 
 
 def test_a_finish_probes_each_direction_then_is_right_and_leaves_the_rest_of_the_motion_alone() -> None:
@@ -168,6 +184,14 @@ def test_a_finish_gives_up_where_the_ending_cannot_help_or_steps_do_not() -> Non
     attempt = finish(np.array([9.0]))
     attempt.tell(9.0 + 300 * (attempt.ask() - 1)[:, -1:])
     assert not attempt.over
-    attempt.tell(np.full((3, 1), 8.9))  # not as foretold
+    attempt.tell(np.full((3, 1), 8.9))  # not as predicted
     assert attempt.over
     assert attempt.miss <= 9.0
+
+
+@pytest.mark.parametrize("missed", [np.nan, 9.0, 0.5])
+def test_a_refinement_gives_up_where_probes_diverge_or_make_no_difference(missed: float) -> None:
+    attempt = finish(np.array([0.5 if missed == 0.5 else 9.0]))
+    attempt.tell(np.full((len(attempt.ask()), 1), missed))
+    assert attempt.over
+    np.testing.assert_array_equal(attempt.best, np.ones(D))

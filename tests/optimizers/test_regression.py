@@ -5,18 +5,18 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from levade.optimizers.aim import RIDGE, WITHIN, Aim, corrected, ridge
+from levade.optimizers.regression import RIDGE, WITHIN, ErrorRegression, corrected, ridge
 
 
-def told(slope: np.ndarray, offset: np.ndarray, *, spread: float = 0.1, n: int = 60) -> Aim:
+def told(slope: np.ndarray, offset: np.ndarray, *, spread: float = 0.1, n: int = 60) -> ErrorRegression:
     candidates = spread * np.random.default_rng(1).standard_normal((n, len(slope)))
     errors = candidates @ slope + offset
-    aim = Aim(np.eye(len(slope)))
+    aim = ErrorRegression(np.eye(len(slope)))
     aim.tell(candidates, errors, (errors**2).sum(axis=1))
     return aim
 
 
-def around(aim: Aim, *, count: int = 8, step: float = 0.1, seed: int = 0) -> np.ndarray:
+def around(aim: ErrorRegression, *, count: int = 8, step: float = 0.1, seed: int = 0) -> np.ndarray:
     return aim.around(count, step=step, generator=np.random.default_rng(seed))
 
 
@@ -26,7 +26,7 @@ def test_candidates_around_the_best_differ_and_are_all_right_where_errors_are_li
     slope = generator.standard_normal((20, 3))
     z = 0.5 * generator.standard_normal((80, 10))
     errors = z @ factor.T @ slope + np.array([2.0, -1.0, 1.5])
-    aim = Aim(factor)
+    aim = ErrorRegression(factor)
     aim.tell(z @ factor.T, errors, (errors**2).sum(axis=1))
     found = around(aim, step=0.5)
     missed = found @ slope + np.array([2.0, -1.0, 1.5])
@@ -56,10 +56,10 @@ def test_what_is_inside_a_bound_is_left_there_and_what_is_beyond_is_brought_insi
 
 def test_candidates_are_none_without_enough_trials_and_repeat_with_the_same_random_numbers() -> None:
     slope = np.random.default_rng(0).standard_normal((20, 3))
-    assert around(Aim(np.eye(20))).shape == (0, 20)
+    assert around(ErrorRegression(np.eye(20))).shape == (0, 20)
     assert around(told(slope, np.ones(3), n=4)).shape == (0, 20)
     assert around(told(slope, np.ones(3)), count=0).shape == (0, 20)
-    assert Aim(np.eye(20)).best is None
+    assert ErrorRegression(np.eye(20)).best is None
     one, other = (around(told(slope, np.ones(3))) for _ in range(2))
     np.testing.assert_array_equal(one, other)
 
@@ -67,7 +67,7 @@ def test_candidates_are_none_without_enough_trials_and_repeat_with_the_same_rand
 def test_a_best_that_misses_nothing_is_not_tried_again() -> None:
     generator = np.random.default_rng(5)
     candidates, slope = generator.standard_normal((60, 12)), 1e-3 * generator.standard_normal((12, 2))
-    aim, cost = Aim(np.eye(12)), (candidates**2).sum(axis=1)
+    aim, cost = ErrorRegression(np.eye(12)), (candidates**2).sum(axis=1)
     aim.tell(candidates, candidates @ slope, cost)
     found = aim.around(4, step=0.1, generator=generator)
     assert np.abs(found - candidates[np.argmin(cost)]).max(axis=1).min() > 0
@@ -87,7 +87,7 @@ def test_trials_with_unknown_errors_are_left_out() -> None:
 
 
 def test_without_criteria_there_is_nothing_to_aim_at() -> None:
-    aim = Aim(np.eye(4))
+    aim = ErrorRegression(np.eye(4))
     aim.tell(np.random.default_rng(0).standard_normal((40, 4)), np.empty((40, 0)), np.zeros(40))
     assert around(aim).shape == (0, 4)
 
@@ -99,7 +99,7 @@ def test_what_is_looked_at_only_lately_is_aimed_at_as_soon_as_enough_is_known_an
     early = 0.3 * generator.standard_normal((60, 20))
     unknown = early @ slope + offset
     unknown[:, 2] = np.nan
-    aim = Aim(np.eye(20))
+    aim = ErrorRegression(np.eye(20))
     aim.tell(early, unknown, (unknown[:, :2] ** 2).sum(axis=1))
     before = around(aim)[0]
     assert np.abs((before @ slope + offset)[:2]).max() < 0.5 < abs((before @ slope + offset)[2])
@@ -126,6 +126,18 @@ def test_points_are_moved_by_the_smallest_step(farthest: float) -> None:
     np.testing.assert_allclose((moved - drawn) @ across.T, 0, atol=1e-9)
     already = corrected(np.zeros((1, 6)), np.array([0.1, -0.2]), slope, farthest)
     np.testing.assert_allclose(already, 0, atol=1e-12)
+
+
+@pytest.mark.parametrize("size", [0.0, 1e-300, 1e-200, 1e-170, 1e-150])
+@pytest.mark.parametrize("farthest", [np.inf, 1.0])
+def test_points_stay_finite_whatever_the_slope(size: float, farthest: float) -> None:
+    """A step is errors over slope: with a slope near zero it overflows."""
+    drawn = 0.1 * np.random.default_rng(0).standard_normal((5, 6))
+    slope = size * np.random.default_rng(1).standard_normal((6, 2))
+    moved = corrected(drawn, np.array([170.0, -16.0]), slope, farthest)
+    assert np.isfinite(moved).all()
+    if size == 0:
+        np.testing.assert_array_equal(moved, drawn)
 
 
 @pytest.mark.parametrize(("n", "m"), [(40, 12), (12, 40), (20, 20)])

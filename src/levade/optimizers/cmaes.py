@@ -20,8 +20,8 @@ _NEVER = {"tolfun": 0, "tolfunhist": 0, "tolfunrel": 0, "tolx": 0, "tolstagnatio
 
 _MOST = 1e3
 """Largest standard deviation, in first steps: beyond it CMA-ES has diverged, as by cma's own stop rule ``tolfacupx``."""
-_LEAST = 1e-9
-"""Least standard deviation, in first steps or as a share of the mean: below it candidates differ by rounding errors only."""
+_LEAST = np.finfo(float).eps
+"""Least standard deviation, in first steps or as a share of the mean: below it candidates differ by rounding errors."""
 _CONDITION = 1e12
 """Largest condition number of the covariance: beyond it cma goes over to other coordinates, which its mean is then in."""
 

@@ -65,8 +65,11 @@ class Optimizer(Protocol):
 
 
 @runtime_checkable
-class UsesErrors(Optimizer, Protocol):
-    """An optimizer that also uses the signed errors behind the costs: by how much candidates miss each criterion."""
+class UsesErrors(Protocol):
+    """An `Optimizer` that also uses the signed errors behind the costs: by how much candidates miss each criterion.
+
+    ``isinstance`` tells it by its methods alone. It reads no property: reading `population` may be a reason to ask.
+    """
 
     def tell(self, cost: Array, errors: Array | None = None) -> None:
         """Learn from the candidates that `ask` returned last.
