@@ -7,9 +7,9 @@ import signal
 from pathlib import Path
 
 import pytest
+from levade.solve import Objective, solve
 
 from levade.motion import Motion, record
-from levade.solve import Objective, solve
 from levade.stabilise import stabilise
 from levade.tasks import load_task
 

@@ -15,13 +15,13 @@ from types import SimpleNamespace
 import mujoco
 import numpy as np
 import pytest
+from levade.solve import Objective, solve
 
 from levade.errors import LevadeError
 from levade.export import FORMATS, export
 from levade.export.export import Format
 from levade.export.player import Motion as Played
 from levade.motion import Motion, record
-from levade.solve import Objective, solve
 from levade.tasks import load_task
 
 

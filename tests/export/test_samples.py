@@ -7,6 +7,7 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 import pytest
+from levade.solve import Objective
 
 from levade.engines import Physics, make_engine
 from levade.errors import LevadeError
@@ -15,7 +16,6 @@ from levade.export.samples import sample
 from levade.motion import Motion
 from levade.robots import load_robot
 from levade.scenes import Scene
-from levade.solve import Objective
 
 
 def test_at_the_rate_of_the_simulation_every_row_is_what_was_recorded(

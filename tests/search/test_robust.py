@@ -10,6 +10,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from levade.robust import _TAG as TAG
+from levade.run import CHECKPOINT, MOTION, PROGRESS, TASK, resume, run
+from levade.solve import Generation, Objective, Record, make_optimizer, solve
 
 from levade.check import Subject
 from levade.check.perturbed import judge
@@ -18,9 +21,6 @@ from levade.engines import MujocoEngine, Perturbation, perturbed_models
 from levade.engines.ode.library import load
 from levade.errors import LevadeError
 from levade.motion import ARRAYS, Motion, record
-from levade.robust import _TAG as TAG
-from levade.run import CHECKPOINT, MOTION, PROGRESS, TASK, resume, run
-from levade.solve import Generation, Objective, Record, make_optimizer, solve
 from levade.tasks import Racing, Robust, load_task, task_to_yaml
 
 SMALL = [

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from levade.run import CHECKPOINT, MOTION, PROGRESS, TASK, Outcome, read_run, resume, run
+from levade.solve import Generation, Objective, Solution, solve
 
 from levade.errors import LevadeError
 from levade.motion import ARRAYS, Motion, cost_weights
-from levade.run import CHECKPOINT, MOTION, PROGRESS, TASK, Outcome, read_run, resume, run
-from levade.solve import Generation, Objective, Solution, solve
 from levade.tasks import Change, Task, load_task, task_from_dict, task_to_dict
 
 # three stages that weigh by themselves, look at the hold differently, and a goal that is not met

@@ -7,13 +7,12 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from levade.solve import Objective
 
 from levade.costs import Criterion, Position
 from levade.errors import LevadeError
 from levade.scenes import Box, Scene
-from levade.solve import Objective
-from levade.tasks import Cost, Stage, Task, load_task
-from levade.tasks.task import RobotChoice
+from levade.tasks import Cost, RobotChoice, Stage, Task, load_task
 
 # of the robot in conftest.py: hips 0.2 m ahead and 0.08 m aside, 0.05 m further out to the legs of 2 x 0.2 m, feet of 0.02 m
 LEG, HIP = 0.05 + 0.4 + 0.02, (0.2**2 + 0.08**2) ** 0.5

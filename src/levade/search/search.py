@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator, Mapping
 from dataclasses import replace
+from typing import cast
 
 import numpy as np
 
@@ -363,7 +364,7 @@ def _rank(trial: Trial) -> tuple[bool, float, float]:
 
 def _tell(optimizer: Optimizer, task: Task, cost: Array, evaluation: Evaluation) -> None:
     if isinstance(optimizer, UsesErrors):
-        optimizer.tell(cost, _missed(task, evaluation))
+        cast(UsesErrors, optimizer).tell(cost, _missed(task, evaluation))
     else:
         optimizer.tell(cost)
 

@@ -14,18 +14,10 @@ from levade.tasks.document import (
     task_to_dict,
     task_to_yaml,
 )
+from levade.tasks.parts import Change, Cost, PolicyChoice, RobotChoice, Search, Stage, StartChoice
 from levade.tasks.robust import Racing, Robust
-from levade.tasks.task import (
-    Change,
-    Cost,
-    PolicyChoice,
-    RobotChoice,
-    Search,
-    Stage,
-    StartChoice,
-    Task,
-    looks_at_hold,
-)
+from levade.tasks.task import Task
+from levade.tasks.validation import looks_at_hold
 
 __all__ = [
     "TERMS",

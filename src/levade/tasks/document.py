@@ -32,7 +32,8 @@ from levade.errors import LevadeError, did_you_mean
 from levade.optimizers import ALIASES, canonical
 from levade.robots import Dimensions, dimensions, load_robot
 from levade.scenes import read_heights
-from levade.tasks.task import Cost, RobotChoice, Task
+from levade.tasks.parts import Cost, RobotChoice
+from levade.tasks.task import Task
 from levade.tasks.units import measure_of, to_si
 
 TERMS = {

@@ -8,7 +8,8 @@ from levade.arrays import Array
 from levade.errors import LevadeError, located
 from levade.policies import Ends, Follower, GaussianKernels, Group, Policy
 from levade.robots import Leg, Robot, mirror_signs
-from levade.tasks.task import PolicyChoice, Task
+from levade.tasks.parts import PolicyChoice
+from levade.tasks.task import Task
 
 
 def make_policy(task: Task, robot: Robot, *, start: Array | None = None) -> Policy:
