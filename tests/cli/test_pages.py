@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from levade.run import run as run_task
+from levade.search.run import run as run_task
 from levade.tasks import load_task
 
 

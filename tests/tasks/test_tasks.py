@@ -15,7 +15,8 @@ from levade.costs import Effort, JointLimitExcess, Orientation, Position
 from levade.engines import Fall, Settled
 from levade.errors import LevadeError
 from levade.robots import dimensions, load_robot
-from levade.solve import Objective, make_optimizer
+from levade.search import make_objective
+from levade.search.optimizing import make_attempt
 from levade.tasks import Cost, Search, Task, builtin_tasks, load_task, task_from_dict, task_to_dict, task_to_yaml
 from levade.tasks.units import UNITS, to_si
 
@@ -39,7 +40,8 @@ def test_a_task_survives_the_way_through_its_file(name: str, tmp_path: Path) -> 
 def papers_population(name: str) -> int:
     """Of CMA-ES over all the weights, which the paper's budgets are multiples of."""
     plain = ["search.optimizer=cma", "search.population=null", "search.modes=null"]
-    return make_optimizer(Objective(load_task(name, changes=plain), threads=1), 0).population
+    objective = make_objective(load_task(name, changes=plain), threads=1)
+    return make_attempt(objective.task, objective.space, seed=0).population
 
 
 def test_rearing_has_the_papers_numbers() -> None:
@@ -62,7 +64,7 @@ def test_rearing_has_the_papers_numbers() -> None:
     assert (pitch.tolerance, height.tolerance, height.target) == (0.006, 0.02, 0.9)
     assert pitch.target == orientation.pitch
     assert set(task.success) == {"pitch", "height"}
-    objective = Objective(task, threads=1)
+    objective = make_objective(task, threads=1)
     assert objective.policy.size == 96
     assert papers_population("rearing") == 17
 
@@ -93,7 +95,7 @@ def test_recovery_has_the_papers_numbers() -> None:
         "pitch": (0, 0.1),
         "height": (0.61, 0.05),
     }
-    objective = Objective(task, threads=1)
+    objective = make_objective(task, threads=1)
     assert objective.policy.size == 192
     assert papers_population("posture-recovery") == 19
 
@@ -385,15 +387,15 @@ def test_tasks_that_are_not_there(name: str, message: str) -> None:
 )
 def test_what_does_not_fit_the_robot(changes: list[str], message: str) -> None:
     with pytest.raises(LevadeError, match=message) as caught:
-        Objective(load_task("rearing", changes=changes), threads=1)
+        make_objective(load_task("rearing", changes=changes), threads=1)
     assert "\n" not in str(caught.value)
 
 
 def test_a_python_function_is_a_cost_that_no_file_holds() -> None:
     task = load_task("rearing")
     mine = dataclasses.replace(task, costs={**task.costs, "mine": Cost(lambda t: t.joint_torque.max(axis=(1, 2)), 1.0)})
-    objective = Objective(mine, threads=1)
-    assert objective.evaluate(objective.initial_weights[None]).terms["mine"][0] > 10
+    objective = make_objective(mine, threads=1)
+    assert objective.evaluate(objective.space.mean[None]).terms["mine"][0] > 10
     with pytest.raises(LevadeError, match=r"costs.mine: a Python function cannot be written to a task file"):
         task_to_yaml(mine)
 
