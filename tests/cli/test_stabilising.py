@@ -9,7 +9,9 @@ from pathlib import Path
 import pytest
 from levade.solve import Objective, solve
 
-from levade.motion import Motion, record
+from levade.motion import Motion
+from levade.search import make_objective, solve
+from levade.search.recording import record
 from levade.stabilise import stabilise
 from levade.tasks import load_task
 
@@ -17,7 +19,7 @@ from levade.tasks import load_task
 @pytest.fixture(scope="module")
 def motion(tmp_path_factory: pytest.TempPathFactory) -> Path:
     changes = ["success.pitch.tolerance=0.02", "success.height.tolerance=0.05"]
-    objective = Objective(load_task("rearing", changes=changes), threads=1)
+    objective = make_objective(load_task("rearing", changes=changes), threads=1)
     path = tmp_path_factory.mktemp("stabilise") / "motion.npz"
     record(objective, solve(objective, seed=0), seed=0).save(path)
     return path

@@ -21,7 +21,9 @@ from levade.errors import LevadeError
 from levade.export import FORMATS, export
 from levade.export.export import Format
 from levade.export.player import Motion as Played
-from levade.motion import Motion, record
+from levade.motion import Motion
+from levade.search import make_objective, solve
+from levade.search.recording import record
 from levade.tasks import load_task
 
 
@@ -296,7 +298,7 @@ def arm_and_wheels() -> Motion:
     """A quadruped that holds an arm and four wheels, whose order in the file is not that of the legs."""
     robot = str(Path(__file__).parents[1] / "robots/cases/armwheel/robot.yaml")
     changes = ["search.population=8", "search.trials=8"]
-    small = Objective(load_task("squat-jump", robot=robot, changes=changes))
+    small = make_objective(load_task("squat-jump", robot=robot, changes=changes))
     return record(small, solve(small, seed=0), seed=0)
 
 

@@ -16,6 +16,7 @@ from levade.export.samples import sample
 from levade.motion import Motion
 from levade.robots import load_robot
 from levade.scenes import Scene
+from levade.search import Objective
 
 
 def test_at_the_rate_of_the_simulation_every_row_is_what_was_recorded(

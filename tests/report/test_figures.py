@@ -11,7 +11,7 @@ import pytest
 
 from levade.errors import LevadeError
 from levade.motion import Motion
-from levade.run import run
+from levade.search.run import run
 from levade.tasks import load_task
 
 pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install levade[figures]")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import json
-import zlib
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -20,7 +20,24 @@ from levade.costs import total
 from levade.engines import MujocoEngine, Perturbation, perturbed_models
 from levade.engines.ode.library import load
 from levade.errors import LevadeError
-from levade.motion import ARRAYS, Motion, record
+from levade.motion import Motion
+from levade.search import (
+    Evaluation,
+    Generation,
+    Objective,
+    Record,
+    Search,
+    Stopped,
+    Trials,
+    make_objective,
+    solve,
+)
+from levade.search.objective import _TAG as TAG
+from levade.search.optimizing import make_attempt
+from levade.search.recording import record
+from levade.search.robust import Judge, Judging
+from levade.search.run import MOTION, TASK, read_run, resume, run
+from levade.search.schedule import Level, full_level
 from levade.tasks import Racing, Robust, load_task, task_to_yaml
 
 SMALL = [
@@ -33,19 +50,35 @@ REDRAWN = "robust={samples: 3, measure: mean, redraw: generation, required: 0.5}
 VALIDATED = "robust={samples: 2, measure: mean, redraw: generation, validation: 5}"
 MEAN = "robust={samples: 2, measure: mean, redraw: generation, validation: 5, contender: mean}"
 STARTS = "robust={samples: 3, measure: mean, redraw: generation, validation: 20, starts: 3}"
+Answered = Callable[[Judging, Objective], Evaluation]
 BUDGET = {FIXED: 120, REDRAWN: 120, VALIDATED: 120, MEAN: 120, STARTS: 250}
 
 
 def objective(robust: str = FIXED, *more: str, threads: int = 1) -> Objective:
-    return Objective(
-        load_task("rearing", changes=[*SMALL, robust, f"search.trials={BUDGET[robust]}", *more]), threads=threads
-    )
+    task = load_task("rearing", changes=[*SMALL, robust, f"search.trials={BUDGET[robust]}", *more])
+    return make_objective(task, threads=threads)
 
 
 def generations(objective: Objective, seed: int = 2, **options) -> list[Generation]:
     seen: list[Generation] = []
     solve(objective, seed=seed, observe=seen.append, **options)
     return seen
+
+
+def asked(objective: Objective, seed: int = 2) -> list[tuple[Generation, list[Trials]]]:
+    """Each generation of a search, with the trials that were asked for since the one before."""
+    search, trials, seen = Search(objective.task, objective.space, seed=seed), [], []
+    while (wanted := search.ask()) is not None:
+        trials.append(wanted)
+        if (generation := search.tell(objective.evaluate(wanted))) is not None:
+            seen.append((generation, trials))
+            trials = []
+    return seen
+
+
+def candidates(trials: list[Trials]) -> np.ndarray:
+    """The candidates of a generation of six: the first of so many that are asked for on the nominal model."""
+    return next(one.weights for one in trials if one.draw is None and one.n == 6)
 
 
 @pytest.fixture(scope="module")
@@ -76,9 +109,9 @@ def test_a_generation_takes_as_many_trials_as_racing_leaves(fixed: list[Generati
     spent = [b.trials - a.trials for a, b in zip([None, *fixed], fixed, strict=False) if a is not None]
     # two generations of the nominal stage, then 6 nominal, 6 on the first model and the better 3 on the other three
     assert fixed[0].trials == 6
-    assert fixed[0].record.evaluation.samples is None
+    assert fixed[0].evaluation.samples is None
     assert spent[0] == 6
-    more = [t - (6 + 6 + 3 * 3 + g.record.evaluation.verified) for g, t in zip(fixed[2:], spent[1:], strict=True)]
+    more = [t - (6 + 6 + 3 * 3 + g.evaluation.verified) for g, t in zip(fixed[2:], spent[1:], strict=True)]
     assert (
         1 + 4 <= more[0] <= 2 * (1 + 4)
     )  # the best so far, on the models, and through the hold if it succeeds until then
@@ -89,7 +122,7 @@ def test_a_candidates_cost_is_the_measure_of_its_whole_rollouts(fixed: list[Gene
     made = objective()
     weights = {name: cost.weight for name, cost in made.task.costs.items()}
     generation = fixed[3]
-    samples, nominal = generation.record.evaluation.samples, generation.record.evaluation
+    samples, nominal = generation.evaluation.samples, generation.evaluation
     assert samples is not None
     assert samples.complete.sum() == 3
     assert samples.known[:, 0].all()
@@ -101,24 +134,25 @@ def test_a_candidates_cost_is_the_measure_of_its_whole_rollouts(fixed: list[Gene
     assert generation.cost[~samples.complete].min() >= generation.cost[samples.complete].max()
 
 
-def test_samples_are_rollouts_of_the_perturbed_models_themselves(fixed: list[Generation]) -> None:
+def test_samples_are_rollouts_of_the_perturbed_models_themselves(answered: Answered) -> None:
     made = objective()
-    assert made.sampler is not None
-    models = made.sampler.models(2, 4)
-    weights = made.initial_weights[None] + 0.1 * np.random.default_rng(0).normal(size=(2, 96))
-    found = made.evaluate(weights, hold_steps=5, models=models)
+    starts, models = made._models(2, 0)
+    weights = made.space.mean[None] + 0.1 * np.random.default_rng(0).normal(size=(2, 96))
+    found = answered(Judge(made.task, 2).evaluate(weights, Level(5, robust=True)), made)
     assert found.samples is not None
+    assert found.samples.known.all()
+    told_before = made.state.joint_reference[0]
     for i in range(2):
-        reference = replace(made.policy.reference(weights[i : i + 1], hold_steps=5), before=made.state.joint_reference)
+        reference = replace(made.policy.reference(weights[i : i + 1], hold_steps=5), before=told_before)
         for j in range(4):
-            alone = made.engine.rollout(models[[j]].starts, reference, models=models[[j]].models)
+            alone = made.engine.rollout(starts[j], reference, models=models[j])
             for name, term in made.terms.items():
                 assert found.samples.terms[name][i, j] == term(alone)[0], name
 
 
 @pytest.mark.parametrize("robust", [FIXED, REDRAWN, MEAN, STARTS])
 def test_the_search_is_the_same_to_the_bit_for_any_number_of_threads_and_after_a_resume(
-    robust: str, tmp_path: Path
+    robust: str, tmp_path: Path, assert_same_files: Callable[[Path, Path], None]
 ) -> None:
     whole = run(objective(robust), seed=5, directory=tmp_path / "whole")
     run(load_task(tmp_path / "whole" / TASK), seed=5, threads=2, directory=tmp_path / "again")
@@ -132,71 +166,105 @@ def test_the_search_is_the_same_to_the_bit_for_any_number_of_threads_and_after_a
     resume(tmp_path / "part", threads=2, observe=lambda g: replayed.append(g.replayed))
     assert replayed[:4] == [True] * 4
     assert not any(replayed[4:])
-    one = Motion.load(tmp_path / "whole" / MOTION)
     for other in ("again", "part"):
-        motion = Motion.load(tmp_path / other / MOTION)
-        assert all(one[name].tobytes() == motion[name].tobytes() for name in ARRAYS)
-        assert one.meta == motion.meta
-        for name in (TASK, PROGRESS, CHECKPOINT):
-            assert (tmp_path / other / name).read_bytes() == (tmp_path / "whole" / name).read_bytes(), name
-    assert one.meta["success"] == whole.solution.best.success
+        assert_same_files(tmp_path / other, tmp_path / "whole")
+    assert Motion.load(tmp_path / "whole" / MOTION).meta["success"] == whole.solution.best.success
 
 
-def test_records_survive_json(fixed: list[Generation]) -> None:
-    for made in (fixed, generations(objective(REDRAWN))):
-        for generation in made:
-            text = json.dumps(generation.record.to_json(), allow_nan=False)
+@pytest.mark.parametrize("robust", [FIXED, REDRAWN, MEAN, STARTS])
+def test_a_search_that_is_interrupted_inside_a_generation_loses_nothing_that_was_simulated(
+    robust: str, tmp_path: Path, assert_same_files: Callable[[Path, Path], None]
+) -> None:
+    """Between any two evaluations of what follows the nominal stages, on other models or through the hold among them."""
+    whole = run(made := objective(robust), seed=5, directory=tmp_path / "whole")
+    of = [len(trials) for _, trials in asked(made, seed=5)]
+    later = next(i for i, count in enumerate(of) if count > 2)
+    assert of[later] > 2
+    before = sum(of[:later])
+    for place in range(before, before + of[later] + 1):
+        part, calls, evaluate = objective(robust), 0, made.evaluate
+
+        def stops(trials: Trials, *, place: int = place) -> Evaluation:
+            nonlocal calls
+            calls += 1
+            if calls == place + 1:
+                raise KeyboardInterrupt
+            return evaluate(trials)  # noqa: B023
+
+        part.evaluate = stops  # type: ignore[method-assign]
+        directory = tmp_path / str(place)
+        outcome = run(part, seed=5, directory=directory)
+        assert (outcome.solution.stopped, len(read_run(directory)[1].records)) == (Stopped.INTERRUPTED, place)
+        replayed: list[bool] = []
+        resume(directory, objective=made, observe=lambda g: replayed.append(g.replayed))  # noqa: B023
+        assert replayed[: later + 2] == [True] * later + [place == before + of[later], False]
+        assert_same_files(directory, tmp_path / "whole")
+    assert whole.solution.generations >= later + 2
+
+
+def test_records_survive_json() -> None:
+    for robust in (FIXED, REDRAWN):
+        records: list[Record] = []
+        seen = generations(objective(robust), keep=records.append)
+        assert len(records) > len(seen)
+        for one in records:
+            text = json.dumps(one.to_json(), allow_nan=False)
             assert Record.from_json(json.loads(text)).to_json() == json.loads(text)
-    assert made[-1].record.validated is not None
+    assert seen[-1].validated is not None
 
 
 def test_models_are_redrawn_when_asked_and_never_those_of_a_check() -> None:
-    kept, redrawn = objective(FIXED).sampler, objective(REDRAWN).sampler
-    assert kept is not None
-    assert redrawn is not None
-    assert np.array_equal(kept.models(0, 1).starts.qpos, kept.models(0, 2).starts.qpos)
-    assert not np.array_equal(redrawn.models(0, 1).starts.qpos, redrawn.models(0, 2).starts.qpos)
-    assert not np.array_equal(kept.models(0, 1).starts.qpos, kept.models(1, 1).starts.qpos)
-    # numpy's seeds 0 and (0, 0) are the same: a check with the solve's seed must not find the models that were trained on
+    for robust, own in ((FIXED, False), (REDRAWN, True)):
+        for generation, trials in asked(objective(robust)):
+            drawn = {one.draw for one in trials} - {None}
+            assert drawn <= ({0, generation.generation} if own else {0})
+            assert (generation.generation in drawn) == (own and generation.stage_name == "robust")
     made = objective()
+    qpos = {key: made._models(*key)[0].qpos for key in ((0, 1), (0, 2), (0, 0), (1, 0))}
+    assert not np.array_equal(qpos[0, 1], qpos[0, 2])
+    assert not np.array_equal(qpos[0, 0], qpos[1, 0])
+    assert np.array_equal(qpos[0, 0], objective()._models(0, 0)[0].qpos)
+    # numpy's seeds 0 and (0, 0) are the same: a check with the solve's seed must not find the models that were trained on
+    kept = made._models(0, 0)[1]
     for draw in (Perturbation().spread, Perturbation().draw):
         sample = draw(made.engine.model, 12, n=4, seed=0)
         _, checked = perturbed_models(made.engine.model, made.engine.layout, sample, made.state)
-        assert not np.isclose(kept.models(0, 0).models.delay[:, None], checked.delay).any()
+        assert not np.isclose(kept.delay[:, None], checked.delay).any()
 
 
 def test_the_best_of_a_generation_is_compared_on_a_sample_of_its_own_size() -> None:
     made = objective(VALIDATED)
-    assert made.sampler is not None
-    assert [len(made.sampler.models(0, generation)) for generation in (0, 1, 2)] == [5, 2, 2]
+    assert [len(made._models(0, draw)[1]) for draw in (0, 1, 2)] == [5, 2, 2]
     seen = generations(made)
     spent = [b.trials - a.trials for a, b in itertools.pairwise(seen[1:])]
     assert len(spent) >= 2
     for i, (generation, trials) in enumerate(zip(seen[2:], spent, strict=True)):
-        validated = generation.record.validated
+        validated = generation.validated
         assert validated is not None
         assert validated.samples is not None
         assert validated.samples.known.shape == (1, 5)
-        verified = generation.record.evaluation.verified + validated.verified
+        verified = generation.evaluation.verified + validated.verified
         more = trials - (6 * (1 + 2) + 1 + 5 + verified)
         assert 1 + 5 <= more <= 2 * (1 + 5) if i == 0 else more == 0  # the best of the nominal stage, on these models
 
 
-def test_the_mean_of_a_generation_may_be_compared_in_place_of_its_best() -> None:
-    made, seen = objective(MEAN), generations(objective(MEAN))
-    assert made.sampler is not None
-    optimizer = make_optimizer(made, 2)
-    fixed, compared = made.sampler.models(2, 0), 0
-    for generation in seen:  # the same search, told the same costs
+def test_the_mean_of_a_generation_may_be_compared_in_place_of_its_best(answered: Answered) -> None:
+    made = objective(MEAN)
+    optimizer, compared = make_attempt(made.task, made.space, seed=2), 0
+    for generation, trials in asked(made):  # the same search, told the same costs
         mean = optimizer.mean
-        assert zlib.crc32(optimizer.ask().tobytes()) == generation.record.checksum
-        validated = generation.record.validated
+        np.testing.assert_array_equal(optimizer.ask(), candidates(trials))
+        validated = generation.validated
         assert (validated is None) == (generation.stage_name == "nominal")
         if validated is not None:
-            again = made.evaluate(mean[None], hold_steps=5, models=fixed)
+            again = answered(Judge(made.task, 2).evaluate(mean[None], Level(5, robust=True)), made)
             assert {name: v.tolist() for name, v in validated.terms.items()} == {
                 name: v.tolist() for name, v in again.terms.items()
             }
+            assert validated.samples is not None
+            assert again.samples is not None
+            for name, values in validated.samples.terms.items():
+                np.testing.assert_array_equal(values, again.samples.terms[name])
             compared += 1
         optimizer.tell(generation.cost)
     assert compared >= 2
@@ -218,23 +286,23 @@ def test_a_search_starts_anew_on_the_nominal_model_only() -> None:
 BARELY = ("success={pitch: {target: 0, tolerance: 0.02}}", "search.step=0.03")
 
 
-def test_of_several_motions_of_the_nominal_model_the_one_that_holds_on_most_others_goes_on() -> None:
+def test_of_several_motions_of_the_nominal_model_the_one_that_holds_on_most_others_goes_on(answered: Answered) -> None:
     """Each is found by a search of its own, of two generations here; the robust stage begins around the best of them."""
     made = objective(STARTS, *BARELY)
-    seen = generations(made)
-    assert made.sampler is not None
+    seen, trials = map(list, zip(*asked(made), strict=True))
+    judge = Judge(made.task, 2)
     assert [g.stage_name for g in seen] == ["nominal"] * 6 + ["robust"] * (len(seen) - 6)
-    assert [g.record.validated is None for g in seen[:6]] == [True, False] * 3
+    assert [g.validated is None for g in seen[:6]] == [True, False] * 3
     assert [g.trials for g in seen[:6]] == [6, 33, 39, 66, 72, 99]  # 1 + 20 for a motion, beside six candidates
     found = []
     for attempt in range(3):
-        optimizer = make_optimizer(made, 2, attempt=attempt)
-        for generation in seen[2 * attempt : 2 * attempt + 2]:
-            candidates = optimizer.ask()
-            assert zlib.crc32(candidates.tobytes()) == generation.record.checksum
-            optimizer.tell(generation.cost)
-        start = candidates[np.argmin(generation.cost)]
-        share = made.evaluate(start[None], models=made.sampler.models(2, 0)).samples
+        optimizer = make_attempt(made.task, made.space, seed=2, attempt=attempt)
+        for number in (2 * attempt, 2 * attempt + 1):
+            tried, cost = optimizer.ask(), seen[number].cost
+            np.testing.assert_array_equal(tried, candidates(trials[number]))
+            optimizer.tell(cost)
+        start = tried[np.argmin(cost)]
+        share = answered(judge.evaluate(start[None], full_level(made.task)), made).samples
         assert share is not None
         found.append((share.share[0], start))
     shares = [share for share, _ in found]
@@ -242,8 +310,8 @@ def test_of_several_motions_of_the_nominal_model_the_one_that_holds_on_most_othe
     assert [len(g.starts) for g in seen[:6]] == [0, 1, 1, 2, 2, 3]
     assert seen[-1].starts == tuple(shares)
     best = found[int(np.argmax(shares))][1]
-    around = make_optimizer(made, 2, attempt=3, mean=best).ask()
-    assert zlib.crc32(around.tobytes()) == seen[6].record.checksum
+    around = make_attempt(made.task, replace(made.space, mean=best), seed=2, attempt=3, around=True).ask()
+    np.testing.assert_array_equal(around, candidates(trials[6]))
 
 
 def test_a_search_that_is_given_up_counts_as_a_start_and_one_motion_is_enough() -> None:
@@ -254,7 +322,7 @@ def test_a_search_that_is_given_up_counts_as_a_start_and_one_motion_is_enough() 
     easy = hard.replace("1e-5", "0.0005")
     seen = generations(objective(STARTS, *BARELY, easy, "search.restart=6", "search.trials=400"))
     nominal = [g for g in seen if g.stage_name == "nominal"]
-    assert sum(g.record.validated is not None for g in nominal) in (1, 2)
+    assert sum(g.validated is not None for g in nominal) in (1, 2)
     assert len(nominal) >= 3
     assert seen[-1].stage_name == "robust"
 
@@ -265,18 +333,16 @@ def test_where_the_best_start_leads_nowhere_as_many_are_looked_for_again() -> No
     """
     stages = "stages=[{name: nominal, robust: false, trials: 12, hold: false}, {name: robust, hold: 0.01, trials: 30}]"
     made = objective(STARTS, *BARELY, stages, "search.trials=420")
-    seen = generations(made)
+    seen, trials = map(list, zip(*asked(made), strict=True))
     names = [g.stage_name for g in seen]
     assert names == ["nominal"] * 6 + ["robust"] + ["nominal"] * 6 + ["robust"] * (len(seen) - 13)
     assert len(seen) > 14  # nothing is left for a third round: it goes on
-    first = sorted(g.record.validated.samples.share[0] for g in seen[:6] if g.record.validated)  # type: ignore[union-attr]
+    first = sorted(g.validated.samples.share[0] for g in seen[:6] if g.validated)  # type: ignore[union-attr]
     shares = [g.best.share for g in seen]
     assert seen[7].starts == tuple(reversed(first[:2]))
     assert len(seen[12].starts) == 5
     assert all(a <= b for a, b in itertools.pairwise(share for share in shares if share is not None))
-    assert made.sampler is not None
-    around = make_optimizer(made, 2, attempt=3, mean=None).ask()
-    assert zlib.crc32(around.tobytes()) == seen[7].record.checksum
+    np.testing.assert_array_equal(make_attempt(made.task, made.space, seed=2, attempt=3).ask(), candidates(trials[7]))
     solution = solve(made, seed=2)
     assert solution.best.share == max(share for share in shares if share is not None)
 
@@ -288,7 +354,7 @@ def test_a_motion_to_start_from_that_holds_on_all_is_a_success() -> None:
     assert seen[-1].trials_to_success == seen[-1].trials == 12 + 21
 
 
-def test_an_interrupted_search_keeps_the_start_that_holds_best() -> None:
+def test_an_interrupted_search_keeps_the_start_that_holds_best(answered: Answered) -> None:
     made, at = objective(STARTS, *BARELY), []
 
     def stop(generation: Generation) -> None:
@@ -297,9 +363,8 @@ def test_an_interrupted_search_keeps_the_start_that_holds_best() -> None:
             raise KeyboardInterrupt
 
     solution = solve(made, seed=2, observe=stop)
-    assert made.sampler is not None
-    kept = made.evaluate(solution.best.weights[None], models=made.sampler.models(2, 0)).samples
-    starts = [g.record.validated.samples.share[0] for g in at if g.record.validated and g.record.validated.samples]
+    kept = answered(Judge(made.task, 2).evaluate(solution.best.weights[None], full_level(made.task)), made).samples
+    starts = [g.validated.samples.share[0] for g in at if g.validated and g.validated.samples]
     assert kept is not None
     assert kept.share[0] == max(starts)
 
@@ -311,18 +376,15 @@ def test_few_samples_cover_every_range_evenly() -> None:
         assert len(np.unique(values[:, 0])) == 10 if values.shape[1] else True
 
 
-def test_success_takes_the_nominal_model_and_enough_of_the_others(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_success_takes_the_nominal_model_and_enough_of_the_others(answered: Answered) -> None:
     made = objective(REDRAWN)
-    assert made.sampler is not None
-    models = made.sampler.models(0, 0)
-    standing = made.initial_weights[None]
-    assert made.evaluate(standing, models=models).success.tolist() == [True]
+    evaluation = answered(Judge(made.task, 0).evaluate(made.space.mean[None], full_level(made.task)), made)
+    assert evaluation.success.tolist() == [True]
     robust = made.task.robust
     assert robust is not None
     shares = np.array([1 / 3, 2 / 3, 1.0])
     assert robust.enough(shares).tolist() == [False, True, True]
     assert Robust().enough(shares).tolist() == [False, False, True]
-    evaluation = made.evaluate(standing, models=models)
     assert evaluation.samples is not None
     assert evaluation.samples.share.tolist() == [1.0]
     assert evaluation.trials == 4
@@ -381,10 +443,10 @@ def test_another_engine_has_its_own_perturbed_models() -> None:
         load()
     except LevadeError as missing:
         pytest.skip(str(missing))
-    ode = [objective(REDRAWN, "physics.engine=ode") for _ in range(2)]
-    first, second = (generations(one) for one in ode)
-    assert [a.record.to_json() for a in first] == [b.record.to_json() for b in second]
-    samples, theirs = first[-1].record.evaluation.samples, generations(objective(REDRAWN))[-1].record.evaluation.samples
+    found: list[list[Record]] = [[], []]
+    first, _ = (generations(objective(REDRAWN, "physics.engine=ode"), keep=records.append) for records in found)
+    assert [a.to_json() for a in found[0]] == [b.to_json() for b in found[1]]
+    samples, theirs = first[-1].evaluation.samples, generations(objective(REDRAWN))[-1].evaluation.samples
     assert samples is not None
     assert theirs is not None
     assert samples.known.all()
@@ -416,16 +478,16 @@ def test_a_success_that_only_the_end_brings_to_light_is_one_after_all_trials() -
     assert solution.trials_to_success == solution.trials <= BUDGET[REDRAWN]
 
 
-def test_a_check_of_the_models_of_a_search_finds_what_the_search_did() -> None:
+def test_a_check_of_the_models_of_a_search_finds_what_the_search_did(answered: Answered) -> None:
     """Latency included: until the first reference comes, the joints have what they were told before."""
     made = objective(FIXED, "success={height: {target: 0.57, tolerance: 0.5 cm}}")
-    assert made.sampler is not None
     solution = solve(made, seed=2)
     subject = Subject(record(made, solution, seed=2))
     engine = subject.engine
     drawn = Perturbation().spread(engine.model, 12, n=4, seed=(2, 0, TAG))
     found = judge(subject, engine, subject.reference, drawn)
-    samples = made.evaluate(solution.best.weights[None], models=made.sampler.models(2, 0)).samples
+    judging = Judge(made.task, 2).evaluate(solution.best.weights[None], full_level(made.task))
+    samples = answered(judging, made).samples
     assert samples is not None
     np.testing.assert_array_equal(found.success, samples.success[0])
     starts, models = perturbed_models(engine.model, engine.layout, drawn, subject.start)

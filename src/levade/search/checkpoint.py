@@ -84,9 +84,9 @@ def read(directory: Path) -> Checkpoint:
     try:
         content = json.loads(lines[0])
         layout = content.pop("format", 1)
-        header = Header(**content) if layout == FORMAT else None
-        if header is not None and not (isinstance(header.seed, int) and isinstance(header.versions, dict)):
+        if not (isinstance(content["seed"], int) and isinstance(content["versions"], dict)):
             raise TypeError
+        header = Header(**content) if layout == FORMAT else None
     except (ValueError, LookupError, TypeError, AttributeError):
         raise LevadeError(f"{path}: damaged, its first line is no header; start again") from None
     if header is None:

@@ -23,6 +23,7 @@ from levade.optimizers import SearchSpace
 from levade.policies import Policy, smoothness_factor
 from levade.robots import Robot, load_robot
 from levade.search.evaluation import Evaluation, Trials
+from levade.search.optimizing import make_attempt
 from levade.tasks import Task, looks_at_hold
 from levade.tasks.policy import goal_posture, make_policy
 from levade.tasks.reach import check_reach
@@ -236,6 +237,7 @@ def make_objective(task: Task, *, threads: int = 0) -> Objective:
     """
     objective = Objective(Simulation.of(task, threads=threads), task)
     objective.check()
+    make_attempt(task, objective.space, seed=0)  # settings that its optimizer does not take say so now
     return objective
 
 

@@ -95,7 +95,6 @@ def run(
     try:
         directory.mkdir(parents=True, exist_ok=True)
         write_text(directory / TASK, task_to_yaml(task))
-        (directory / MOTION).unlink(missing_ok=True)
         file = checkpoints.begin(directory, header)
     except OSError as error:
         if new:
@@ -103,6 +102,8 @@ def run(
                 directory.rmdir()
         raise LevadeError(f"{directory}: cannot be written ({error.strerror}); give another directory") from None
     with closing(file):
+        with storing(directory / MOTION, then="give another directory"):
+            (directory / MOTION).unlink(missing_ok=True)  # only now: a full disk has not cost an earlier motion
         return _Run(objective, header, directory, file).go([], initial, observe, steer)
 
 

@@ -56,6 +56,9 @@ class Search:
         seed: Seed of all random numbers.
         initial: Motions or weights to begin around, instead of the space's mean.
         steer: See `Steer`.
+
+    Raises:
+        LevadeError: If the optimizer's settings are wrong, or the initial guess has another number of weights.
     """
 
     def __init__(
@@ -67,6 +70,8 @@ class Search:
         initial: InitialGuess | None = None,
         steer: Steer | None = None,
     ) -> None:
+        if initial is not None and initial.candidates.shape[1] != space.size:
+            raise LevadeError(f"initial: weights of shape {initial.candidates.shape}, should be (k, {space.size})")
         self._task, self._space, self._seed, self._initial, self._steer = task, space, seed, initial, steer
         self._schedule = Schedule(task)
         self._judge = Judge(task, seed)
