@@ -9,7 +9,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
-from levade.solve import Objective, solve
+from levade.solve import solve
 
 from levade.check import check
 from levade.motion import Motion

@@ -7,7 +7,7 @@ import signal
 from pathlib import Path
 
 import pytest
-from levade.solve import Objective, solve
+from levade.solve import solve
 
 from levade.motion import Motion
 from levade.search import make_objective, solve

@@ -15,7 +15,7 @@ from types import SimpleNamespace
 import mujoco
 import numpy as np
 import pytest
-from levade.solve import Objective, solve
+from levade.solve import solve
 
 from levade.errors import LevadeError
 from levade.export import FORMATS, export

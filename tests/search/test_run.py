@@ -18,7 +18,7 @@ from typing import Any
 import levade.run as run_module
 import numpy as np
 import pytest
-from levade.run import CHECKPOINT, MOTION, PROGRESS, TASK, Outcome, damage, read_run, resume, run, unfinished
+from levade.run import CHECKPOINT, MOTION, PROGRESS, TASK, Outcome, read_run, resume, run
 from levade.solve import Generation, Objective
 
 from levade.cli import main

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from levade.run import CHECKPOINT, MOTION, PROGRESS, TASK, Outcome, read_run, resume, run
+from levade.run import MOTION, TASK, Outcome, read_run, resume, run
 from levade.solve import Generation, Objective, Solution, solve
 
 from levade.errors import LevadeError

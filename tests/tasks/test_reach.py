@@ -7,7 +7,6 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from levade.solve import Objective
 
 from levade.costs import Criterion, Position
 from levade.errors import LevadeError
