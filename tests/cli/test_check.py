@@ -9,7 +9,6 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
-from levade.solve import solve
 
 from levade.check import check
 from levade.motion import Motion

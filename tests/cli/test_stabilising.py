@@ -7,7 +7,6 @@ import signal
 from pathlib import Path
 
 import pytest
-from levade.solve import solve
 
 from levade.motion import Motion
 from levade.search import make_objective, solve

@@ -15,7 +15,6 @@ from types import SimpleNamespace
 import mujoco
 import numpy as np
 import pytest
-from levade.solve import solve
 
 from levade.errors import LevadeError
 from levade.export import FORMATS, export

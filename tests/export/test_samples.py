@@ -7,7 +7,6 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 import pytest
-from levade.solve import Objective
 
 from levade.engines import Physics, make_engine
 from levade.errors import LevadeError

@@ -10,9 +10,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from levade.robust import _TAG as TAG
-from levade.run import MOTION, TASK, resume, run
-from levade.solve import Generation, Objective, Record, solve
 
 from levade.check import Subject
 from levade.check.perturbed import judge

@@ -15,11 +15,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import levade.run as run_module
 import numpy as np
 import pytest
-from levade.run import CHECKPOINT, MOTION, PROGRESS, TASK, Outcome, read_run, resume, run
-from levade.solve import Generation, Objective
 
 from levade.cli import main
 from levade.errors import LevadeError

@@ -8,8 +8,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from levade.run import MOTION, TASK, Outcome, read_run, resume, run
-from levade.solve import Generation, Objective, Solution, solve
 
 from levade.errors import LevadeError
 from levade.motion import Motion, cost_weights
