@@ -37,10 +37,11 @@ VARIANTS = {  # how much of the difference is numerical: the same engine with ot
 def experiment(case: tuple[str, str, int]) -> dict[str, Any]:
     """One seed of a task in an engine: solved, and replayed in every engine."""
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
-    from levade.engines import Ode
-    from levade.replay import replay_in
     from levade.run import run
     from levade.solve import Objective
+
+    from levade.engines import Ode
+    from levade.motions import replay_in
     from levade.tasks import load_task
 
     name, engine, seed = case
@@ -87,6 +88,7 @@ def close(errors: dict[str, float]) -> bool:
 def rate(engine: str) -> float:
     """Steps per second of CPU time, one process, rearing's first generation."""
     from levade.solve import Objective, make_optimizer
+
     from levade.tasks import load_task
 
     objective = Objective(load_task("rearing", changes=[f"physics.engine={engine}"]), threads=1)
@@ -101,7 +103,7 @@ def rate(engine: str) -> float:
 
 
 def collect(seeds: int) -> None:
-    from levade.motion import versions
+    from levade.motions import versions
 
     made = versions("ode")
     content: dict[str, Any] = {"results": []}

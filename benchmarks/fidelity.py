@@ -25,13 +25,13 @@ from typing import Any
 
 import mujoco
 import numpy as np
+from levade.solve import Objective, make_optimizer, solve
 from mujoco.batch import Batch
 
 from levade.costs import errors
 from levade.costs.orientation import geodesic
 from levade.engines.batches import RESET_OFF, SENSORS_OFF, STATE, simulate
-from levade.motion import versions
-from levade.solve import Objective, make_optimizer, solve
+from levade.motions import versions
 from levade.tasks import load_task, looks_at_hold
 from levade.trajectory import Trajectories
 

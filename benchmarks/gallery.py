@@ -45,12 +45,12 @@ def robots(task: str) -> tuple[str, ...]:
 
 def make(task: str, robot: str, seed: int) -> dict[str, Any]:
     """Solve a task and draw it."""
+    from levade.run import run
     from PIL import Image
 
-    from levade.motion import Motion, versions
+    from levade.motions import Motion, versions
     from levade.report.rendering import Camera
     from levade.report.video import strip
-    from levade.run import run
     from levade.tasks import load_task
 
     with tempfile.TemporaryDirectory() as folder:

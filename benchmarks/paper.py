@@ -48,6 +48,7 @@ def experiment(case: tuple[str, str, int]) -> dict[str, Any]:
     """One seed of one case."""
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
     from levade.solve import Objective, solve
+
     from levade.tasks import load_task
 
     name, horizon, seed = case
@@ -77,7 +78,7 @@ def experiment(case: tuple[str, str, int]) -> dict[str, Any]:
 
 
 def run(seeds: int) -> None:
-    from levade.motion import versions
+    from levade.motions import versions
 
     cases = [(task, horizon, seed) for task, horizon in CASES for seed in range(seeds)]
     RESULTS.parent.mkdir(exist_ok=True)

@@ -40,6 +40,7 @@ BUDGET = 6000
 def prepared(task: str, robot: str) -> Any:
     """The objective of a task on a robot, with the budget of this benchmark."""
     from levade.solve import Objective
+
     from levade.tasks import load_task
 
     changes = [f"search.trials={BUDGET}", "search.polish=0"]
@@ -56,9 +57,10 @@ def checksum(objective: Any) -> int:
 def one(case: tuple[str, str, int]) -> dict[str, Any]:
     """One search."""
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
-    from levade.errors import LevadeError
-    from levade.motion import versions
     from levade.solve import solve
+
+    from levade.errors import LevadeError
+    from levade.motions import versions
 
     task, robot, seed = case
     row: dict[str, Any] = {"task": task, "robot": robot, "seed": seed}

@@ -17,13 +17,13 @@ from typing import Any
 
 import numpy as np
 import wire
+from levade.solve import Objective
 
 from levade.bench import Result
 from levade.bench.case import made_with
 from levade.errors import LevadeError
 from levade.policies import Policy
 from levade.policies.groups import expansion
-from levade.solve import Objective
 from levade.tasks import Task, load_task, task_to_yaml
 from levade.tasks.document import task_to_dict
 

@@ -7,9 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-
-from levade.motion import Motion, record
 from levade.solve import Objective, solve
+
+from levade.motions import Motion
+from levade.search.recording import record
 from levade.tasks import load_task
 
 STANDING = [

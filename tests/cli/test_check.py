@@ -9,10 +9,11 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
+from levade.solve import Objective, solve
 
 from levade.check import check
-from levade.motion import Motion, record
-from levade.solve import Objective, solve
+from levade.motions import Motion
+from levade.search.recording import record
 from levade.tasks import load_task
 
 

@@ -8,8 +8,8 @@ import urllib.request
 from pathlib import Path
 
 import pytest
-
 from levade.run import run as run_task
+
 from levade.tasks import load_task
 
 

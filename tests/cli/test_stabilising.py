@@ -7,9 +7,10 @@ import signal
 from pathlib import Path
 
 import pytest
-
-from levade.motion import Motion, record
 from levade.solve import Objective, solve
+
+from levade.motions import Motion
+from levade.search.recording import record
 from levade.stabilise import stabilise
 from levade.tasks import load_task
 

@@ -6,9 +6,10 @@ from pathlib import Path
 
 import mujoco
 import pytest
-
-from levade.motion import Motion, record
 from levade.solve import Objective, solve
+
+from levade.motions import Motion
+from levade.search.recording import record
 from levade.tasks import load_task
 
 

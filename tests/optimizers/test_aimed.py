@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from levade.optimizers.finish import FARTHEST, PROBE, Finish
 
 from levade.errors import LevadeError
 from levade.optimizers import CMAES, Informed, Levade
-from levade.optimizers.finish import FARTHEST, PROBE, Finish
 
 D = 24
 ENDING = np.kron(np.eye(4), np.array([0.0, 0.0, 0.0, 0.0, 0.5, 1.0]))  # of four joints with six weights

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-
 from levade.optimizers.aim import RIDGE, WITHIN, Aim, corrected, ridge
 
 

@@ -10,13 +10,14 @@ from typing import Any
 import mujoco
 import numpy as np
 import pytest
+from levade.solve import Objective, solve
 
-from levade.motion import Motion, record
+from levade.motions import Motion
 from levade.report.packing import UNIT, pack, pack_unit, unpack
 from levade.report.rendering import replay
 from levade.report.scene import FRAMES, configurations, force_scale, frame_rows, scene_data
 from levade.report.shapes import TRIANGLES, shapes_of, simplify
-from levade.solve import Objective, solve
+from levade.search.recording import record
 from levade.tasks import load_task
 
 

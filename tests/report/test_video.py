@@ -9,13 +9,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from levade.solve import Objective, solve
 
 from levade.errors import LevadeError
-from levade.motion import Motion, record
+from levade.motions import Motion
 from levade.report import rendering
 from levade.report.rendering import Camera, Renderer, View, outline, replay
 from levade.report.video import frame_times, strip, strip_times, video
-from levade.solve import Objective, solve
+from levade.search.recording import record
 from levade.tasks import load_task
 
 Image: Any = pytest.importorskip("PIL.Image", reason="pictures need pillow: pip install levade[video]")

@@ -10,17 +10,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from levade.robust import _TAG as TAG
+from levade.run import CHECKPOINT, MOTION, PROGRESS, TASK, resume, run
+from levade.solve import Generation, Objective, Record, make_optimizer, solve
 
-from levade.check import Subject
-from levade.check.perturbed import judge
 from levade.costs import total
 from levade.engines import MujocoEngine, Perturbation, perturbed_models
 from levade.engines.ode.library import load
 from levade.errors import LevadeError
-from levade.motion import ARRAYS, Motion, record
-from levade.robust import _TAG as TAG
-from levade.run import CHECKPOINT, MOTION, PROGRESS, TASK, resume, run
-from levade.solve import Generation, Objective, Record, make_optimizer, solve
+from levade.motions import ARRAYS, Motion, RecordedSimulation, run_trials
+from levade.search.recording import record
 from levade.tasks import Racing, Robust, load_task, task_to_yaml
 
 SMALL = [
@@ -421,14 +420,12 @@ def test_a_check_of_the_models_of_a_search_finds_what_the_search_did() -> None:
     made = objective(FIXED, "success={height: {target: 0.57, tolerance: 0.5 cm}}")
     assert made.sampler is not None
     solution = solve(made, seed=2)
-    subject = Subject(record(made, solution, seed=2))
-    engine = subject.engine
-    drawn = Perturbation().spread(engine.model, 12, n=4, seed=(2, 0, TAG))
-    found = judge(subject, engine, subject.reference, drawn)
+    simulation = RecordedSimulation(record(made, solution, seed=2))
+    drawn = Perturbation().spread(simulation.model, simulation.joints, n=4, seed=(2, 0, TAG))
+    found = run_trials(simulation, drawn)
     samples = made.evaluate(solution.best.weights[None], models=made.sampler.models(2, 0)).samples
     assert samples is not None
     np.testing.assert_array_equal(found.success, samples.success[0])
-    starts, models = perturbed_models(engine.model, engine.layout, drawn, subject.start)
-    trajectories = engine.rollout(starts, subject.reference, models=models)
+    trajectories = simulation.rollout(drawn)
     for name, term in made.terms.items():
         np.testing.assert_allclose(term(trajectories), samples.terms[name][0], rtol=1e-9, atol=1e-12)

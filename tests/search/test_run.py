@@ -15,16 +15,16 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import levade.run as run_module
 import numpy as np
 import pytest
-
-import levade.run as run_module
-from levade.cli import main
-from levade.errors import LevadeError
-from levade.motion import ARRAYS, Motion
-from levade.optimizers import OPTIMIZERS
 from levade.run import CHECKPOINT, MOTION, PROGRESS, TASK, Outcome, damage, read_run, resume, run, unfinished
 from levade.solve import Generation, Objective
+
+from levade.cli import main
+from levade.errors import LevadeError
+from levade.motions import ARRAYS, Motion
+from levade.optimizers import OPTIMIZERS
 from levade.tasks import load_task
 
 GENERATIONS = 10

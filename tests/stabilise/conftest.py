@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import pytest
+from levade.solve import Objective, solve
 
 from levade.engines import Perturbation
-from levade.motion import Motion, record
-from levade.solve import Objective, solve
+from levade.motions import Motion
+from levade.search.recording import record
 from levade.stabilise import Stabilised, stabilise
 from levade.tasks import load_task
 

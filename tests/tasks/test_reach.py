@@ -7,11 +7,11 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from levade.solve import Objective
 
 from levade.costs import Criterion, Position
 from levade.errors import LevadeError
 from levade.scenes import Box, Scene
-from levade.solve import Objective
 from levade.tasks import Cost, Stage, Task, load_task
 from levade.tasks.task import RobotChoice
 

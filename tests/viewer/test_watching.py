@@ -10,11 +10,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-
-from levade.errors import LevadeError
-from levade.motion import ARRAYS, Motion
 from levade.run import CHECKPOINT, MOTION, PROGRESS, TASK, Outcome, resume, run
 from levade.solve import Generation, Objective
+
+from levade.errors import LevadeError
+from levade.motions import ARRAYS, Motion
 from levade.tasks import load_task
 from levade.viewer.watching import Watch
 
