@@ -261,7 +261,7 @@ def test_its_attributes_say_what_the_file_says(motion: Motion, objective: Object
     assert motion.legs == tuple(replace(leg, roles=()) for leg in objective.robot.legs)
     assert motion.result.errors == solution.best.errors
     assert motion.result.cost == solution.best.cost
-    assert motion.result.cost_weights == solution.weights
+    assert motion.result.cost_weights == solution.cost_weights
     assert (motion.result.trials, motion.result.stopped) == (solution.trials, solution.stopped)
     assert (motion.provenance.engine, motion.provenance.seed, motion.provenance.schema) == ("mujoco", 1, SCHEMA)
     assert (motion.timestep, motion.horizon, motion.steps) == (0.002, 0.3, 175)
