@@ -38,7 +38,7 @@ def experiment(case: tuple[str, str, int]) -> dict[str, Any]:
     """One seed of a task in an engine: solved, and replayed in every engine."""
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
     from levade.engines import Ode
-    from levade.replay import replay_in
+    from levade.motions import replay_in
     from levade.search import make_objective
     from levade.search.run import run
     from levade.tasks import load_task
@@ -102,7 +102,7 @@ def rate(engine: str) -> float:
 
 
 def collect(seeds: int) -> None:
-    from levade.motion import versions
+    from levade.motions import versions
 
     made = versions("ode")
     content: dict[str, Any] = {"results": []}

@@ -30,7 +30,7 @@ from mujoco.batch import Batch
 from levade.costs import errors
 from levade.costs.orientation import geodesic
 from levade.engines.batches import RESET_OFF, SENSORS_OFF, STATE, simulate
-from levade.motion import versions
+from levade.motions import versions
 from levade.search import Objective, make_objective, solve
 from levade.search.optimizing import make_attempt
 from levade.tasks import load_task, looks_at_hold

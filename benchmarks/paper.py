@@ -77,7 +77,7 @@ def experiment(case: tuple[str, str, int]) -> dict[str, Any]:
 
 
 def run(seeds: int) -> None:
-    from levade.motion import versions
+    from levade.motions import versions
 
     cases = [(task, horizon, seed) for task, horizon in CASES for seed in range(seeds)]
     RESULTS.parent.mkdir(exist_ok=True)

@@ -20,7 +20,7 @@ import numpy as np
 
 from levade.export import export, player
 from levade.export.model import gains as gains_of
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.search import make_objective, solve
 from levade.search.recording import record
 from levade.tasks import load_task
@@ -44,8 +44,8 @@ class Drives:
         spec = mujoco.MjSpec.from_string(motion.model_xml, assets=dict(motion.assets))
         self.ideal = kind == "ideal"
         if self.ideal:
-            for name, limit in zip(motion["joint_names"], motion.meta["limits"]["torque"], strict=True):
-                actuator = spec.actuator(str(name))
+            for name, limit in zip(motion.joint_names, motion.embodiment.limits.torque, strict=True):
+                actuator = spec.actuator(name)
                 actuator.set_to_motor()
                 actuator.ctrlspec, actuator.actdim = 0, -1
                 actuator.forcerange = [-limit, limit]
@@ -53,7 +53,7 @@ class Drives:
         self.data = mujoco.MjData(self.model)
         self.data.qpos[:], self.data.qvel[:] = motion["qpos0"], motion["qvel0"]
         self.data.act[:] = motion["act0"][: self.model.na]
-        joints = [self.model.joint(str(name)) for name in motion["joint_names"]]
+        joints = [self.model.joint(str(name)) for name in motion.joint_names]
         self.qpos, self.qvel = ([int(j.qposadr[0]) for j in joints], [int(j.dofadr[0]) for j in joints])
         self.last = self.data.qpos.copy()
 

@@ -70,10 +70,9 @@ def checksum(objective: Any) -> int:
 
 def experiment(task: str, robot: str, kind: str, seed: int) -> dict[str, Any]:
     """One search, and what the checks say of its motion."""
-    from levade.check import Demands, Subject, margins, numerics, other_engines, perturbed
-    from levade.check.perturbed import judge
+    from levade.check import Demands, margins, numerics, other_engines, perturbed
     from levade.engines import Perturbation
-    from levade.motion import versions
+    from levade.motions import RecordedSimulation, run_trials, versions
     from levade.search.run import run
     from levade.tasks import load_task
 
@@ -83,10 +82,10 @@ def experiment(task: str, robot: str, kind: str, seed: int) -> dict[str, Any]:
         outcome = run(objective, seed=seed, directory=Path(folder) / "run")
     solved, solution = time.process_time(), outcome.solution
     criteria = load_task(f"{task}-robust", robot=robot).success
-    subject = Subject(outcome.motion, criteria=criteria, threads=1)
-    found = perturbed(subject, Perturbation(), runs=RUNS, seed=CHECK_SEED)
-    numbers = numerics(subject)
-    other = {name: one.success for name, one in other_engines(subject).items()}
+    simulation = RecordedSimulation(outcome.motion, criteria=criteria, threads=1)
+    found = perturbed(simulation, Perturbation(), runs=RUNS, seed=CHECK_SEED)
+    numbers = numerics(simulation)
+    other = {name: one.success for name, one in other_engines(simulation).items()}
     row = {
         "task": task,
         "robot": robot,
@@ -103,15 +102,15 @@ def experiment(task: str, robot: str, kind: str, seed: int) -> dict[str, Any]:
         **other,
         "margins": {
             name: {"value": one.value, "least": one.least, "failed": list(one.failed)}
-            for name, one in margins(subject, Demands()).items()
+            for name, one in margins(simulation, Demands()).items()
             if one.passed is not None
         },
         "cpu_s": [round(solved - started, 1), round(time.process_time() - solved, 1)],
         "versions": versions("ode"),
     }
     if KINDS[kind][1] == "ode":
-        sample = Perturbation().draw(objective.engine.model, subject.joints, n=RUNS_IN_ODE, seed=CHECK_SEED)
-        there = judge(subject, objective.engine, subject.reference, sample)
+        sample = Perturbation().draw(objective.engine.model, simulation.joints, n=RUNS_IN_ODE, seed=CHECK_SEED)
+        there = run_trials(RecordedSimulation(outcome.motion, criteria=criteria, engine=objective.engine), sample)
         row |= {"runs_in_ode": RUNS_IN_ODE, "successes_in_ode": int(there.success.sum())}
     return row
 
@@ -290,6 +289,7 @@ def variants() -> str:
 
 
 def page(rows: list[dict[str, Any]]) -> str:
+
     from levade.check import Demands
     from levade.engines import Perturbation
     from levade.search import make_objective

@@ -57,7 +57,7 @@ def one(case: tuple[str, str, int]) -> dict[str, Any]:
     """One search."""
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
     from levade.errors import LevadeError
-    from levade.motion import versions
+    from levade.motions import versions
     from levade.search import solve
 
     task, robot, seed = case

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.search import make_objective, solve
 from levade.search.recording import record
 from levade.tasks import load_task

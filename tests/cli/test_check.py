@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from levade.check import check
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.search import make_objective, solve
 from levade.search.recording import record
 from levade.tasks import load_task

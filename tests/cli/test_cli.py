@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from levade import __version__
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.optimizers import OPTIMIZERS
 from levade.report.summary import summary_data
 

@@ -9,7 +9,7 @@ import pytest
 
 from levade.engines.ode import library
 from levade.errors import LevadeError
-from levade.motion import Motion
+from levade.motions import Motion
 
 QUICK = ["--set", "search.population=8", "--trials", "8", "--set", "horizon=0.06", "--set", "start.settled.time=0.1"]
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from levade.cli.picturing import labels, progress_beside
-from levade.motion import Motion
+from levade.motions import Motion
 
 
 def test_figures_have_the_cost_of_the_run_beside_them(unmet: Path, tmp_path: Path, levade) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 import mujoco
 import pytest
 
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.search import Objective, make_objective, solve
 from levade.search.recording import record
 from levade.tasks import load_task

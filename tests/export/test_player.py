@@ -17,7 +17,7 @@ import pytest
 from levade.export import export
 from levade.export.player import Motion as Played
 from levade.export.player import StandIn, Stopped, clock, main, play
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.rotations import roll_pitch_yaw
 
 

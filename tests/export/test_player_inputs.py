@@ -23,7 +23,7 @@ from levade.export.player import Motion as Played
 from levade.export.player import Stopped, canonical, checksum, main, play
 from levade.feedback import Feedback
 from levade.feedback import sensed as sensed_on
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.rotations import rotate
 
 VALUES: tuple[Any, ...] = (

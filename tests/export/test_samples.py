@@ -12,7 +12,7 @@ from levade.engines import Physics, make_engine
 from levade.errors import LevadeError
 from levade.export.model import gains, holding_torque
 from levade.export.samples import sample
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.robots import load_robot
 from levade.scenes import Scene
 from levade.search import Objective
@@ -62,7 +62,7 @@ def test_references_that_are_not_the_policy_of_the_weights_are_cubics(
     spread = np.ptp(rearing["weights"].reshape(6, 16), axis=1).max()
     bound = 0.002**4 / 384 * 10 * spread / 0.03**4
     assert np.abs(found.command_position - exact.command_position).max() < bound < 1e-4
-    without = replace(rearing, meta={**rearing.meta, "task": {"name": "mine"}})
+    without = replace(rearing, meta={**rearing.meta, "policy": None, "task": {"name": "mine"}})
     assert not sample(without, rearing_model, rate=700.0).analytic
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from levade.errors import LevadeError
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.search.run import run
 from levade.tasks import load_task
 

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from levade.errors import LevadeError
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.report.packing import unpack
 from levade.report.page import page, write_page
 from levade.report.series import series_data

@@ -11,7 +11,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.report.packing import UNIT, pack, pack_unit, unpack
 from levade.report.rendering import replay
 from levade.report.scene import FRAMES, configurations, force_scale, frame_rows, scene_data

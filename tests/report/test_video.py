@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from levade.errors import LevadeError
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.report import rendering
 from levade.report.rendering import Camera, Renderer, View, outline, replay
 from levade.report.video import frame_times, strip, strip_times, video

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from levade.motion import ARRAYS, Motion
+from levade.motions import ARRAYS, Motion
 from levade.search import Evaluation, Generation, Objective, Record, Solution, solve
 from levade.search.checkpoint import CHECKPOINT
 from levade.search.progress import PROGRESS

@@ -11,13 +11,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from levade.check import Subject
-from levade.check.perturbed import judge
 from levade.costs import total
 from levade.engines import MujocoEngine, Perturbation, perturbed_models
 from levade.engines.ode.library import load
 from levade.errors import LevadeError
-from levade.motion import Motion
+from levade.motions import Motion, RecordedSimulation, run_trials
 from levade.search import (
     Evaluation,
     Generation,
@@ -479,15 +477,13 @@ def test_a_check_of_the_models_of_a_search_finds_what_the_search_did(answered: A
     """Latency included: until the first reference comes, the joints have what they were told before."""
     made = objective(FIXED, "success={height: {target: 0.57, tolerance: 0.5 cm}}")
     solution = solve(made, seed=2)
-    subject = Subject(record(made, solution, seed=2))
-    engine = subject.engine
-    drawn = Perturbation().spread(engine.model, 12, n=4, seed=(2, 0, TAG))
-    found = judge(subject, engine, subject.reference, drawn)
+    simulation = RecordedSimulation(record(made, solution, seed=2))
+    drawn = Perturbation().spread(simulation.model, simulation.joints, n=4, seed=(2, 0, TAG))
+    found = run_trials(simulation, drawn)
     judging = Judge(made.task, 2).evaluate(solution.best.weights[None], full_level(made.task))
     samples = answered(judging, made).samples
     assert samples is not None
     np.testing.assert_array_equal(found.success, samples.success[0])
-    starts, models = perturbed_models(engine.model, engine.layout, drawn, subject.start)
-    trajectories = engine.rollout(starts, subject.reference, models=models)
+    trajectories = simulation.rollout(drawn)
     for name, term in made.terms.items():
         np.testing.assert_allclose(term(trajectories), samples.terms[name][0], rtol=1e-9, atol=1e-12)

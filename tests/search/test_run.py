@@ -20,7 +20,7 @@ import pytest
 
 from levade.cli import main
 from levade.errors import LevadeError
-from levade.motion import ARRAYS, Motion
+from levade.motions import ARRAYS, Motion
 from levade.optimizers import OPTIMIZERS
 from levade.search import Evaluation, Generation, Objective, Stopped, Trials, make_objective
 from levade.search import run as run_module

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from levade.errors import LevadeError
-from levade.motion import Motion, cost_weights
+from levade.motions import Motion
 from levade.search import Evaluation, Generation, Objective, Solution, Stopped, Trials, make_objective, solve
 from levade.search.run import MOTION, TASK, Outcome, read_run, resume, run
 from levade.tasks import Change, Task, load_task, task_from_dict, task_to_dict
@@ -122,13 +122,15 @@ def test_the_task_that_is_left_gives_the_steered_run_again(
 def test_the_motion_says_by_which_weights_it_costs(steered: Outcome, task: Task) -> None:
     meta = steered.motion.meta
     last = {"orientation": 200.0, "position": 100.0, "effort": 4.0, "after": 500.0}
-    assert cost_weights(meta) == pytest.approx(last)
+    assert dict(steered.motion.result.cost_weights) == pytest.approx(last)
     assert meta["cost"] == pytest.approx(sum(last[name] * value for name, value in meta["cost_terms"].items()))
     assert meta["task"] == task_to_dict(load_task(steered.directory / TASK))
     before = {
         key: value for key, value in meta.items() if key != "cost_weights"
     }  # a file from before there were changes
-    assert cost_weights(before) == {name: cost.weight for name, cost in task.costs.items()}
+    assert dataclasses.replace(steered.motion, meta=before).result.cost_weights == {
+        name: cost.weight for name, cost in task.costs.items()
+    }
 
 
 @pytest.mark.parametrize("generations", [1, 2, 4, 5, 8, 12])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from levade.engines import Perturbation
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.search import make_objective, solve
 from levade.search.recording import record
 from levade.stabilise import Stabilised, stabilise

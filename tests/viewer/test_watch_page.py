@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from levade.motion import ARRAYS, Motion
+from levade.motions import ARRAYS, Motion
 from levade.search.run import run
 from levade.tasks import load_task
 

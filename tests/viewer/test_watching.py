@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from levade.errors import LevadeError
-from levade.motion import ARRAYS, Motion
+from levade.motions import ARRAYS, Motion
 from levade.search import Generation, Objective, make_objective
 from levade.search.run import CHECKPOINT, MOTION, PROGRESS, TASK, Outcome, resume, run
 from levade.tasks import load_task

@@ -7,7 +7,7 @@ import time
 
 from levade.bench.plan import Case
 from levade.bench.results import Result
-from levade.motion import versions
+from levade.motions import versions
 from levade.search import Generation, Objective, Stopped, make_objective, solve
 from levade.tasks import Task
 

@@ -15,7 +15,6 @@ from levade.cli.inspecting import tell_warnings
 from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console, motion_summary
 from levade.cli.watching import Watching, watched
-from levade.motion import met_on_the_model_only
 from levade.search import Generation, Stopped, make_objective
 from levade.search.run import Outcome, check_replaceable, read_run, resume, run
 from levade.tasks import load_task
@@ -77,23 +76,23 @@ def solve_and_report(
             print(json.dumps(summary(outcome), ensure_ascii=False), flush=True)
         else:
             _tell(console, outcome)
-    return 0 if outcome.motion.meta["success"] else 1
+    return 0 if outcome.motion.result.success else 1
 
 
 def summary(outcome: Outcome) -> dict[str, object]:
     """The object that ``solve --json`` prints."""
-    solution, meta = outcome.solution, outcome.motion.meta
+    solution, motion, result = outcome.solution, outcome.motion, outcome.motion.result
     return {
-        "task": meta["task"]["name"],
-        "robot": meta["robot"],
+        "task": motion.task_name,
+        "robot": motion.robot,
         "seed": outcome.seed,
-        "success": meta["success"],
+        "success": result.success,
         "trials": solution.trials,
         "trials_to_success": solution.trials_to_success,
         "wall_s": round(outcome.wall, 3),
-        "cost": meta["cost"],
-        "cost_terms": meta["cost_terms"],
-        "errors": meta["errors"],
+        "cost": result.cost,
+        "cost_terms": result.cost_terms,
+        "errors": result.errors,
         "stopped": str(solution.stopped),
         "diverged": solution.diverged,
         "out": str(outcome.directory),
@@ -106,11 +105,11 @@ def _tell(console: Console, outcome: Outcome) -> None:
         console.print(part)
     first = solution.trials_to_success
     spent = f"{solution.trials} trials in {outcome.wall:.1f} s"
-    if met_on_the_model_only(outcome.motion.meta):
+    if outcome.motion.met_on_the_model_only:
         console.print("All of this is met on the model, but not on enough of the robots that differ from it.")
     if solution.stopped is Stopped.INTERRUPTED:
         console.print(f"[yellow]Interrupted[/] after {spent}. To go on: levade solve --resume {directory}")
-    elif outcome.motion.meta["success"]:
+    elif outcome.motion.result.success:
         console.print(f"[green]Success[/] at trial {first}; {spent}.")
     else:
         console.print(

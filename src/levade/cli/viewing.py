@@ -12,7 +12,7 @@ from levade.cli.picturing import progress_beside
 from levade.cli.tables import make_console
 from levade.cli.watching import tell_where
 from levade.errors import LevadeError
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.report.page import page as motion_page
 from levade.report.page import save_page
 from levade.search import make_objective

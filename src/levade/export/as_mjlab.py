@@ -60,7 +60,7 @@ def _all_joints(content: Content) -> tuple[list[str], Array, Array]:
     """
     samples, model, still = content.samples, content.model, held(content.motion)
     free = [model.joint(i).name for i in range(model.njnt) if model.jnt_type[i] == mujoco.mjtJoint.mjJNT_HINGE]
-    names = list(content.motion.meta.get("model_joints") or free)
+    names = list(content.motion.model_joints or free)
     columns = {name: i for i, name in enumerate(samples.joints.names)}
     position, velocity = np.empty((2, len(samples.time), len(names)))
     for k, name in enumerate(names):

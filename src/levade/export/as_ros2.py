@@ -23,7 +23,7 @@ from levade.export.links import frames_of, links_of
 from levade.export.rosmsgs import NANO
 from levade.export.samples import Samples
 from levade.export.urdf import urdf
-from levade.motion import Motion
+from levade.motions import Motion
 
 WORLD = "world"
 """The frame that the trunk's pose is in."""
@@ -84,7 +84,7 @@ def _messages(content: Content) -> Iterator[tuple[int, str, bytes]]:
     yield (
         _START,
         "/robot_description",
-        rosmsgs.string(urdf(content.model, samples.joints, content.motion.meta["robot"])),
+        rosmsgs.string(urdf(content.model, samples.joints, content.motion.robot)),
     )
     yield (
         _START,

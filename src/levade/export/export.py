@@ -14,7 +14,7 @@ from levade.export.content import Content, held, provenance, surroundings
 from levade.export.directory import filling
 from levade.export.samples import Samples, sample
 from levade.feedback import Feedback
-from levade.motion import Motion
+from levade.motions import Motion
 
 SLOW = 200.0
 """[Hz]: commands that stay in force for longer than 5 ms are no longer those of a motion of tenths of seconds."""
@@ -80,7 +80,7 @@ def export(
     if form.check is not None:
         form.check(motion)
     model = motion.compiled()
-    own = 1.0 / float(motion.meta["timestep"])
+    own = 1.0 / motion.timestep
 
     def at(rate: float) -> Samples:
         return sample(motion, model, rate=rate, reference=reference, hold=hold, kp=kp, kd=kd)
@@ -121,7 +121,7 @@ def _feedback_notes(motion: Motion, feedback: Feedback | None) -> list[str]:
 
 def _notes(motion: Motion, samples: Samples) -> list[str]:
     """What the user of the files should know before the robot does."""
-    notes = [] if motion.meta["success"] else ["the motion does not meet its success criteria"]
+    notes = [] if motion.result.success else ["the motion does not meet its success criteria"]
     if around := surroundings(motion):
         notes.append(
             f"the motion needs {around} where its task has it (scene in the provenance); the rows do not say so"

@@ -9,8 +9,7 @@ import numpy as np
 
 from levade.arrays import Array
 from levade.errors import LevadeError
-from levade.motion import Motion
-from levade.robots.addresses import Addresses
+from levade.motions import Motion
 
 
 def gains(model: mujoco.MjModel, joints: Sequence[str]) -> tuple[Array, Array]:
@@ -42,6 +41,5 @@ def holding_torque(motion: Motion, model: mujoco.MjModel) -> Array:
     data = mujoco.MjData(model)
     data.qpos[:], data.qvel[:], data.qacc[:] = motion["qpos0"], motion["qvel0"], 0.0
     mujoco.mj_inverse(model, data)
-    dofs = Addresses.of(model, motion.meta["trunk"], motion["joint_names"].tolist()).joint_qvel
-    limit = np.array([np.inf if bound is None else bound for bound in motion.meta["limits"]["torque"]])
-    return np.clip(data.qfrc_inverse[dofs], -limit, limit)
+    limit = motion.embodiment.limits.torque
+    return np.clip(data.qfrc_inverse[motion.addresses(model).joint_qvel], -limit, limit)

@@ -17,7 +17,7 @@ from typing import Any, Literal
 
 from levade import __version__
 from levade.errors import LevadeError
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.report.files import writing
 from levade.report.scene import scene_data
 from levade.report.series import read_progress, series_data

@@ -118,7 +118,7 @@ class _Eye:
 
 
 def _labels(robot: Robot, data: Any, eye: _Eye) -> list[Label]:
-    colours = leg_colours({leg.name: {"side": leg.side, "end": leg.end} for leg in robot.legs}, LIGHT)
+    colours = leg_colours(robot.legs, LIGHT)
     labels: list[list[Label]] = []
     for leg in robot.legs:
         seen = [(eye.see(place), name, what) for place, name, what in _places(data, leg)]

@@ -25,9 +25,8 @@ from numpy.typing import NDArray
 
 from levade.arrays import Array
 from levade.errors import LevadeError
-from levade.motion import Motion
+from levade.motions import Motion, configurations
 from levade.report.style import LIGHT
-from levade.robots.addresses import Addresses
 from levade.scenes.scene import GROUND
 
 Image = NDArray[np.uint8]
@@ -201,11 +200,7 @@ class Renderer:
 def replay(motion: Motion) -> Poses:
     """The robot's poses in a motion, as recorded: the start, then every row."""
     model = motion.compiled()
-    qpos = np.repeat(motion["qpos0"][None], len(motion["time"]) + 1, axis=0)
-    at = Addresses.of(model, motion.meta["trunk"], motion["joint_names"].tolist())
-    qpos[1:, at.trunk_position], qpos[1:, at.trunk_quaternion] = motion["trunk_position"], motion["trunk_quaternion"]
-    qpos[1:, at.joint_qpos] = motion["joint_position"]
-    return Poses(model, np.concatenate([[0.0], motion["time"]]), qpos)
+    return Poses(model, np.concatenate([[0.0], motion["time"]]), configurations(motion, model))
 
 
 def outline(model: Any, qpos: Array) -> Array:

@@ -14,7 +14,7 @@ import numpy as np
 
 from levade.arrays import Array
 from levade.errors import LevadeError
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.optimizers import SearchSpace
 from levade.policies import Policy
 

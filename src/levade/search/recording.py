@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.costs import errors, evaluate, success
-from levade.motion import ARRAYS, LATER_ARRAYS, SCHEMA, Motion, finite, versions
-from levade.rotations import rotate
+from levade.motions import ARRAYS, LATER_ARRAYS, SCHEMA, Motion, versions
+from levade.motions.facts import robot_facts
+from levade.policies import policy_to_dict
 from levade.search.objective import Objective
 from levade.search.outcome import Solution
 from levade.tasks import task_to_dict
@@ -16,17 +19,12 @@ from levade.tasks import task_to_dict
 
 def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
     """Simulate the best trial of a solution once more, with everything recorded."""
-    engine = objective.engine
-    task = replace(objective.task, search=replace(objective.task.search, changes=solution.changes))
+    engine, state = objective.engine, objective.state
     weights = solution.best.weights
     trajectories = objective.rollout(weights[None], feet=True)
     reference = trajectories.reference
-    values = evaluate(objective.terms, trajectories)
-    off = errors(task.success, trajectories)
-    state, limits = objective.state, objective.robot.limits
-    com = trajectories.trunk_com_position()[0]
     assert trajectories.foot_contact_force is not None
-    arrays = {
+    arrays: dict[str, Array] = {
         "qpos0": state.qpos[0],
         "qvel0": state.qvel[0],
         "act0": state.act[0],
@@ -40,55 +38,36 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
         "joint_velocity": trajectories.joint_velocity[0],
         "joint_torque": trajectories.joint_torque[0],
         "trunk_position": trajectories.trunk_position[0],
-        "trunk_com_position": com,
+        "trunk_com_position": trajectories.trunk_com_position()[0],
         "trunk_quaternion": trajectories.trunk_quaternion[0],
         "trunk_linear_velocity": trajectories.trunk_linear_velocity[0],
-        "trunk_angular_velocity": rotate(trajectories.trunk_quaternion[0], trajectories.trunk_angular_velocity[0]),
+        "trunk_angular_velocity": trajectories.trunk_angular_velocity[0],
         "foot_contact_force": trajectories.foot_contact_force[0],
         "weights": weights,
     }
-    meta = {
+    task = replace(objective.task, search=replace(objective.task.search, changes=solution.changes))
+    met = bool(success(task.success, trajectories)[0])
+    meta: dict[str, Any] = {
         "schema": SCHEMA,
-        "task": task_to_dict(task),
+        "task": task_to_dict(task, code=True),
         "robot": objective.robot.name,
-        "trunk": objective.robot.trunk,
-        "legs": {
-            leg.name: {
-                "joints": list(leg.joints),
-                "foot": leg.foot,
-                "side": leg.side,
-                "end": leg.end,
-                "geometry": {
-                    "anchors": shape.anchors.tolist(),
-                    "axes": shape.axes.tolist(),
-                    "foot": shape.foot.tolist(),
-                    "sole": shape.sole,
-                },
-            }
-            for leg, shape in zip(objective.robot.legs, objective.robot.leg_geometry, strict=True)
-        },
-        "limits": {
-            "lower": finite(limits.lower),
-            "upper": finite(limits.upper),
-            "velocity": finite(limits.velocity),
-            "torque": finite(limits.torque),
-        },
+        **robot_facts(objective.robot.embodiment, objective.robot.legs),
         "held": dict(objective.robot.held),
         "model_joints": list(objective.robot.model_joints),
-        "trunk_com_offset": objective.robot.trunk_com_offset.tolist(),
+        "policy": policy_to_dict(objective.policy),
         "engine": task.physics.engine,
         "versions": versions(task.physics.engine),
         "seed": seed,
         "timestep": task.physics.timestep,
         "horizon": task.horizon_steps * task.physics.timestep,
         "horizon_steps": task.horizon_steps,
-        # of a robust search also on enough of its perturbed models, which only the search can tell
-        "success": bool(success(task.success, trajectories)[0]) and (task.robust is None or solution.best.success),
+        # for a robust search also on enough of its perturbed models, which only the search can tell
+        "success": met and (task.robust is None or solution.best.success),
         "diverged": bool(trajectories.diverged[0]),
-        "errors": {name: float(error[0]) for name, error in off.items()},
+        "errors": {name: float(error[0]) for name, error in errors(task.success, trajectories).items()},
         "cost": float(solution.best.cost),
         "cost_weights": dict(solution.cost_weights),
-        "cost_terms": {name: float(value[0]) for name, value in values.items()},
+        "cost_terms": {name: float(value[0]) for name, value in evaluate(objective.terms, trajectories).items()},
         "trials": solution.trials,
         "trials_to_success": solution.trials_to_success,
         "stopped": str(solution.stopped),

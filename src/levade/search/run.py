@@ -22,7 +22,7 @@ from typing import IO
 
 from levade.document import read_yaml
 from levade.errors import LevadeError
-from levade.motion import Motion, versions
+from levade.motions import Motion, versions
 from levade.search import checkpoint as checkpoints
 from levade.search.checkpoint import CHECKPOINT, Checkpoint, Header
 from levade.search.evaluation import Record

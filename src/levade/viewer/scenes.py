@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.report.scene import scene_data
 from levade.search import Objective
 

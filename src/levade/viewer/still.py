@@ -55,7 +55,7 @@ def robot_data(robot: Robot) -> dict[str, Any]:
     )
     shapes = shapes_of(model)
     layers = [("robot", "robot", True)]
-    scene = put_together(robot.name, _legs(robot), shapes, _moving(model, qpos), _with_collision(layers, shapes))
+    scene = put_together(robot.name, robot.legs, shapes, _moving(model, qpos), _with_collision(layers, shapes))
     scene["motion"]["feet"] = _feet(model, robot)
     scene["camera"]["margin"] = _ROOM
     return {
@@ -89,8 +89,8 @@ def task_data(objective: Objective) -> dict[str, Any]:
     at = objective.engine.layout
     position, quaternion = qpos[at.trunk_position], qpos[at.trunk_quaternion]
     com = position + rotate(quaternion, robot.trunk_com_offset)
-    criteria = task_to_dict(task)["success"]
-    moving["goal"] = goal_box(model, robot.trunk, robot.trunk_com_offset, criteria, com, quaternion)
+    criteria = task_to_dict(task, code=True)["success"]
+    moving["goal"] = goal_box(model, robot.trunk, robot.trunk_com_offset, task.success, com, quaternion)
     layers = [("robot", "robot at the start", True)]
     ghost = _ghost(objective, model, moving["goal"], qpos)
     if ghost is not None:
@@ -98,7 +98,7 @@ def task_data(objective: Objective) -> dict[str, Any]:
         layers.append(("reference", label, True))
     if moving["goal"]:
         layers.append(("goal", f"goal ({goal_text(moving['goal']['quantities'])})", True))
-    scene = put_together(robot.name, _legs(robot), shapes, moving, _with_collision(layers, shapes))
+    scene = put_together(robot.name, robot.legs, shapes, moving, _with_collision(layers, shapes))
     if task.scene.boxes and np.mean([box.position[1] for box in task.scene.boxes]) > position[1]:
         scene["camera"]["azimuth"] = -scene["camera"]["azimuth"]  # from the left: what is there is not behind the robot
     known = task.name in builtin_tasks() and load_task(task.name) == task
@@ -126,11 +126,6 @@ def task_data(objective: Objective) -> dict[str, Any]:
     }
 
 
-def _legs(robot: Robot) -> dict[str, dict[str, Any]]:
-    """As in a motion's meta."""
-    return {leg.name: {"side": leg.side, "end": leg.end} for leg in robot.legs}
-
-
 def _configuration(model: Any, robot: Robot, position: Any, quaternion: Any, angles: Array) -> Array:
     """(nq,): trunk frame at a position [m] and quaternion w-x-y-z, joints at (joints,) [rad]."""
     qpos = model.qpos0.copy()
@@ -153,7 +148,7 @@ def _with_collision(layers: list[tuple[str, str, bool]], shapes: Mapping[str, An
 
 
 def _joints(robot: Robot) -> list[dict[str, Any]]:
-    limits, places = robot.limits, leg_places(_legs(robot))
+    limits, places = robot.limits, leg_places(robot.legs)
 
     def bound(value: float) -> float | None:
         return float(value) if math.isfinite(value) else None

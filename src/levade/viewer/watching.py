@@ -24,7 +24,7 @@ import numpy as np
 from levade.arrays import Array
 from levade.costs.success import QUANTITIES
 from levade.errors import LevadeError, did_you_mean
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.search import Generation, Objective, Stopped
 from levade.search.recording import record
 from levade.search.run import MOTION, Outcome
@@ -146,14 +146,14 @@ class Watch:
         verdict: dict[str, Any] = {"outcome": "error"}
         scene = None
         if outcome is not None:
-            solution, meta = outcome.solution, outcome.motion.meta
+            solution, result = outcome.solution, outcome.motion.result
             verdict = {
                 "outcome": str(solution.stopped),
-                "success": meta["success"],
+                "success": result.success,
                 "trials": solution.trials,
                 "trials_to_success": solution.trials_to_success,
-                "cost": meta["cost"],
-                "errors": meta["errors"],
+                "cost": result.cost,
+                "errors": result.errors,
                 "motion": str((outcome.directory / MOTION).resolve()),
             }
             motion = outcome.motion

@@ -52,6 +52,16 @@ def hermite(interval: Index, share: Array, values: Array, rates: Array, timestep
     )
 
 
+def hermite_rate(interval: Index, share: Array, values: Array, rates: Array, timestep: float) -> Array:
+    """How fast the cubics of `hermite` change by time. values, rates: (instants, n). Returns (rows, n)."""
+    s = share[:, None]
+    return (
+        6 * s * (1 - s) / timestep * (values[interval + 1] - values[interval])
+        + (1 - s) * (1 - 3 * s) * rates[interval]
+        + s * (3 * s - 2) * rates[interval + 1]
+    )
+
+
 def linear(interval: Index, share: Array, values: Array) -> Array:
     """Straight lines between the values, (instants, n). Returns (rows, n)."""
     s = share[:, None]

@@ -15,14 +15,18 @@ import mujoco
 import numpy as np
 import pytest
 
-from levade.check import Subject
+from levade.check import check
 from levade.errors import LevadeError
-from levade.motion import ARRAYS, LATER, LATER_ARRAYS, META, Motion
-from levade.replay import replay_in
+from levade.export import export
+from levade.motions import ARRAYS, LATER, LATER_ARRAYS, META, SCHEMA, Motion, RecordedSimulation, replay_in
+from levade.motions.facts import robot_facts
+from levade.report.summary import provenance_data, summary_data
+from levade.robots import load_robot
 from levade.rotations import rotate
 from levade.search import Objective, Solution, make_objective, solve
 from levade.search.recording import record
-from levade.tasks import load_task
+from levade.tasks import Cost, load_task, task_from_dict, task_to_dict
+from levade.trajectory import Trajectories
 
 HERE = [
     "search.optimizer=cma",
@@ -56,6 +60,7 @@ for k, ctrl in enumerate(data["ctrl"]):
         "trunk_position": state.qpos[:3],
         "trunk_quaternion": state.qpos[3:7],
         "trunk_linear_velocity": state.qvel[:3],
+        "trunk_angular_velocity": state.qvel[3:6],  # in trunk axes, as a gyroscope has it
     }
     for name, value in now.items():
         assert np.array_equal(value, data[name][k]), (name, k)
@@ -196,19 +201,26 @@ def test_the_feet_push_the_robot_as_newton_says(motion: Motion) -> None:
     assert impulse[2] > 0.04 * weight
 
 
-def test_angular_velocity_is_in_world_axes(motion: Motion) -> None:
-    """As the rate of the rotation matrix: R' = [w]x R."""
+def test_angular_velocity_is_in_trunk_axes() -> None:
+    """As the rate of the rotation matrix, R' = R [w]x, of a robot that falls, turned by 2 rad about two axes."""
+    fall = "start={fall: {roll: 1.2, pitch: 0.3, yaw: 2.0, height: 1.5, time: 0.25}}"
+    changes = [*HERE, fall, "policy.initial=hold", "search.trials=8"]
+    objective = make_objective(load_task("rearing", changes=changes), threads=1)
+    motion = record(objective, solve(objective, seed=0), seed=0)
     matrices = np.empty((len(motion["time"]), 9))
     for row, quaternion in zip(matrices, motion["trunk_quaternion"], strict=True):
         mujoco.mju_quat2Mat(row, quaternion)
     matrices = matrices.reshape(-1, 3, 3)
     rate = (matrices[2:] - matrices[:-2]) / 0.004
-    skew = rate @ matrices[1:-1].transpose(0, 2, 1)
+    skew = matrices[1:-1].transpose(0, 2, 1) @ rate
     expected = np.stack([skew[:, 2, 1], skew[:, 0, 2], skew[:, 1, 0]], axis=-1)
     # central difference of what holds during a step: the mean of this row's and the next one's
     between = (motion["trunk_angular_velocity"][1:-1] + motion["trunk_angular_velocity"][2:]) / 2
-    assert np.abs(expected).max() > 1
-    np.testing.assert_allclose(between, expected, atol=0.02 * np.abs(expected).max())
+    size = np.abs(expected).max()
+    assert size > 1
+    np.testing.assert_allclose(between, expected, atol=0.02 * size)
+    world = rotate(motion["trunk_quaternion"], motion["trunk_angular_velocity"])[1:-1]
+    assert np.abs(world - expected).max() > 0.5 * size  # the test tells them apart
 
 
 def test_the_same_seed_gives_the_same_bytes(objective: Objective, motion: Motion) -> None:
@@ -230,6 +242,86 @@ def test_the_resolved_task_in_the_file_gives_the_motion_again(motion: Motion, tm
     again = record(objective, solve(objective, seed=motion.meta["seed"]), seed=1)
     for name in ARRAYS:
         np.testing.assert_array_equal(again[name], motion[name])
+
+
+def test_a_wrong_name_brings_the_nearest(motion: Motion) -> None:
+    with pytest.raises(LevadeError, match=r"^motion: no array 'joint_positions'; did you mean joint_position\?$"):
+        motion["joint_positions"]
+    with pytest.raises(KeyError):
+        motion["nothing of the kind"]
+    assert "joint_position" in motion
+    assert "joint_positions" not in motion
+
+
+def test_its_attributes_say_what_the_file_says(motion: Motion, objective: Objective, solution: Solution) -> None:
+    assert repr(motion).startswith("Motion(rearing on hyq2max: ")
+    assert repr(motion).endswith(f"T = 0.3 s and 0.05 s of hold, {solution.trials} trials)")
+    assert motion.task == objective.task
+    assert motion.robot == objective.robot.name
+    assert motion.legs == tuple(replace(leg, roles=()) for leg in objective.robot.legs)
+    assert motion.result.errors == solution.best.errors
+    assert motion.result.cost == solution.best.cost
+    assert motion.result.cost_weights == solution.cost_weights
+    assert (motion.result.trials, motion.result.stopped) == (solution.trials, solution.stopped)
+    assert (motion.provenance.engine, motion.provenance.seed, motion.provenance.schema) == ("mujoco", 1, SCHEMA)
+    assert (motion.timestep, motion.horizon, motion.steps) == (0.002, 0.3, 175)
+    assert motion.hold == pytest.approx(0.05)
+    state = objective.state
+    for name in ("qpos", "qvel", "act", "joint_position", "joint_reference"):
+        np.testing.assert_array_equal(getattr(motion.start, name), getattr(state, name), err_msg=name)
+    reference = objective.policy.reference(motion["weights"][None])
+    np.testing.assert_array_equal(motion.reference.position, reference.position)
+    assert motion.policy is not None
+    np.testing.assert_array_equal(motion.policy.reference(motion["weights"][None]).velocity, reference.velocity)
+
+
+@pytest.mark.parametrize("linkage", [False, True])
+def test_its_embodiment_is_the_robots_own(linkage: bool, motion: Motion) -> None:
+    robot = load_robot("hyq2max", linkage=linkage)
+    facts = json.loads(json.dumps(robot_facts(robot.embodiment, robot.legs)))
+    ours, own = replace(motion, meta={**motion.meta, **facts}).embodiment, robot.embodiment
+    assert (ours.trunk, ours.joint_names, ours.feet) == (own.trunk, own.joint_names, own.feet)
+    for name in ("lower", "upper", "velocity", "torque", "stall_torque", "no_load_speed"):
+        np.testing.assert_array_equal(getattr(ours.limits, name), getattr(own.limits, name), err_msg=name)
+    assert dict(ours.limits.torque_curves) == dict(own.limits.torque_curves)
+    assert bool(ours.limits.torque_curves) == linkage
+    np.testing.assert_array_equal(ours.trunk_com_offset, own.trunk_com_offset)
+    for mine, theirs in zip(ours.legs, own.legs, strict=True):
+        assert (mine.name, mine.side, mine.end, mine.joints, mine.sole) == (
+            *(theirs.name, theirs.side, theirs.end, theirs.joints, theirs.sole),
+        )
+        for name in ("anchors", "axes", "foot"):
+            np.testing.assert_array_equal(getattr(mine, name), getattr(theirs, name))
+
+
+def test_a_cost_that_is_python_code_is_named_in_the_file(tmp_path: Path) -> None:
+    """It can be recorded, saved, loaded, checked, shown and exported; only the cost itself is not there."""
+    task = load_task("rearing", changes=[*HERE, "search.trials=8"])
+    task = replace(task, costs={**task.costs, "leaning": Cost(leaning, 2.0)})
+    objective = make_objective(task, threads=1)
+    motion = record(objective, solve(objective, seed=0), seed=0)
+    motion.save(tmp_path / "motion.npz")
+    motion = Motion.load(tmp_path / "motion.npz")
+    assert motion.meta["task"]["costs"]["leaning"] == {"python": f"{__name__}.leaning", "weight": 2.0}
+    assert motion.result.cost_weights["leaning"] == 2.0
+    assert motion.task.success == task.success
+    assert task_to_dict(motion.task, code=True) == motion.meta["task"]
+    certificate = check(motion, runs=2)
+    assert certificate.criteria == "rearing"
+    assert any(term["name"] == "leaning" for term in summary_data(motion)["terms"])
+    assert "python: " in provenance_data(motion)["task_yaml"]
+    assert export(motion, "json", tmp_path / "out").written
+    term = motion.task.costs["leaning"].term
+    with pytest.raises(
+        LevadeError, match=r"leaning was Python code, which is not in the file; give the task the function"
+    ):
+        term(replay_in("mujoco", motion).trajectories)
+    with pytest.raises(LevadeError, match=r"^task\.yaml\.costs\.leaning: was Python code"):
+        task_from_dict(motion.meta["task"], where="task.yaml")
+
+
+def leaning(trajectories: Trajectories) -> np.ndarray:
+    return trajectories.trunk_quaternion[:, -1, 2] ** 2
 
 
 def test_saving_is_all_or_nothing(motion: Motion, file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -276,9 +368,11 @@ class Boom:
         (lambda c: c.update(meta=np.array([1, 2])), "its meta cannot be read"),
         (lambda c: c.update(meta=np.array('"text"')), "its meta cannot be read"),
         (
-            edit_meta(lambda m: m.update(schema=2)),
-            "layout 2, but this levade reads layout 1; use the levade that wrote it",
+            edit_meta(lambda m: m.update(schema=3)),
+            "layout 3, but this levade reads layouts 1 to 2; use the levade that wrote it",
         ),
+        (edit_meta(lambda m: m.update(schema=True)), "its meta lacks a schema; not made by levade solve"),
+        (edit_meta(lambda m: m.update(schema="2")), "its meta lacks a schema; not made by levade solve"),
         (edit_meta(lambda m: m.pop("schema")), "its meta cannot be read"),
         (edit_meta(lambda m: m.pop("limits")), "its meta lacks limits"),
         (lambda c: c.update(ctrl=c["ctrl"][:-1]), r"time has the shape \(175,\), should be \(steps=174\)"),
@@ -313,7 +407,7 @@ def test_files_that_are_not_quite_motions(file: Path, change: Callable, message:
 def test_arrays_are_those_of_the_model(file: Path, change: Callable, message: str) -> None:
     rewrite(file, change)
     motion = Motion.load(file)
-    for use in (motion.compiled, lambda: Subject(motion), lambda: replay_in("mujoco", motion)):
+    for use in (motion.compiled, lambda: RecordedSimulation(motion), lambda: replay_in("mujoco", motion)):
         with pytest.raises(LevadeError, match=message) as caught:
             use()
         assert "\n" not in str(caught.value)

@@ -12,8 +12,7 @@ import pytest
 from levade.engines import Ode
 from levade.engines.ode.library import load
 from levade.errors import LevadeError
-from levade.motion import Motion, versions
-from levade.replay import replay_in
+from levade.motions import Motion, replay_in, versions
 from levade.search.run import resume, run
 from levade.tasks import load_task
 

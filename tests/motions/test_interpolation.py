@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from levade.export.interpolation import conjugate, exponential, hermite, linear, locate, log, mean, multiply, rotations
+from levade.motions.interpolation import conjugate, exponential, hermite, linear, locate, log, mean, multiply, rotations
 
 H = 0.01
 
