@@ -20,7 +20,9 @@ def test_a_bench_from_options_then_more_of_it_then_with_others(levade) -> None:
     table = lines.index("rearing on hyq2max")
     assert lines[0] == "0 of 2 runs"
     assert all(line.endswith(" of 2 runs") for line in lines[:table])  # again every few seconds
-    assert " ".join(lines[table + 1].split()) == "optimizer success trials to success ERT [trials] ERT [core-s] final cost"
+    assert (
+        " ".join(lines[table + 1].split()) == "optimizer success trials to success ERT [trials] ERT [core-s] final cost"
+    )
     assert lines[table + 2].split()[:5] == ["cma", "0/1", "∞", "∞", "∞"]
     assert "Written: bench/results.csv, table.md, trials.svg, steps.svg, results.parquet" in lines
     assert {path.name for path in Path("bench").iterdir()} == {

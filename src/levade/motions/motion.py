@@ -7,8 +7,8 @@
     motion.task.success, motion.embodiment.limits      # the task, and the robot as the file knows it
     motion.save("copy.npz")
 
-`levade.search.recording.record` makes one of what a search found. docs/motion-file.md documents the file, and replaying it needs
-none of levade:
+`levade.search.recording.record` makes one of what a search found. docs/motion-file.md documents the file, and replaying
+it needs none of levade:
 
     data = np.load("motion.npz")
     assets = {name[6:]: data[name].tobytes() for name in data if name.startswith("asset:")}
