@@ -11,10 +11,10 @@ import argparse
 import time
 from pathlib import Path
 
-from levade.check import Perturbed, perturbed
+from levade.checks import Perturbed, perturbed
 from levade.engines import Perturbation
 from levade.motions import Motion, RecordedSimulation
-from levade.stabilise import stabilise
+from levade.stabilisers import stabilise
 
 
 def main() -> None:

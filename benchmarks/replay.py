@@ -18,8 +18,8 @@ from tempfile import TemporaryDirectory
 import mujoco
 import numpy as np
 
-from levade.export import export, player
-from levade.export.model import gains as gains_of
+from levade.exports import export, player
+from levade.exports.model import gains as gains_of
 from levade.motions import Motion
 from levade.search import make_objective, solve
 from levade.search.recording import record

@@ -70,7 +70,7 @@ def checksum(objective: Any) -> int:
 
 def experiment(task: str, robot: str, kind: str, seed: int) -> dict[str, Any]:
     """One search, and what the checks say of its motion."""
-    from levade.check import Demands, margins, numerics, other_engines, perturbed
+    from levade.checks import Demands, margins, numerics, other_engines, perturbed
     from levade.engines import Perturbation
     from levade.motions import RecordedSimulation, run_trials, versions
     from levade.search.run import run
@@ -183,7 +183,7 @@ def parameters() -> str:
 
 
 def share(row: dict[str, Any]) -> str:
-    from levade.check.statistics import wilson
+    from levade.checks.statistics import wilson
 
     low, high = (100 * end for end in wilson(row["successes"], row["runs"]))
     return f"{100 * row['successes'] / row['runs']:.1f} % ({low:.1f} to {high:.1f})"
@@ -290,7 +290,7 @@ def variants() -> str:
 
 def page(rows: list[dict[str, Any]]) -> str:
 
-    from levade.check import Demands
+    from levade.checks import Demands
     from levade.engines import Perturbation
     from levade.search import make_objective
     from levade.tasks import Robust, load_task

@@ -9,7 +9,7 @@ from types import ModuleType
 
 import pytest
 
-from levade.check import Demands
+from levade.checks import Demands
 from levade.engines.perturbation import PARAMETERS
 from levade.tasks import Racing, Robust
 

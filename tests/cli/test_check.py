@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from levade.check import check
+from levade.checks import check
 from levade.motions import Motion
 from levade.search import make_objective, solve
 from levade.search.recording import record

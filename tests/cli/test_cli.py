@@ -12,10 +12,10 @@ from pathlib import Path
 
 import pytest
 
-from levade import __version__
 from levade.motions import Motion
 from levade.optimizers import OPTIMIZERS
 from levade.report.summary import summary_data
+from levade.version import __version__
 
 QUICK = ["--set", "search.optimizer=cma", "--set", "search.population=8", "--trials", "16", "--set", "horizon=0.06"]
 LOOSE = ["--set", "success.pitch.tolerance=9", "--set", "success.height.tolerance=9"]

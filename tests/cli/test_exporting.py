@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from levade.export import FORMATS
+from levade.exports import FORMATS
 
 
 @pytest.fixture

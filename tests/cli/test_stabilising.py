@@ -11,7 +11,7 @@ import pytest
 from levade.motions import Motion
 from levade.search import make_objective, solve
 from levade.search.recording import record
-from levade.stabilise import stabilise
+from levade.stabilisers import stabilise
 from levade.tasks import load_task
 
 

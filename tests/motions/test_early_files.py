@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from levade.check import check
+from levade.checks import check
 from levade.motions import SCHEMA, Motion, RecordedSimulation, ReferenceCurve, replay_in, run_trials
 from levade.rotations import rotate
 from levade.tasks import load_task

@@ -15,9 +15,9 @@ import mujoco
 import numpy as np
 import pytest
 
-from levade.check import check
+from levade.checks import check
 from levade.errors import LevadeError
-from levade.export import export
+from levade.exports import export
 from levade.motions import ARRAYS, LATER, LATER_ARRAYS, META, SCHEMA, Motion, RecordedSimulation, replay_in
 from levade.motions.facts import robot_facts
 from levade.report.summary import provenance_data, summary_data

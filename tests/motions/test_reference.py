@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from levade.check import numerics
+from levade.checks import numerics
 from levade.motions import Motion, RecordedSimulation, ReferenceCurve
 from levade.policies import policy_from_dict, policy_to_dict
 from levade.report.series import policy_names

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from levade.check import numerics, other_engines, perturbed
+from levade.checks import numerics, other_engines, perturbed
 from levade.costs import Margins
 from levade.engines import Perturbation
 from levade.motions import RecordedSimulation

@@ -137,7 +137,7 @@ def _variants(plan: Plan, task: str, robot: str | None) -> Iterator[tuple[str, T
     if plan.until == "budget":
         common.append("search.polish=null")
     if not plan.optimizers:
-        yield load_task(task, robot=robot).search.optimizer, _load(task, robot, common, "changes")
+        yield str(load_task(task, robot=robot).search.optimizer), _load(task, robot, common, "changes")
     for name in plan.optimizers:
         changes = plan.optimizers[name] if isinstance(plan.optimizers, Mapping) else None
         if changes:

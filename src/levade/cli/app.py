@@ -77,7 +77,7 @@ def _levade(
     version: Annotated[bool, typer.Option("--version", help="Print the version.")] = False,
 ) -> None:
     if version:
-        from levade import __version__
+        from levade.version import __version__
 
         print(f"levade {__version__}")
         raise typer.Exit

@@ -14,8 +14,8 @@ from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
 
-from levade.check import Certificate, Demands, check
-from levade.check.perturbed import Perturbed
+from levade.checks import Certificate, Demands, check
+from levade.checks.perturbed import Perturbed
 from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console
 from levade.document import build, parse_yaml, read_yaml

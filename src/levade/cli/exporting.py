@@ -10,7 +10,7 @@ from rich.markup import escape
 
 from levade.cli.tables import make_console
 from levade.errors import LevadeError
-from levade.export import FORMATS, Exported, export
+from levade.exports import FORMATS, Exported, export
 from levade.motions import Motion
 
 _FILES = (".csv", ".json", ".npz", ".mcap", ".yaml", ".py")

@@ -16,7 +16,7 @@ from levade.cli.tables import make_console
 from levade.engines import Perturbation
 from levade.errors import LevadeError
 from levade.motions import Motion
-from levade.stabilise import stabilise
+from levade.stabilisers import stabilise
 
 
 def stabilise_motion(

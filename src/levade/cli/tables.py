@@ -9,7 +9,7 @@ from rich.console import Console, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from levade.costs.success import QUANTITIES
+from levade.costs.success import unit_of
 from levade.motions import Motion
 
 _WIDE = 200
@@ -24,7 +24,7 @@ def make_console(*, stderr: bool = False) -> Console:
 
 def quantity_unit(quantity: str) -> str:
     """SI unit of a success quantity."""
-    return QUANTITIES[quantity]
+    return unit_of(quantity)
 
 
 def signed(value: float) -> str:

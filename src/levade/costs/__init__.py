@@ -23,7 +23,7 @@ from levade.costs.miss import Miss
 from levade.costs.orientation import Orientation
 from levade.costs.position import Position
 from levade.costs.posture import Posture
-from levade.costs.success import Criterion, Quantity, errors, success
+from levade.costs.success import Criterion, Measure, Quantity, errors, success, unit_of
 from levade.costs.velocity import AngularVelocity, JointVelocity, LinearVelocity
 
 __all__ = [
@@ -37,6 +37,7 @@ __all__ = [
     "JointVelocity",
     "LinearVelocity",
     "Margins",
+    "Measure",
     "Miss",
     "Orientation",
     "Position",
@@ -50,4 +51,5 @@ __all__ = [
     "evaluate",
     "success",
     "total",
+    "unit_of",
 ]

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,6 +44,46 @@ QUANTITIES: dict[str, str] = {
 }
 """Quantity -> unit."""
 
+
+class Measure(str):
+    """A quantity of one's own: a name that knows its unit and how to measure it.
+
+        knee = Measure("knee", "rad", lambda t, rows: t.joint_position[:, rows, 2])
+        Criterion(knee, target=-1.6, tolerance=0.1)
+
+    Attributes:
+        unit: SI unit, for texts. One that ends in "/s" is a speed, which dies down while a robot comes to rest.
+        function: From trajectories and rows, a slice, to values of shape (n, rows).
+    """
+
+    unit: str
+    function: Callable[[Trajectories, slice], Array]
+
+    def __new__(cls, name: str, unit: str, function: Callable[[Trajectories, slice], Array]) -> Measure:
+        if not name or name in QUANTITIES:
+            raise LevadeError(f"success: {name!r} cannot name a measure; give it a name that is no quantity's")
+        made = super().__new__(cls, name)
+        made.unit, made.function = unit, function
+        return made
+
+    def __deepcopy__(self, memo: object) -> Measure:
+        return self
+
+    def __repr__(self) -> str:
+        return f"Measure({str(self)!r}, {self.unit!r})"
+
+
+if TYPE_CHECKING:
+    AnyQuantity = Quantity | Measure
+else:
+    AnyQuantity = Quantity  # what a task file may hold
+
+
+def unit_of(quantity: str) -> str:
+    """The unit of a quantity, built in or one's own."""
+    return quantity.unit if isinstance(quantity, Measure) else QUANTITIES[quantity]
+
+
 CIRCULAR = ("roll", "pitch", "yaw")
 OF_FEET = ("lowest_foot", "highest_foot")
 MARGINS = ("angle_margin", "speed_margin", "torque_speed_margin")
@@ -56,7 +96,7 @@ Legs = str | tuple[str, ...]
 class Criterion:
     """One thing that a motion has to achieve: a target within a tolerance, or a minimum and/or a maximum.
 
-    quantity: what, of the trunk:
+    quantity: a `Measure` of one's own, or what, of the trunk:
         roll, yaw [rad]: z-y-x angles; not unique at pitch = +-pi/2, so use tilt for motions that end near there.
         pitch [rad]: z-y-x, nose up negative, but counted on past the vertical where the trunk's top looks down, so
             that a robot on its back never passes for one on its feet (`levade.costs.orientation.pitch_past_vertical`).
@@ -74,7 +114,7 @@ class Criterion:
     legs: of the feet: see `Legs`.
     """
 
-    quantity: Quantity
+    quantity: AnyQuantity
     target: float | None = None
     tolerance: float | None = None
     minimum: float | None = None
@@ -83,7 +123,7 @@ class Criterion:
     legs: Legs = "all"
 
     def __post_init__(self) -> None:
-        if self.quantity not in QUANTITIES:
+        if not isinstance(self.quantity, Measure) and self.quantity not in QUANTITIES:
             raise LevadeError(f"success: {self.quantity} is not a quantity; {did_you_mean(self.quantity, QUANTITIES)}")
         where = f"success.{self.quantity}"
         if self.at not in ("horizon", "end", "max", "min", "hold"):
@@ -107,7 +147,7 @@ class Criterion:
     @property
     def is_speed(self) -> bool:
         """Whether the quantity is one of those that die down while a robot comes to rest."""
-        return QUANTITIES[self.quantity].endswith("/s")
+        return unit_of(self.quantity).endswith("/s")
 
     def error(self, trajectories: Trajectories) -> Array:
         """(n,) in the quantity's SI unit: value - target, wrapped for angles, or what is beyond a bound (signed, else
@@ -169,8 +209,10 @@ def _worst(deviation: Array) -> Array:
     return np.take_along_axis(deviation, worst, axis=1)[:, 0]
 
 
-def quantity_values(quantity: Quantity, trajectories: Trajectories, rows: slice, legs: Legs = "all") -> Array:
+def quantity_values(quantity: AnyQuantity, trajectories: Trajectories, rows: slice, legs: Legs = "all") -> Array:
     """(n, rows) of a quantity, in its SI unit, as `Criterion` says."""
+    if isinstance(quantity, Measure):
+        return _measured(quantity, trajectories, rows)
     if quantity in OF_FEET:
         soles = [trajectories.sole_height(leg, rows) for leg in chosen_legs(trajectories, legs)]
         return functools.reduce(np.minimum if quantity == "lowest_foot" else np.maximum, soles)
@@ -192,7 +234,16 @@ def quantity_values(quantity: Quantity, trajectories: Trajectories, rows: slice,
     return roll_pitch_yaw(quaternion)[..., 0 if quantity == "roll" else 2]
 
 
-def _margin(quantity: Quantity, trajectories: Trajectories, rows: slice) -> Array:
+def _measured(measure: Measure, trajectories: Trajectories, rows: slice) -> Array:
+    """(n, rows) of a measure of one's own. LevadeError if it returns another shape."""
+    values = np.asarray(measure.function(trajectories, rows), dtype=np.float64)
+    expected = (trajectories.n, len(range(*rows.indices(trajectories.steps))))
+    if values.shape != expected:
+        raise LevadeError(f"success.{measure}: the measure returned {values.shape}; (n, rows), here {expected}")
+    return values
+
+
+def _margin(quantity: str, trajectories: Trajectories, rows: slice) -> Array:
     """(n, rows), of the joint that has least left."""
     limits = trajectories.limits
     if quantity == "angle_margin":

@@ -16,7 +16,7 @@ def versions(engine: str = "mujoco") -> dict[str, str]:
 def _versions(engine: str) -> dict[str, str]:
     from importlib.metadata import version
 
-    from levade import __version__
+    from levade.version import __version__
 
     made = {"levade": __version__, **{name: version(name) for name in ("mujoco", "numpy", "cma")}}
     return made | engine_kind(engine).versions()

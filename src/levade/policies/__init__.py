@@ -11,6 +11,7 @@ from levade.policies.ends import Ends
 from levade.policies.groups import Follower, Group, independent_joints
 from levade.policies.kernels import GaussianKernels
 from levade.policies.policy import Policy, refine
+from levade.policies.protocol import JointPolicy
 from levade.policies.smoothness import smoothness, smoothness_factor
 from levade.policies.tables import policy_from_dict, policy_to_dict
 
@@ -19,6 +20,7 @@ __all__ = [
     "Follower",
     "GaussianKernels",
     "Group",
+    "JointPolicy",
     "Policy",
     "independent_joints",
     "policy_from_dict",

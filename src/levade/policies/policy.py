@@ -177,6 +177,10 @@ class Policy:
             position *= factor
             position += added
 
+    def initial_weights(self, posture: ArrayLike) -> Array:
+        """Weights that keep a posture: see `hold`."""
+        return self.hold(posture)
+
     def hold(self, posture: ArrayLike) -> Array:
         """Weights that keep a posture (the paper's start for rearing).
 

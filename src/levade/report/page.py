@@ -15,7 +15,6 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any, Literal
 
-from levade import __version__
 from levade.errors import LevadeError
 from levade.motions import Motion
 from levade.report.files import writing
@@ -23,6 +22,7 @@ from levade.report.scene import scene_data
 from levade.report.series import read_progress, series_data
 from levade.report.style import stylesheet
 from levade.report.summary import provenance_data, summary_data
+from levade.version import __version__
 
 _MARK = '<meta name="generator" content="levade'
 """What tells a page of ours from other files."""

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from levade.costs import Criterion
-from levade.costs.success import CIRCULAR, QUANTITIES
+from levade.costs.success import CIRCULAR, unit_of
 from levade.motions import Motion
 from levade.tasks import builtin_tasks, load_task, task_to_yaml
 
@@ -60,7 +60,7 @@ def _criterion(name: str, criterion: Criterion, error: float) -> dict[str, Any]:
         "name": name,
         "quantity": criterion.quantity,
         "when": WHEN[criterion.at],
-        "unit": QUANTITIES[criterion.quantity],
+        "unit": unit_of(criterion.quantity),
         "target": target,
         "minimum": low,
         "maximum": high,

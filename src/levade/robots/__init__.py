@@ -12,6 +12,7 @@ from levade.robots.dimensions import Dimensions, dimensions
 from levade.robots.loading import builtin_robots, load_robot
 from levade.robots.packages import find_package_robot, package_robots
 from levade.robots.robot import Robot
+from levade.robots.spec import robot_of_spec
 from levade.robots.symmetry import mirror_signs
 from levade.robots.understanding import Leg
 
@@ -28,4 +29,5 @@ __all__ = [
     "load_robot",
     "mirror_signs",
     "package_robots",
+    "robot_of_spec",
 ]

@@ -16,7 +16,7 @@ from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.motions import Motion
 from levade.optimizers import SearchSpace
-from levade.policies import Policy
+from levade.policies import JointPolicy, Policy
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +62,7 @@ AROUND = 0.5
 """Factor on the initial step size around motions: they are near, so the search looks nearer."""
 
 
-def initial_guess(policy: Policy, given: Motion | Array | InitialGuess | Sequence[Motion | Array]) -> InitialGuess:
+def initial_guess(policy: JointPolicy, given: Motion | Array | InitialGuess | Sequence[Motion | Array]) -> InitialGuess:
     """Make an initial guess of what a caller gives.
 
     Args:
@@ -87,7 +87,7 @@ def initial_guess(policy: Policy, given: Motion | Array | InitialGuess | Sequenc
     return InitialGuess(np.concatenate(rows), step=AROUND)
 
 
-def fitted(policy: Policy, motion: Motion) -> Array:
+def fitted(policy: JointPolicy, motion: Motion) -> Array:
     """Policy weights whose reference is nearest to a motion's [rad], shape (1, size).
 
     A motion of another duration is stretched to the policy's horizon. Weights that give the motion itself are kept as they are.
@@ -106,6 +106,8 @@ def fitted(policy: Policy, motion: Motion) -> Array:
         same = policy.reference(weights, hold_steps=0).position[0]
         if np.array_equal(same, position):
             return weights
+    if not isinstance(policy, Policy):
+        raise LevadeError("initial: a policy of one's own cannot be fitted to a motion; give weights instead")
     share = np.arange(1, policy.horizon_steps + 1) / policy.horizon_steps * len(position)
     rows = np.arange(1, len(position) + 1)
     stretched = np.stack([np.interp(share, rows, angle) for angle in position.T], axis=1)

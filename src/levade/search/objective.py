@@ -9,7 +9,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 
@@ -20,7 +20,7 @@ from levade.costs import evaluate
 from levade.engines import FOOT_CONTACT_FORCE, Engine, Models, State, make_engine, perturbed_models, start_state
 from levade.errors import LevadeError, did_you_mean
 from levade.optimizers import SearchSpace
-from levade.policies import Policy, smoothness_factor
+from levade.policies import JointPolicy, Policy, smoothness_factor
 from levade.robots import Robot, load_robot
 from levade.search.evaluation import Evaluation, Trials
 from levade.search.optimizing import make_attempt
@@ -54,18 +54,20 @@ class Simulation:
     start: State
 
     @classmethod
-    def of(cls, task: Task, *, threads: int = 0) -> Simulation:
+    def of(cls, task: Task, *, robot: Robot | None = None, threads: int = 0) -> Simulation:
         """Build the simulation of a task.
 
         Args:
             task: Names the robot, scene, physics and start.
+            robot: The robot, instead of the one that the task names.
             threads: Engine threads; 0 for one per core. Results do not depend on it.
 
         Raises:
             LevadeError: If they do not fit together, or the robot cannot be put down where the start says.
         """
-        choice = asdict(task.robot)
-        robot = load_robot(choice.pop("name"), **choice)
+        if robot is None:
+            choice = asdict(task.robot)
+            robot = load_robot(choice.pop("name"), **choice)
         engine = make_engine(robot, task.scene, task.physics, threads=threads)
         return cls(robot, engine, start_state(engine, robot, task.scene, task.start.choice))
 
@@ -110,28 +112,33 @@ class Objective:
     Args:
         simulation: Built for a task with the same robot, scene, physics and start.
         task: What to achieve.
+        policy: A policy of one's own, instead of the task's: see `levade.policies.JointPolicy`.
 
     Raises:
         LevadeError: If they do not fit together.
     """
 
-    def __init__(self, simulation: Simulation, task: Task) -> None:
+    def __init__(self, simulation: Simulation, task: Task, policy: JointPolicy | None = None) -> None:
         self.simulation, self.task = simulation, task
         self.robot, self.engine, self.state = simulation.robot, simulation.engine, simulation.start
         self.terms = {name: cost.term for name, cost in task.costs.items()}
         self.bodies = _bodies(task, simulation)
         check_reach(task, self.robot, self.engine.model)
-        self.policy = make_policy(task, self.robot, start=self.state.joint_reference[0])
+        self.policy = policy or make_policy(task, self.robot, start=self.state.joint_reference[0])
         self._drawn: dict[tuple[int, int], tuple[State, Models]] = {}
 
     def with_task(self, task: Task) -> Objective:
         """Another task with the same robot, scene, physics and start, on the same simulation."""
-        return Objective(self.simulation, task)
+        return Objective(self.simulation, task, None if isinstance(self.policy, Policy) else self.policy)
 
     @cached_property
     def space(self) -> SearchSpace:
         """Where the task's search begins."""
         search, policy, choice = self.task.search, self.policy, self.task.policy
+        one_sided = np.array([criterion.target is None for criterion in self.task.success.values()], dtype=bool)
+        if not isinstance(policy, Policy):
+            mean = policy.initial_weights(self.state.joint_reference[0])
+            return SearchSpace(mean, step=search.step, population=search.population, one_sided=one_sided)
         if choice.initial == "hold":
             mean = policy.hold(self.state.joint_reference[0])
         else:
@@ -146,7 +153,7 @@ class Objective:
             step=search.step,
             population=search.population,
             ending=_ending(policy),
-            one_sided=np.array([criterion.target is None for criterion in self.task.success.values()], dtype=bool),
+            one_sided=one_sided,
         )
 
     def rollout(self, weights: Array, *, hold_steps: int | None = None, feet: bool = False) -> Trajectories:
@@ -229,13 +236,27 @@ class Objective:
         return self._drawn[key]
 
 
-def make_objective(task: Task, *, threads: int = 0) -> Objective:
+def make_objective(
+    task: Task,
+    *,
+    robot: Robot | None = None,
+    policy: JointPolicy | Callable[[Task, Robot], JointPolicy] | None = None,
+    threads: int = 0,
+) -> Objective:
     """Build a task's simulation and objective, and try one trial.
+
+    Args:
+        task: The task.
+        robot: The robot, instead of the one that the task names.
+        policy: A policy, or a function that makes one for the task and the robot, instead of the task's.
+        threads: Engine threads; 0 for one per core.
 
     Raises:
         LevadeError: For whatever does not fit together.
     """
-    objective = Objective(Simulation.of(task, threads=threads), task)
+    simulation = Simulation.of(task, robot=robot, threads=threads)
+    made = policy(task, simulation.robot) if policy is not None and not isinstance(policy, JointPolicy) else policy
+    objective = Objective(simulation, task, made)
     objective.check()
     make_attempt(task, objective.space, seed=0)  # settings that its optimizer does not take say so now
     return objective

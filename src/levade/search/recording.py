@@ -11,7 +11,7 @@ from levade.arrays import Array
 from levade.costs import errors, evaluate, success
 from levade.motions import ARRAYS, LATER_ARRAYS, SCHEMA, Motion, versions
 from levade.motions.facts import robot_facts
-from levade.policies import policy_to_dict
+from levade.policies import Policy, policy_to_dict
 from levade.search.objective import Objective
 from levade.search.outcome import Solution
 from levade.tasks import task_to_dict
@@ -54,7 +54,7 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
         **robot_facts(objective.robot.embodiment, objective.robot.legs),
         "held": dict(objective.robot.held),
         "model_joints": list(objective.robot.model_joints),
-        "policy": policy_to_dict(objective.policy),
+        "policy": policy_to_dict(objective.policy) if isinstance(objective.policy, Policy) else None,
         "engine": task.physics.engine,
         "versions": versions(task.physics.engine),
         "seed": seed,

@@ -94,7 +94,7 @@ def run(
     new = not directory.exists()
     try:
         directory.mkdir(parents=True, exist_ok=True)
-        write_text(directory / TASK, task_to_yaml(task))
+        write_text(directory / TASK, task_to_yaml(task, code=True))
         file = checkpoints.begin(directory, header)
     except OSError as error:
         if new:
@@ -130,7 +130,6 @@ def resume(
     """
     task, checkpoint = read_run(directory)
     header = checkpoint.header
-    assert objective is None or objective.task == task
     now = versions(task.physics.engine)
     for name, version in header.versions.items():
         if now.get(name) != version:
@@ -164,7 +163,7 @@ def read_run(directory: Path) -> tuple[Task, Checkpoint]:
         raise LevadeError(
             f"{directory}: no run to resume, {TASK} or {CHECKPOINT} is missing; give the --out of a solve"
         )
-    task = task_from_dict(read_yaml(directory / TASK), where=str(directory / TASK))
+    task = task_from_dict(read_yaml(directory / TASK), where=str(directory / TASK), code=True)
     return task, checkpoints.read(directory)
 
 
@@ -255,7 +254,7 @@ class _Run:
             if factors and not isinstance(factors, Stopped):
                 task = task.changed(Change(generation, dict(factors)))
                 with storing(self._directory / TASK, then=self._room):
-                    write_text(self._directory / TASK, task_to_yaml(task))
+                    write_text(self._directory / TASK, task_to_yaml(task, code=True))
             return factors
 
         return steering

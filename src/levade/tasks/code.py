@@ -1,4 +1,4 @@
-"""Costs that are Python code: a file names them, but does not hold them.
+"""Costs, measures and optimizers that are Python code: a file names them, but does not hold them.
 
 A motion file writes such a cost as ``{python: mymodule.mycost, weight: 1.0}``. Read from there, its term is a `MissingCode`:
 the task can be looked at, and its criteria judged; only the cost itself cannot be evaluated.
@@ -8,11 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NoReturn
 
-from levade.arrays import Array
+from levade.costs import Criterion, Measure
 from levade.errors import LevadeError, did_you_mean
-from levade.trajectory import Trajectories
 
 KEY = "python"
 """Key of the table of such a cost, whose value is `code_name`."""
@@ -20,7 +19,7 @@ KEY = "python"
 
 @dataclass(frozen=True)
 class MissingCode:
-    """The term of a cost that was Python code, in a task that was read from a file.
+    """What was Python code, in a task that was read from a file.
 
     Attributes:
         python: Where the code was: module and name.
@@ -28,9 +27,9 @@ class MissingCode:
 
     python: str
 
-    def __call__(self, trajectories: Trajectories) -> Array:
+    def __call__(self, *_: object, **__: object) -> NoReturn:
         """Always raises LevadeError: the code is not there."""
-        raise LevadeError(f"costs: {self.python} was Python code, which is not in the file; give the task the function")
+        raise LevadeError(f"task: {self.python} was Python code, which is not in the file; give the task the function")
 
 
 def code_name(term: object) -> str:
@@ -53,3 +52,26 @@ def missing_code(content: Mapping[str, Any], *, where: str) -> tuple[MissingCode
     if not isinstance(content[KEY], str):
         raise LevadeError(f"{where}.{KEY}: should be the name of a Python function")
     return MissingCode(content[KEY]), content.get("weight")
+
+
+def measure_to_dict(quantity: object) -> dict[str, str]:
+    """What the table of a criterion says of a measure that is Python code; nothing for a built-in quantity."""
+    if not isinstance(quantity, Measure):
+        return {}
+    return {KEY: code_name(quantity.function), "unit": quantity.unit}
+
+
+def criterion_of_missing(content: Mapping[str, Any], *, where: str) -> Criterion:
+    """Read the table of a criterion whose measure was code. Raises LevadeError if it makes no sense."""
+    table = dict(content)
+    python, unit, name = table.pop(KEY), table.pop("unit", ""), table.pop("quantity", "")
+    if not all(isinstance(text, str) for text in (python, unit, name)):
+        raise LevadeError(
+            f"{where}.{KEY}: should be the name of a Python function, with its unit and quantity as texts"
+        )
+    legs = table.get("legs", "all")
+    table["legs"] = tuple(legs) if isinstance(legs, list) else legs
+    try:
+        return Criterion(Measure(name, unit, MissingCode(python)), **table)
+    except TypeError:
+        raise LevadeError(f"{where}: has keys or values that no criterion has") from None

@@ -30,10 +30,17 @@ from levade.costs.success import QUANTITIES
 from levade.document import build, kind_of, parse_yaml, read_text, read_yaml
 from levade.errors import LevadeError, did_you_mean
 from levade.optimizers import ALIASES, canonical
-from levade.robots import Dimensions, dimensions, load_robot
+from levade.robots import Dimensions, Robot, dimensions, load_robot
 from levade.scenes import read_heights
-from levade.tasks.code import KEY, code_name, missing_code
-from levade.tasks.parts import Cost, RobotChoice
+from levade.tasks.code import (
+    KEY,
+    MissingCode,
+    code_name,
+    criterion_of_missing,
+    measure_to_dict,
+    missing_code,
+)
+from levade.tasks.parts import Cost, RobotChoice, Search
 from levade.tasks.task import Task
 from levade.tasks.units import measure_of, to_si
 
@@ -73,20 +80,26 @@ def task_text(name_or_path: str | Path) -> str:
     return read_text(_find(str(name_or_path)))
 
 
-def load_task(name_or_path: str | Path, *, robot: str | None = None, changes: Sequence[str] = ()) -> Task:
-    """A built-in task by name, or any task by the path of its YAML file.
+def load_task(name_or_path: str | Path, *, robot: str | Robot | None = None, changes: Sequence[str] = ()) -> Task:
+    """Load a built-in task by name, or any task by the path of its YAML file.
 
-    robot: name or file of a robot, instead of the task's. changes: "path=value" each, such as
-    "costs.effort.weight=0.5"; the path has to exist in the task with all its defaults. Another ``search.optimizer`` comes
-    without the settings of the task's own. Raises LevadeError.
+    Args:
+        name_or_path: Which task.
+        robot: Another robot than the task's: its name, its file, or a `levade.robots.Robot`.
+        changes: Changes of single values, "path=value" each, such as "costs.effort.weight=0.5". The path has to exist in the
+            task with all its defaults. Another ``search.optimizer`` comes without the settings of the task's own.
+
+    Raises:
+        LevadeError: If the task cannot be read, or a value makes no sense.
     """
+    made, name = (robot, robot.name) if isinstance(robot, Robot) else (None, robot)
     path = _find(str(name_or_path))
     content = read_yaml(path)
     _with_folder(content, path.parent)
     with_robot = [change for change in changes if change.partition("=")[0].startswith("robot.")]
-    if robot is not None or with_robot:  # first, as numbers in units of the robot are those of this one
-        content["robot"] = _other_robot(content.get("robot"), robot, with_robot, where=str(path))
-    task = task_from_dict(content, where=str(path))
+    if name is not None or with_robot:  # first, as numbers in units of the robot are those of this one
+        content["robot"] = _other_robot(content.get("robot"), name, with_robot, where=str(path))
+    task = task_from_dict(content, where=str(path), robot=made)
     rest = [change for change in changes if change not in with_robot]
     if rest:
         content = task_to_dict(task)
@@ -127,7 +140,7 @@ def _set() -> Iterator[None]:
         raise LevadeError(f"--set {str(error).removeprefix('--set').lstrip('.: ')}") from None
 
 
-def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False) -> Task:
+def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False, robot: Robot | None = None) -> Task:
     """Make a task from the tables of its YAML file.
 
     The robot is loaded if a number is in units of it, such as ``1.5 heights``.
@@ -137,6 +150,7 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
         where: What error messages start with.
         code: Whether to accept costs that were Python code, as `task_to_dict` writes them for a motion file; their terms
             are then `levade.tasks.code.MissingCode`.
+        robot: The robot that is meant, if it is at hand; else the one that the task names is loaded.
 
     Raises:
         LevadeError: If something is missing, unknown or wrong.
@@ -161,25 +175,49 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
         }
 
     @functools.cache
-    def robot() -> Dimensions:
+    def measures() -> Dimensions:
+        if robot is not None:
+            return dimensions(robot)
         choice = build(RobotChoice, content.get("robot", {}), where=f"{where}.robot")
         return dimensions(load_robot(choice.name, variant=choice.variant))
 
     if isinstance(content.get("stages"), list):
         content["stages"] = [
-            _tolerances(stage, content["success"], f"{where}.stages.{i}", robot)
+            _tolerances(stage, content["success"], f"{where}.stages.{i}", measures)
             if isinstance(stage, Mapping) and isinstance(content.get("success"), Mapping)
             else stage
             for i, stage in enumerate(content["stages"])
         ]
-    content = dict(to_si(content, where=where, robot=robot))
+    content = dict(to_si(content, where=where, robot=measures))
     content["scene"] = _with_heights(content.get("scene", {}), f"{where}.scene.terrain")
     if isinstance(costs, Mapping):
         content["costs"] = {
             name: _cost(str(name), value, where=f"{where}.costs.{name}", code=code)
             for name, value in content["costs"].items()
         }
-    return build(Task, content, where=where)
+    optimizer = None
+    if code:
+        optimizer = _missing_optimizer(content)
+        content["success"] = {
+            name: criterion_of_missing(value, where=f"{where}.success.{name}")
+            if isinstance(value, Mapping) and KEY in value
+            else value
+            for name, value in content.get("success", {}).items()
+        }
+    task = build(Task, content, where=where)
+    if optimizer is not None:
+        task = dataclasses.replace(task, search=dataclasses.replace(task.search, optimizer=optimizer))
+    return task
+
+
+def _missing_optimizer(content: dict[str, Any]) -> MissingCode | None:
+    """Take an optimizer that was Python code out of a task's tables."""
+    search = content.get("search")
+    if not (isinstance(search, Mapping) and isinstance(search.get("optimizer"), Mapping)):
+        return None
+    name = search["optimizer"].get(KEY)
+    content["search"] = {key: value for key, value in search.items() if key != "optimizer"}
+    return MissingCode(str(name))
 
 
 def _with_folder(content: dict[str, Any], folder: Path) -> None:
@@ -235,7 +273,18 @@ def task_to_dict(task: Task, *, code: bool = False) -> dict[str, Any]:
     Raises:
         LevadeError: For a cost that is Python code, unless ``code`` is true: a file cannot hold it.
     """
+    optimizer = task.search.optimizer
+    if not isinstance(optimizer, str):
+        if not code:
+            raise LevadeError("search.optimizer: a Python object cannot be written to a task file")
+        task = dataclasses.replace(task, search=dataclasses.replace(task.search, optimizer=Search().optimizer))
     content = _plain(dataclasses.asdict(task))
+    if not isinstance(optimizer, str):
+        content["search"]["optimizer"] = {KEY: code_name(optimizer)}
+    for name, criterion in task.success.items():
+        if (of := measure_to_dict(criterion.quantity)) and not code:
+            raise LevadeError(f"success.{name}: a Python function cannot be written to a task file")
+        content["success"][name] |= {**of, "quantity": str(criterion.quantity)}
     content["start"] = {key: value for key, value in content["start"].items() if value is not None}
     content["costs"] = {}
     names = {kind: name for name, kind in TERMS.items()}
@@ -266,7 +315,8 @@ def task_checksum(task: Task, *more: object) -> int:
     """
     content = task_to_dict(task, code=True)
     first = {name: alias for alias, name in ALIASES.items()}
-    content["search"]["optimizer"] = first.get(task.search.optimizer, task.search.optimizer)
+    if isinstance(task.search.optimizer, str):
+        content["search"]["optimizer"] = first.get(task.search.optimizer, task.search.optimizer)
     return zlib.crc32("".join([_yaml(content), *map(str, more)]).encode())
 
 

@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from levade.costs import Term
 from levade.engines import Fall, Settled
 from levade.errors import LevadeError
-from levade.optimizers import canonical
+from levade.optimizers import Choice, canonical
+
+if TYPE_CHECKING:
+    OptimizerChoice = Choice
+else:
+    OptimizerChoice = str  # what a task file may hold
 
 
 @dataclass(frozen=True)
@@ -117,7 +122,8 @@ class Change:
 class Search:
     """How to look.
 
-    optimizer: name; an alias becomes the name. trials: budget, all stages counted.
+    optimizer: name, where an alias becomes the name; or, in Python, a class, function or object: see `levade.optimizers`.
+    trials: budget, all stages counted.
     population: trials per generation, the optimizer's default if None.
     step: initial standard deviation of the weights [rad].
     smoothness: correlation length of neighbouring weights in the initial covariance, as a share of the horizon; 0 for
@@ -131,7 +137,7 @@ class Search:
     changes: of the costs' weights on the way.
     """
 
-    optimizer: str = "cma-aimed"
+    optimizer: OptimizerChoice = "cma-aimed"
     trials: int = 3000
     population: int | None = None
     step: float = 0.1
@@ -144,9 +150,8 @@ class Search:
     changes: tuple[Change, ...] = ()
 
     def __post_init__(self) -> None:
-        object.__setattr__(
-            self, "optimizer", canonical(self.optimizer)
-        )  # so that a search has one form, however it is named
+        # so that a search has one form, however it is named
+        object.__setattr__(self, "optimizer", canonical(self.optimizer))
 
     def factors(self, generation: int) -> dict[str, float]:
         """Cost -> factor on its weight in a generation; costs that nothing changed are left out."""

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 
 from levade.costs import Criterion
 from levade.errors import LevadeError, did_you_mean
-from levade.optimizers import OPTIMIZERS, settings
+from levade.optimizers import OPTIMIZERS, can_restart, settings
 from levade.tasks.parts import Change, Cost, PolicyChoice, Search, Stage
 from levade.tasks.robust import Robust
 
@@ -107,15 +107,13 @@ def check_starts(robust: Robust | None, stages: Sequence[Stage]) -> None:
 
 def check_search(search: Search, costs: Mapping[str, Cost]) -> None:
     """How to look."""
-    if search.optimizer not in OPTIMIZERS:
+    if isinstance(search.optimizer, str):
+        _check_optimizer(search.optimizer, search.settings)
+    elif not can_restart(search.optimizer) and search.restart is not None:
         raise LevadeError(
-            f"search.optimizer: no optimizer {search.optimizer!r}; {did_you_mean(search.optimizer, OPTIMIZERS)}"
+            "search.restart: a ready optimizer cannot be made again for another attempt; give a class or function, or no"
+            " restart"
         )
-    own = [name for name in settings(search.optimizer) if name != "step_adaptation"]
-    for name in search.settings:
-        if name not in own:
-            hint = did_you_mean(name, own) if own else "it takes none"
-            raise LevadeError(f"search.settings: no {name!r} for {search.optimizer}; {hint}")
     if search.trials < 1:
         raise LevadeError(f"search.trials: {search.trials} should be at least 1; the paper has about 3000")
     if search.population is not None and not 4 <= search.population <= 100_000:
@@ -130,6 +128,16 @@ def check_search(search: Search, costs: Mapping[str, Cost]) -> None:
         raise LevadeError(f"search.polish: {search.polish} should be 0 or more trials")
     for i, change in enumerate(search.changes):
         _check_change(f"search.changes.{i}", change, costs)
+
+
+def _check_optimizer(name: str, given: Mapping[str, float]) -> None:
+    if name not in OPTIMIZERS:
+        raise LevadeError(f"search.optimizer: no optimizer {name!r}; {did_you_mean(name, OPTIMIZERS)}")
+    own = [setting for setting in settings(name) if setting != "step_adaptation"]
+    for setting in given:
+        if setting not in own:
+            hint = did_you_mean(setting, own) if own else "it takes none"
+            raise LevadeError(f"search.settings: no {setting!r} for {name}; {hint}")
 
 
 def _check_names(where: str, stage: Stage, costs: Mapping[str, Cost], success: Mapping[str, Criterion]) -> None:

@@ -19,10 +19,9 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from levade import __version__
 from levade.arrays import Array
 from levade.costs import Posture
-from levade.costs.success import QUANTITIES
+from levade.costs.success import unit_of
 from levade.errors import LevadeError
 from levade.report.packing import pack, pack_unit
 from levade.report.scene import body_poses, goal_box, goal_text, put_together
@@ -35,6 +34,7 @@ from levade.rotations import rotate
 from levade.scenes import Scene, compose
 from levade.search import Objective
 from levade.tasks import builtin_tasks, load_task, task_to_dict, task_to_yaml
+from levade.version import __version__
 
 _GROUPS = {
     "pairs": "a policy for each pair of legs",
@@ -273,7 +273,7 @@ def _goal_row(criterion: Mapping[str, Any]) -> dict[str, Any]:
     return {
         **bounds,
         "quantity": criterion["quantity"],
-        "unit": QUANTITIES[criterion["quantity"]],
+        "unit": unit_of(criterion["quantity"]),
         "when": WHEN[criterion["at"]],
     }
 

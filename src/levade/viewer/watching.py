@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 
 from levade.arrays import Array
-from levade.costs.success import QUANTITIES
+from levade.costs.success import unit_of
 from levade.errors import LevadeError, did_you_mean
 from levade.motions import Motion
 from levade.search import Generation, Objective, Stopped
@@ -259,7 +259,7 @@ class Watch:
             "criteria": [
                 {
                     "name": name,
-                    "unit": QUANTITIES[criterion.quantity],
+                    "unit": unit_of(criterion.quantity),
                     "tolerance": criterion.tolerance or 0.0,
                     "target": criterion.target,
                     "minimum": criterion.minimum,

@@ -1,0 +1,307 @@
+"""What ``import levade`` offers: functions that take names, files or objects, and give back objects.
+
+    import levade
+
+    result = levade.solve("rearing", seed=0)
+    result.success, result.motion.horizon
+    result.motion.save("rearing.npz")
+    levade.check(result.motion).passed
+
+Whatever a task file chooses by name can be given as an object: robot, cost, criterion, policy, optimizer, engine.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import mujoco
+
+from levade.arrays import Array
+from levade.engines import ENGINES, EngineKind
+from levade.errors import LevadeError
+from levade.motions import Motion
+from levade.robots import Robot, robot_of_spec
+from levade.robots import load_robot as load_robot_file
+from levade.search import InitialGuess, Objective, Solution, make_objective
+from levade.search import solve as search_one
+from levade.search import solve_many as search_many
+from levade.search.initial import initial_guess
+from levade.search.loop import Observe
+from levade.search.recording import record
+from levade.search.run import run
+from levade.tasks import Task, load_task
+
+if TYPE_CHECKING:
+    from levade.checks import Certificate
+    from levade.exports import Exported
+    from levade.optimizers import Choice
+    from levade.policies import JointPolicy
+    from levade.stabilisers import Stabilised
+
+RobotLike = str | Path | Robot | mujoco.MjSpec
+"""A robot's name or file, a `levade.Robot`, or a `mujoco.MjSpec`."""
+
+Initial = Motion | Array | InitialGuess | Sequence[Motion | Array]
+"""What a search may begin around: motions, policy weights [rad], or a distribution."""
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """What `solve` gives back.
+
+    Attributes:
+        motion: The best motion, with everything recorded.
+        solution: What the search found and what it took.
+        objective: What was searched; `levade.search.Objective.evaluate` tries other weights.
+    """
+
+    motion: Motion
+    solution: Solution
+    objective: Objective
+
+    @property
+    def success(self) -> bool:
+        """Whether the motion meets its task's criteria."""
+        return self.motion.result.success
+
+    @property
+    def trials(self) -> int:
+        """Roll-outs that the search made."""
+        return self.solution.trials
+
+    def __repr__(self) -> str:
+        found = f"at trial {self.solution.trials_to_success}" if self.success else f"after {self.trials} trials"
+        return f"Result({'success' if self.success else 'no success'} {found}, {self.motion!r})"
+
+
+def load_robot(robot: RobotLike, **options: Any) -> Robot:
+    """Load a robot.
+
+    Args:
+        robot: A built-in robot's name, ``package:robot``, the path of an MJCF, URDF or robot.yaml, or a `mujoco.MjSpec`. A
+            `Robot` is returned as it is.
+        **options: As `levade.robots.load_robot` takes them for a name or a path: actuation, variant, linkage, kp, kd.
+
+    Raises:
+        LevadeError: If it is not there, or not understood.
+    """
+    if isinstance(robot, Robot):
+        return robot
+    return robot_of_spec(robot) if isinstance(robot, mujoco.MjSpec) else load_robot_file(robot, **options)
+
+
+def solve(
+    task: str | Path | Task,
+    *,
+    seed: int = 0,
+    robot: RobotLike | None = None,
+    optimizer: Choice | None = None,
+    policy: JointPolicy | Callable[[Task, Robot], JointPolicy] | None = None,
+    engine: str | EngineKind | None = None,
+    trials: int | None = None,
+    initial: Initial | None = None,
+    out: str | Path | None = None,
+    threads: int = 0,
+    observe: Observe | None = None,
+) -> Result:
+    """Search for a motion that does a task.
+
+    Args:
+        task: A built-in task's name, the path of a task file, or a `Task`.
+        seed: Seed of all random numbers. The same task, seed and versions give the same motion.
+        robot: Another robot than the task's.
+        optimizer: Another optimizer than the task's: a name; a class or function ``(space, *, seed)``; or an object with
+            ``ask`` and ``tell``. See `levade.optimizers.protocol`.
+        policy: A policy of one's own, or a function that makes one. See `levade.policies.JointPolicy`.
+        engine: Another engine than the task's: a name, or a row for the table `levade.engines.ENGINES`.
+        trials: Another budget than the task's.
+        initial: Motions, weights or a distribution to begin around.
+        out: Directory in which to keep the motion, the resolved task, the progress and a checkpoint, as ``levade solve``
+            does. None keeps nothing.
+        threads: Engine threads; 0 for one per core. The result does not depend on it.
+        observe: Called after each generation with a `levade.search.Generation`. It may return
+            `levade.search.Stopped.INTERRUPTED` to end the search. Ctrl-C ends it, too, with the best motion so far.
+
+    Raises:
+        LevadeError: If something does not fit together, or ``out`` cannot be written.
+    """
+    objective = _objective(task, robot, optimizer, policy, engine, trials, threads)
+    guess = None if initial is None else initial_guess(objective.policy, initial)
+    if out is not None:
+        kept = run(objective, seed=seed, directory=Path(out), initial=guess, observe=observe)
+        return Result(kept.motion, kept.solution, objective)
+    solution = search_one(objective, seed=seed, initial=guess, observe=observe)
+    return Result(record(objective, solution, seed=seed), solution, objective)
+
+
+def solve_many(
+    tasks: Sequence[str | Path | Task | Objective],
+    *,
+    seeds: Sequence[int] | None = None,
+    robot: RobotLike | None = None,
+    initial: Sequence[Initial | None] | None = None,
+    threads: int = 0,
+) -> list[Result]:
+    """Drive several searches in lockstep, their roll-outs in common batches.
+
+    Args:
+        tasks: What to search for. Objectives of one `levade.search.Simulation`, from whatever starts, share batches, and so
+            do equal tasks.
+        seeds: Seed of each. Defaults to 0, 1, 2, ...
+        robot: Another robot than the tasks'.
+        initial: What each begins around, if anything.
+        threads: Engine threads; 0 for one per core.
+
+    Returns:
+        A result for each, with the same bits as `solve` gives for it alone.
+
+    Raises:
+        LevadeError: If something does not fit together.
+    """
+    known: dict[int, Objective] = {}
+    objectives = []
+    for task in tasks:
+        if not isinstance(task, Objective):
+            task = known.get(id(task)) or known.setdefault(id(task), _objective(task, robot, threads=threads))
+        objectives.append(task)
+    numbers = list(range(len(objectives))) if seeds is None else list(seeds)
+    guesses = [
+        None if one is None else initial_guess(objective.policy, one)
+        for objective, one in zip(objectives, initial or [None] * len(objectives), strict=True)
+    ]
+    solutions = search_many(objectives, seeds=numbers, initial=guesses)
+    return [
+        Result(record(objective, solution, seed=seed), solution, objective)
+        for objective, solution, seed in zip(objectives, solutions, numbers, strict=True)
+    ]
+
+
+def check(motion: Motion | str | Path, **options: Any) -> Certificate:
+    """Check whether a motion can be trusted: perturbed robots, numerics, other engines, hardware limits.
+
+    Args:
+        motion: A motion, or its file.
+        **options: As `levade.checks.check` takes them, such as ``runs=100``.
+
+    Raises:
+        LevadeError: If there is nothing to judge by.
+    """
+    from levade.checks import check as checked
+
+    return checked(_motion(motion), **options)
+
+
+def stabilise(motion: Motion | str | Path, **options: Any) -> Stabilised:
+    """Find a stabiliser for a motion: gains from what the robot senses to corrections of the references.
+
+    Args:
+        motion: A motion, or its file.
+        **options: As `levade.stabilisers.stabilise` takes them, such as ``seed=0``.
+
+    Raises:
+        LevadeError: If the motion cannot be stabilised.
+    """
+    from levade.stabilisers import stabilise as stabilised
+
+    return stabilised(_motion(motion), **options)
+
+
+def export(motion: Motion | str | Path, to: str, directory: str | Path, **options: Any) -> Exported:
+    """Write a motion in another tool's format.
+
+    Args:
+        motion: A motion, or its file.
+        to: Name of the format: csv, json, ros2, mjlab or unitree.
+        directory: Where to write.
+        **options: As `levade.exports.export` takes them, such as ``rate=500``.
+
+    Raises:
+        LevadeError: If the format does not exist, or the motion does not fit into it.
+    """
+    from levade.exports import export as exported
+
+    return exported(_motion(motion), to, Path(directory), **options)
+
+
+def show(motion: Motion | str | Path, path: str | Path | None = None, *, browse: bool = True) -> Path:
+    """Write a motion's page, with a 3D view and plots, and open it in the browser.
+
+    Args:
+        motion: A motion, or its file.
+        path: Where to write the page. Defaults to a temporary file.
+        browse: Whether to open it.
+
+    Returns:
+        The page's path.
+
+    Raises:
+        LevadeError: If the page cannot be written.
+    """
+    from levade.report.page import write_page
+
+    if path is None:
+        path = Path(tempfile.mkdtemp(prefix="levade-")) / "report.html"
+    written = write_page(_motion(motion), path)
+    if browse:
+        import webbrowser
+
+        webbrowser.open(written.resolve().as_uri())
+    return written
+
+
+def _objective(
+    task: str | Path | Task,
+    robot: RobotLike | None,
+    optimizer: Choice | None = None,
+    policy: Any = None,
+    engine: str | EngineKind | None = None,
+    trials: int | None = None,
+    threads: int = 0,
+) -> Objective:
+    """Put a task together with what was given instead of its own."""
+    made = None if robot is None else load_robot(robot)
+    if not isinstance(task, Task):
+        task = load_task(task, robot=made)
+    if made is not None:
+        source = made.source or made.name
+        task = replace(task, robot=replace(task.robot, name=source, actuation=None, variant=made.variant))
+    changes: dict[str, Any] = {} if trials is None else {"trials": trials}
+    if optimizer is not None:
+        changes |= {"optimizer": optimizer, "settings": {}}
+    if changes:
+        task = replace(task, search=replace(task.search, **changes))
+    if engine is not None:
+        task = replace(task, physics=replace(task.physics, engine=_engine_name(engine)))
+    return make_objective(task, robot=made, policy=policy, threads=threads)
+
+
+def _engine_name(engine: str | EngineKind) -> str:
+    """The name of an engine; a new one is added to the table."""
+    if isinstance(engine, str):
+        return engine
+    known = ENGINES.setdefault(engine.name, engine)
+    if known != engine:
+        raise LevadeError(f"engine: another engine is called {engine.name} already; give it another name")
+    return engine.name
+
+
+def _motion(motion: Motion | str | Path) -> Motion:
+    return motion if isinstance(motion, Motion) else Motion.load(motion)
+
+
+__all__: Iterable[str] = (
+    "Initial",
+    "Result",
+    "RobotLike",
+    "check",
+    "export",
+    "load_robot",
+    "show",
+    "solve",
+    "solve_many",
+    "stabilise",
+)

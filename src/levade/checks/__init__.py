@@ -1,0 +1,94 @@
+"""Checks: whether a motion can be trusted.
+
+    certificate = check(Motion.load("motion.npz"), runs=500, seed=0)
+    certificate.passed
+    certificate.perturbed.share, certificate.perturbed.low      # of 500 perturbed runs, and its 95 % interval
+    certificate.open_loop                                       # the same without the stabiliser, if the motion has one
+    certificate.margins["torque"].failed                        # joints that go beyond their limits
+
+What each part does is in docs/check.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from levade.checks.certificate import Certificate
+from levade.checks.demands import Demands, Verdict
+from levade.checks.engines import Replayed, other_engines
+from levade.checks.margins import Margin, margins
+from levade.checks.numerics import Numeric, numerics
+from levade.checks.perturbed import Perturbed, Sensitivity, perturbed
+from levade.engines import Perturbation
+from levade.errors import LevadeError
+from levade.feedback import Feedback
+from levade.motions import Motion, RecordedSimulation
+from levade.tasks import Task
+
+__all__ = [
+    "Certificate",
+    "Demands",
+    "Margin",
+    "Numeric",
+    "Perturbed",
+    "Replayed",
+    "Sensitivity",
+    "Verdict",
+    "check",
+    "margins",
+    "numerics",
+    "other_engines",
+    "perturbed",
+]
+
+
+def check(
+    motion: Motion,
+    *,
+    runs: int = 500,
+    seed: int = 0,
+    divide: int = 1,
+    perturbation: Perturbation | None = None,
+    demands: Demands | None = None,
+    criteria: Task | None = None,
+    threads: int = 0,
+    stopping: Callable[[], bool] | None = None,
+) -> Certificate:
+    """Check a motion against its model's uncertainty, its numbers, other engines and its hardware.
+
+    divide: the time step of the perturbed runs by so much. perturbation, demands: the defaults if None. criteria: a task
+    whose success criteria are used instead of the motion's own. threads: results do not depend on it.
+    stopping: asked on the way; once it says so, the certificate is of what was done by then, and says that it is interrupted.
+    Raises LevadeError if there is nothing to judge by, or no runs.
+    """
+    simulation = RecordedSimulation(motion, criteria=None if criteria is None else criteria.success, threads=threads)
+    if not simulation.criteria:
+        raise LevadeError(
+            f"check: the task {simulation.task.name} has no success criteria to judge by; give a task that has: --criteria TASK"
+        )
+    if not 1 <= runs <= 1_000_000:
+        raise LevadeError(f"check: {runs} runs; 1 to 1000000, 500 is usual")
+    if not 1 <= divide <= 64:
+        raise LevadeError(f"check: the time step divided by {divide}; 1 to 64, 2 is usual")
+    demands, feedback = demands or Demands(), motion.feedback
+    ranges = perturbation or Perturbation()
+    stop = stopping or (lambda: False)
+
+    def tried(by: Feedback | None) -> Perturbed:
+        return perturbed(simulation, ranges, runs=runs, seed=seed, divide=divide, feedback=by, stopping=stop)
+
+    without = tried(None)
+    found = without if feedback is None else tried(feedback)
+    cut = stop()
+    return Certificate(
+        task=simulation.task.name,
+        robot=motion.robot,
+        criteria=simulation.task.name if criteria is None else criteria.name,
+        demands=demands,
+        perturbed=found,
+        open_loop=None if feedback is None else without,
+        numerics={} if cut else numerics(simulation),
+        engines={} if cut else other_engines(simulation),
+        margins={} if cut else margins(simulation, demands),
+        interrupted=cut,
+    )

@@ -1,0 +1,134 @@
+"""Everything that a check finds, and whether that is good enough."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from levade.checks.demands import Demands, Verdict
+from levade.checks.engines import Replayed
+from levade.checks.margins import Margin
+from levade.checks.numerics import Numeric
+from levade.checks.perturbed import Perturbed
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """What a check found. criteria: whose success criteria were used, the name of a task.
+
+    perturbed, numerics: with the stabiliser, if the motion has one. open_loop: the perturbed runs without it, else None.
+    interrupted: in the perturbed runs; then fewer of them were made, and nothing else.
+    """
+
+    task: str
+    robot: str
+    criteria: str
+    demands: Demands
+    perturbed: Perturbed
+    numerics: Mapping[str, Numeric]
+    engines: Mapping[str, Replayed]
+    margins: Mapping[str, Margin]
+    open_loop: Perturbed | None = None
+    interrupted: bool = False
+
+    @property
+    def verdicts(self) -> tuple[Verdict, ...]:
+        """Pass or fail, criterion by criterion."""
+        return (self._perturbed(), *self._numerics(), *self._engines(), *self._margins())
+
+    @property
+    def passed(self) -> bool:
+        """Whether every criterion that is judged is met; not of a check that was interrupted."""
+        return not self.interrupted and all(verdict.passed is not False for verdict in self.verdicts)
+
+    def to_json(self) -> dict[str, Any]:
+        return {
+            "passed": self.passed,
+            "interrupted": self.interrupted,
+            "task": self.task,
+            "robot": self.robot,
+            "criteria": self.criteria,
+            "failed": [verdict.name for verdict in self.verdicts if verdict.passed is False],
+            "perturbed": self.perturbed.to_json(),
+            "open_loop": None if self.open_loop is None else self.open_loop.to_json(),
+            "numerics": {name: one.to_json() for name, one in self.numerics.items()},
+            "engines": {name: one.to_json() for name, one in self.engines.items()},
+            "margins": {name: one.to_json() for name, one in self.margins.items()},
+            "demands": asdict(self.demands),
+        }
+
+    def _perturbed(self) -> Verdict:
+        found, share, without = self.perturbed, self.demands.share, self.open_loop
+        beside = "" if without is None else f"; without the stabiliser {without.share:.1%}"
+        return Verdict(
+            "perturbed",
+            None if share is None else found.share >= share,
+            f"{found.successes} of {found.runs} runs ({found.share:.1%}; {found.low:.1%} to {found.high:.1%}){beside}",
+            "" if share is None else f"{share:.0%}",
+            "" if share is not None else "not demanded",
+        )
+
+    def _numerics(self) -> list[Verdict]:
+        judged = self.demands.numerics
+        return [
+            Verdict(
+                name,
+                one.success if judged else None,
+                ("broke down" if one.diverged else "succeeds" if one.success else "does not succeed")
+                + f"; {1000 * one.apart['position_at_horizon']:.2g} mm off at the horizon",
+                "success",
+                "" if judged else "not demanded",
+            )
+            for name, one in self.numerics.items()
+        ]
+
+    def _engines(self) -> list[Verdict]:
+        found = []
+        for name, one in self.engines.items():
+            if one.success is None or one.apart is None:
+                found.append(Verdict(f"engine {name}", None, "", "success", one.reason))
+                continue
+            moved = f"; {100 * one.apart['position_at_horizon']:.2g} cm off at the horizon"
+            moved += "; without the stabiliser" * (self.open_loop is not None)
+            found.append(
+                Verdict(
+                    f"engine {name}",
+                    one.success if self.demands.engines else None,
+                    ("succeeds" if one.success else "does not succeed") + moved,
+                    "success",
+                    "" if self.demands.engines else "not demanded",
+                )
+            )
+        return found
+
+    def _margins(self) -> list[Verdict]:
+        return [
+            Verdict(
+                name.replace("_", " "),
+                one.passed,
+                _number(one) + (f"; fails: {', '.join(one.failed)}" if one.failed and one.passed is False else ""),
+                "" if one.required is None else _required(name, one),
+                one.reason if one.passed is None else "",
+            )
+            for name, one in self.margins.items()
+        ]
+
+
+MEASURED = ("power", "foot_force", "impact_speed", "self_collision")
+"""Margins that are measured against the most that is allowed; of the others, the least that is left is required."""
+
+
+def _number(margin: Margin) -> str:
+    if margin.value is None:
+        return "none" if margin.unit == "m" else ""
+    if margin.unit.startswith("share"):
+        return f"{margin.value:+.1%} left, {margin.least}"
+    return f"{margin.value:.4g} {margin.unit}, {margin.least}"
+
+
+def _required(name: str, margin: Margin) -> str:
+    assert margin.required is not None
+    bound = "at most" if name in MEASURED else "at least"
+    share = margin.unit.startswith("share")
+    return f"{bound} {margin.required:.0%}" if share else f"{bound} {margin.required:g} {margin.unit}"

@@ -1,0 +1,68 @@
+"""Whether a motion succeeds in another engine, and how far it goes another way there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from levade.checks.numerics import apart
+from levade.costs import errors, success
+from levade.costs.orientation import geodesic
+from levade.engines import ENGINES
+from levade.errors import LevadeError
+from levade.motions import RecordedSimulation, replay_in
+from levade.trajectory import Trajectories
+
+_ROWS = 20
+"""Times at which the difference is given."""
+
+
+@dataclass(frozen=True)
+class Replayed:
+    """What came of it. reason: why the engine is not there; everything else is None then.
+
+    errors: criterion -> error [SI]. apart: as in `levade.checks.numerics.Numeric`. over_time: time [s], how far the trunk's
+    centre of mass [m] and its attitude [rad] are apart.
+    """
+
+    success: bool | None = None
+    errors: dict[str, float] | None = None
+    apart: dict[str, float] | None = None
+    over_time: dict[str, list[float]] | None = None
+    reason: str = ""
+
+    def to_json(self) -> dict[str, Any]:
+        return dict(vars(self))
+
+
+def other_engines(simulation: RecordedSimulation) -> dict[str, Replayed]:
+    """Every engine but the motion's own -> what it makes of the motion."""
+    return {name: _replay(simulation, name) for name in ENGINES if name != simulation.motion.provenance.engine}
+
+
+def _replay(simulation: RecordedSimulation, engine: str) -> Replayed:
+    try:
+        trajectories = replay_in(engine, simulation.motion).trajectories
+    except LevadeError as error:
+        return Replayed(reason=str(error))
+    off = errors(simulation.criteria, trajectories)
+    return Replayed(
+        success=bool(success(simulation.criteria, trajectories)[0]),
+        errors={name: float(error[0]) for name, error in off.items()},
+        apart=apart(simulation, trajectories),
+        over_time=_over_time(simulation, trajectories),
+    )
+
+
+def _over_time(simulation: RecordedSimulation, trajectories: Trajectories) -> dict[str, list[float]]:
+    steps = trajectories.steps
+    rows = sorted(
+        {round((i + 1) * steps / _ROWS) - 1 for i in range(_ROWS)} - {-1} | {simulation.motion.horizon_steps - 1}
+    )
+    moved = trajectories.trunk_com_position()[0, rows] - simulation.motion["trunk_com_position"][rows]
+    turned = geodesic(trajectories.trunk_quaternion[0, rows], simulation.motion["trunk_quaternion"][rows])
+    return {
+        "time": trajectories.time[rows].tolist(),
+        "position": ((moved**2).sum(axis=-1) ** 0.5).tolist(),
+        "attitude": turned.tolist(),
+    }

@@ -1,0 +1,228 @@
+"""What a motion asks of the hardware, against what the hardware can do: from the file's own arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+import numpy as np
+
+from levade.arrays import Array
+from levade.checks.contacts import landings, poses, scene_forces
+from levade.checks.demands import Demands
+from levade.embodiment import TorqueCurve
+from levade.errors import LevadeError
+from levade.motions import RecordedSimulation
+from levade.robots import load_robot
+
+_ROUNDING = 1e-6
+"""Of a limit: a torque that the engine holds at its limit is at it, not beyond."""
+GRAVITY = 9.81
+"""[m/s2], for forces in weights of the robot."""
+
+
+@dataclass(frozen=True)
+class Margin:
+    """What is left of one kind of limit.
+
+    unit: of the numbers. values: joint, foot or pair of bodies -> what is left (or what is measured, where there is no limit);
+    None where the robot gives no limit. least: the name that has least left (or most of what is measured). value: its number.
+    required: what is demanded; None if nothing. failed: names that do not meet it. passed: None if it is not judged.
+    reason: why it is not judged or not there. more: further numbers.
+    """
+
+    unit: str
+    values: Mapping[str, float | None] = field(default_factory=dict)
+    least: str = ""
+    value: float | None = None
+    required: float | None = None
+    failed: tuple[str, ...] = ()
+    passed: bool | None = None
+    reason: str = ""
+    more: Mapping[str, Any] = field(default_factory=dict)
+
+    def to_json(self) -> dict[str, Any]:
+        content = asdict(self)
+        more = content.pop("more")
+        return {**content, "failed": list(self.failed), **more}
+
+
+def margins(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margin]:
+    """Every kind of limit -> what the motion leaves of it."""
+    motion, limits = simulation.motion, simulation.embodiment.limits
+    joints = simulation.embodiment.joint_names
+    angle, speed, torque = (motion[f"joint_{name}"] for name in ("position", "velocity", "torque"))
+    power = np.abs(torque * speed)
+    at_limit = (np.abs(torque) >= limits.torque * (1 - 1e-9)).mean(axis=0)
+    found = {
+        "position": _least("rad", joints, limits.angle_left(angle).min(axis=0), demands.position),
+        "speed": _least("share of limit", joints, _left(np.abs(speed).max(axis=0), limits.velocity), demands.speed),
+        "torque": _least(
+            "share of limit",
+            joints,
+            _left(np.abs(torque).max(axis=0), limits.torque),
+            demands.torque,
+            more={"time_at_limit": dict(zip(joints, at_limit.tolist(), strict=True))},
+        ),
+        "torque_speed": _torque_speed(simulation, demands.torque_speed),
+        "linkage": _linkage(simulation, demands.linkage),
+        "power": _most(
+            "W",
+            dict(zip(joints, power.max(axis=0).tolist(), strict=True)),
+            demands.power,
+            more=_energy(torque * speed, simulation.timestep),
+        ),
+        "flow_or_current": Margin(
+            "", reason="the robot's description has neither cylinders nor motor constants to compute it from"
+        ),
+    }
+    return found | _contacts(simulation, demands)
+
+
+def _left(most: Array, limit: Array) -> Array:
+    """(joints,) what is left, as a share of the limit; nan where there is none."""
+    return np.where(np.isfinite(limit), 1 - most / limit, np.nan)
+
+
+def _least(
+    unit: str,
+    names: tuple[str, ...],
+    left: Array,
+    required: float | None,
+    *,
+    reason: str = "",
+    more: Mapping[str, Any] | None = None,
+) -> Margin:
+    """A margin of what is left (names,); not finite where there is no limit."""
+    known = np.isfinite(left)
+    values = {name: float(value) if finite else None for name, value, finite in zip(names, left, known, strict=True)}
+    if not known.any():
+        return Margin(unit, values, required=required, reason=reason or "the robot gives no limit", more=more or {})
+    least = int(np.argmin(np.where(known, left, np.inf)))
+    failed: tuple[str, ...] = ()
+    if required is not None:
+        failed = tuple(name for name, value in values.items() if value is not None and value < required - _ROUNDING)
+    passed = None if required is None else not failed
+    return Margin(unit, values, names[least], float(left[least]), required, failed, passed, reason, more or {})
+
+
+def _most(
+    unit: str,
+    values: Mapping[str, float],
+    allowed: float | None,
+    *,
+    reason: str = "",
+    more: Mapping[str, Any] | None = None,
+) -> Margin:
+    """What is measured, against the most that is allowed."""
+    if not values:
+        return Margin(unit, required=allowed, passed=None if allowed is None else True, more=more or {})
+    most = max(values, key=lambda name: values[name])
+    failed: tuple[str, ...] = ()
+    if allowed is not None:
+        failed = tuple(name for name, value in values.items() if value > allowed + _ROUNDING)
+    passed = None if allowed is None else not failed
+    reason = reason or ("" if allowed is not None else "no limit is known, and none demanded")
+    return Margin(unit, dict(values), most, values[most], allowed, failed, passed, reason, more or {})
+
+
+def _torque_speed(simulation: RecordedSimulation, required: float | None) -> Margin:
+    """What is left of the line from stall torque to no-load speed, while driving; braking has the constant limit alone."""
+    limits, joints = simulation.embodiment.limits, simulation.embodiment.joint_names
+    torque, speed = simulation.motion["joint_torque"], simulation.motion["joint_velocity"]
+    left = np.full(len(joints), np.nan)
+    if limits.stall_torque is not None:
+        # as a share of the stall torque: near the no-load speed a share of what the line leaves there would mean nothing
+        least = np.where(torque * speed > 0, limits.torque_speed_left(torque, speed), np.inf).min(axis=0)
+        known = np.isfinite(least) & np.isfinite(limits.stall_torque)
+        left[known] = least[known]
+    return _least("share of stall torque", joints, left, required, reason=_no_line(left))
+
+
+def _no_line(left: Array) -> str:
+    return "" if np.isfinite(left).any() else "the actuators have no torque-speed line"
+
+
+def _linkage(simulation: RecordedSimulation, required: float | None) -> Margin:
+    """What is left of the torque that linkages transmit at their angle."""
+    motion, joints = simulation.motion, simulation.embodiment.joint_names
+    curves = _curves(simulation)
+    if isinstance(curves, str):
+        return Margin("share of limit", required=required, reason=curves)
+    left = np.full(len(joints), np.inf)
+    for joint, curve in curves.items():
+        allowed = curve(motion["joint_position"][:, joint])
+        share = np.abs(motion["joint_torque"][:, joint]) / np.maximum(allowed, 1e-9 * curve.peak)
+        left[joint] = 1 - share.max()
+    margin = _least("share of limit", joints, left, required)
+    if simulation.task.robot.linkage:
+        return margin
+    return Margin(
+        margin.unit,
+        margin.values,
+        margin.least,
+        margin.value,
+        required,
+        margin.failed,
+        None,
+        "the task does not ask for the linkage (robot: {linkage: true})",
+    )
+
+
+def _curves(simulation: RecordedSimulation) -> Mapping[int, TorqueCurve] | str:
+    """The linkage's curves from the robot's description, or why there are none."""
+    choice: dict[str, Any] = asdict(simulation.task.robot) | {"linkage": True}
+    try:
+        robot = load_robot(choice.pop("name"), **choice)
+    except LevadeError as error:
+        text = str(error)
+        return "the robot has no linkage" if "linkage" in text else f"the robot's description cannot be read: {text}"
+    if robot.joint_names != simulation.embodiment.joint_names:
+        return "the robot's description has other joints than the motion"
+    return robot.limits.torque_curves
+
+
+def _energy(power: Array, timestep: float) -> dict[str, float]:
+    """(steps, joints) [W] to numbers of the whole robot: [W] and [J]; what brakes gives nothing back."""
+    whole = np.maximum(power, 0.0).sum(axis=1)
+    return {
+        "robot_peak": float(whole.max()),
+        "robot_mean": float(whole.mean()),
+        "energy": float(whole.sum() * timestep),
+    }
+
+
+def _contacts(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margin]:
+    """Forces on the feet, their impacts, and what of the robot touches itself."""
+    feet = simulation.embodiment.feet
+    weight = float(simulation.model.body_mass.sum()) * GRAVITY
+    centres, collisions, normals = poses(simulation)
+    force = scene_forces(simulation, normals)
+    bearing = force > 0
+    mean = force.sum(axis=0) / np.maximum(bearing.sum(axis=0), 1)
+    foot_force = _most(
+        "robot weights",
+        dict(zip(feet, (force.max(axis=0) / weight).tolist(), strict=True)),
+        demands.foot_force,
+        more={
+            "peak_N": dict(zip(feet, force.max(axis=0).tolist(), strict=True)),
+            "mean_N": dict(zip(feet, mean.tolist(), strict=True)),
+            "robot_weight_N": weight,
+        },
+    )
+    landed = landings(simulation, centres, normals, force)
+    hardest = {foot: max((one.speed for one in landed if one.foot == foot), default=None) for foot in feet}
+    impact = _most(
+        "m/s",
+        {foot: speed for foot, speed in hardest.items() if speed is not None},
+        demands.impact_speed,
+        more={"landings": [asdict(one) for one in landed]},
+    )
+    touching = _most(
+        "m",
+        {" and ".join(one.bodies): one.depth for one in collisions},
+        demands.self_collision,
+        more={"collisions": [asdict(one) for one in collisions]},
+    )
+    return {"foot_force": foot_force, "impact_speed": impact, "self_collision": touching}

@@ -1,0 +1,89 @@
+"""``csv``: a table with one header line, for spreadsheets, pandas, PlotJuggler and `player.py`."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import zipfile
+from importlib import resources
+from pathlib import Path
+
+import numpy as np
+
+from levade.arrays import Array
+from levade.exports.content import Content, describe, held
+from levade.exports.player import checksum
+from levade.exports.samples import Samples
+from levade.feedback import Feedback
+
+META, FEEDBACK = "meta.json", "feedback.npz"
+XYZ, WXYZ = ("x", "y", "z"), ("w", "x", "y", "z")
+
+
+def columns(samples: Samples) -> dict[str, Array]:
+    """Name of each column -> its values, (rows,)."""
+    table = {"time": samples.time}
+    for i, joint in enumerate(samples.joints.names):
+        for name in ("position", "velocity", "torque"):
+            table[f"command/{joint}/{name}"] = getattr(samples, f"command_{name}")[:, i]
+        for name in ("kp", "kd"):
+            table[f"command/{joint}/{name}"] = np.full(len(samples.time), getattr(samples.joints, name)[i])
+    for i, joint in enumerate(samples.joints.names):
+        for name in ("position", "velocity", "torque"):
+            table[f"state/{joint}/{name}"] = getattr(samples, f"joint_{name}")[:, i]
+    for name in ("position", "com_position", "quaternion", "linear_velocity", "angular_velocity"):
+        values = getattr(samples, f"trunk_{name}")
+        for i, axis in enumerate(WXYZ if name == "quaternion" else XYZ):
+            table[f"state/trunk/{name}/{axis}"] = values[:, i]
+    for i, foot in enumerate(samples.feet):
+        for k, axis in enumerate(XYZ):
+            table[f"state/{foot}/contact_force/{axis}"] = samples.foot_contact_force[:, i, k]
+    return table
+
+
+def write_table(path: Path, table: dict[str, Array]) -> None:
+    """Write columns with all their digits: reading the numbers gives the same bits."""
+    with path.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(table)
+        writer.writerows(np.column_stack(list(table.values())).tolist())
+
+
+def write(content: Content, directory: Path) -> list[str]:
+    """motion.csv, and beside it meta.json and player.py."""
+    table, feedback = directory / "motion.csv", directory / FEEDBACK
+    write_table(table, columns(content.playing))
+    belongs = [table.read_bytes()]
+    if content.feedback is not None:
+        write_feedback(feedback, content.feedback)
+        belongs.append(feedback.read_bytes())
+    meta = describe(content.playing, content.provenance, content.feedback, held(content.motion))
+    write_json(directory / META, meta | {"checksum": checksum(meta, *belongs)}, indent=2)
+    write_player(directory)
+    return []
+
+
+def write_feedback(path: Path, feedback: Feedback) -> None:
+    """A stabiliser's arrays, for numpy; the same ones give the same bytes."""
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as file:
+        for name, values in (("gain", feedback.gain), ("reference", feedback.reference)):
+            content = io.BytesIO()
+            np.save(content, values, allow_pickle=False)
+            file.writestr(zipfile.ZipInfo(f"{name}.npy"), content.getvalue(), zipfile.ZIP_DEFLATED)
+
+
+def write_player(directory: Path) -> None:
+    """player.py, as it is here."""
+    source = resources.files("levade.exports").joinpath("player.py").read_text(encoding="utf-8")
+    (directory / "player.py").write_text(source, encoding="utf-8")
+
+
+def write_json(path: Path, content: object, *, indent: int | None = None) -> None:
+    """A JSON file; numbers with all their digits."""
+    path.write_text(to_json(content, indent=indent) + "\n", encoding="utf-8")
+
+
+def to_json(content: object, *, indent: int | None = None) -> str:
+    """JSON proper: nothing that is not a number among the numbers."""
+    return json.dumps(content, ensure_ascii=False, allow_nan=False, indent=indent)

@@ -1,0 +1,130 @@
+"""What is exported, before it takes a form: samples, the model, and where all of it came from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import mujoco
+
+from levade.exports.samples import Samples
+from levade.feedback import Feedback, names
+from levade.motions import Motion
+from levade.motions.file import finite
+from levade.tasks import task_to_dict
+
+UNITS = {
+    "time": "s",
+    "position": "rad",
+    "velocity": "rad/s",
+    "torque": "Nm",
+    "kp": "Nm/rad",
+    "kd": "Nm s/rad",
+    "trunk/position": "m",
+    "trunk/com_position": "m",
+    "trunk/quaternion": "trunk frame to world, w x y z",
+    "trunk/linear_velocity": "m/s, of the trunk frame's origin, world axes",
+    "trunk/angular_velocity": "rad/s, world axes",
+    "contact_force": "N, on the foot, world axes, mean until the next row",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Content:
+    """samples: at the rate asked for. playing: at a rate that a robot can follow; mostly the same.
+
+    provenance: task, robot, scene, seed, versions, command. feedback: the stabiliser; None if none goes with the rows.
+    """
+
+    motion: Motion
+    model: mujoco.MjModel
+    samples: Samples
+    playing: Samples
+    provenance: dict[str, Any]
+    feedback: Feedback | None = None
+
+
+def provenance(motion: Motion, command: str | None) -> dict[str, Any]:
+    """Where a motion came from, what it meets, and how well it does; JSON."""
+    from levade.version import __version__
+
+    scene = task_to_dict(motion.task, code=True)["scene"]
+    if scene["terrain"]:  # its heights are in the motion
+        scene["terrain"] = {name: value for name, value in scene["terrain"].items() if name != "heights"}
+    return {
+        "levade": __version__,
+        "command": command,
+        "task": motion.task_name,
+        "robot": motion.robot,
+        "seed": motion.provenance.seed,
+        "success": motion.result.success,
+        "errors": dict(motion.result.errors),
+        "engine": motion.provenance.engine,
+        "made_with": dict(motion.provenance.versions),
+        "timestep": motion.timestep,
+        "horizon": motion.horizon,
+        "scene": scene,
+    }
+
+
+def surroundings(motion: Motion) -> str:
+    """What the motion meets beside flat ground, in words; empty if nothing."""
+    scene = motion.task.scene
+    count = lambda what, plural, items: [f"{len(items)} {what if len(items) == 1 else plural}"] * bool(items)  # noqa: E731
+    parts = count("box", "boxes", scene.boxes) + count("gap", "gaps", scene.gaps)
+    parts += ["terrain"] * (scene.terrain is not None)
+    parts += [f"a slope of {scene.slope:g} rad"] * bool(scene.slope)
+    return " and ".join(parts)
+
+
+def held(motion: Motion) -> dict[str, float]:
+    """Joints that the simulation holds, and nothing commands -> their positions [rad], of slides [m]."""
+    return dict(motion.held)
+
+
+def describe(
+    samples: Samples,
+    provenance: dict[str, Any],
+    feedback: Feedback | None = None,
+    held: Mapping[str, float] | None = None,
+) -> dict[str, Any]:
+    """Describe a table of samples beyond its rows.
+
+    Args:
+        samples: The rows.
+        provenance: See `provenance`.
+        feedback: The stabiliser, if one goes with the rows.
+        held: See `held`.
+
+    Returns:
+        JSON. Limits are null where there is none.
+    """
+    joints = samples.joints
+    return {
+        "provenance": provenance,
+        "rate": samples.rate,
+        "rows": len(samples.time),
+        "duration": float(samples.time[-1]),
+        "reference": samples.reference,
+        "between_steps": "policy" if samples.analytic else "cubic",
+        "joints": list(joints.names),
+        "kp": joints.kp.tolist(),
+        "kd": joints.kd.tolist(),
+        "limits": {name: finite(getattr(joints, name)) for name in ("lower", "upper", "velocity", "torque")},
+        "start": {"position": joints.start_position.tolist(), "torque": joints.start_torque.tolist()},
+        "held": dict(held or {}),
+        "units": UNITS,
+        "feedback": None if feedback is None else _describe(feedback, joints.names),
+    }
+
+
+def _describe(feedback: Feedback, joints: tuple[str, ...]) -> dict[str, Any]:
+    """All about a stabiliser but its arrays; JSON."""
+    return {
+        "rate": 1.0 / feedback.period,
+        "latency": feedback.period,
+        "bound": feedback.bound,
+        "sensed": names(joints),
+        "columns": [*names(joints), *(f"{joint}/correction" for joint in joints)],
+    }

@@ -1,0 +1,145 @@
+"""The formats, and how a motion is put into one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from levade.errors import LevadeError, did_you_mean
+from levade.exports import as_csv, as_json, as_mjlab, as_ros2, as_unitree
+from levade.exports.content import Content, held, provenance, surroundings
+from levade.exports.directory import filling
+from levade.exports.samples import Samples, sample
+from levade.feedback import Feedback
+from levade.motions import Motion
+
+SLOW = 200.0
+"""[Hz]: commands that stay in force for longer than 5 ms are no longer those of a motion of tenths of seconds."""
+
+Write = Callable[[Content, Path], list[str]]
+
+
+@dataclass(frozen=True)
+class Format:
+    """write: puts the files into a directory, returns notes for the user. rate: [Hz]; None for the simulation's.
+
+    plays: whether its rows are fit to be sent to a robot; else the files for playing are at the simulation's rate.
+    check: raises LevadeError where the motion cannot be put into the format.
+    """
+
+    description: str
+    write: Write
+    rate: float | None = None
+    plays: bool = True
+    check: Callable[[Motion], object] | None = None
+
+
+FORMATS = {
+    "csv": Format("a table, with meta.json", as_csv.write),
+    "json": Format("everything in one file", as_json.write),
+    "ros2": Format("an MCAP bag and a JointTrajectory in YAML", as_ros2.write, check=as_ros2.check),
+    "mjlab": Format("a reference motion for mjlab's tracking task", as_mjlab.write, as_mjlab.RATE, plays=False),
+    "unitree": Format("low-level motor commands", as_unitree.write, as_unitree.RATE, check=as_unitree.motors),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Exported:
+    """What was written. notes: sentences that the user should read."""
+
+    format: str
+    directory: Path
+    written: tuple[Path, ...]
+    samples: Samples
+    notes: tuple[str, ...]
+
+
+def export(
+    motion: Motion,
+    to: str,
+    directory: Path,
+    *,
+    rate: float | None = None,
+    reference: str = "measured",
+    hold: bool = True,
+    kp: float | None = None,
+    kd: float | None = None,
+    command: str | None = None,
+) -> Exported:
+    """Write a motion in a format, all files of it or none.
+
+    rate: [Hz], instead of the format's. reference, hold, kp, kd: see `levade.exports.samples.sample`. command: how it was
+    asked for, for the record. Raises LevadeError if the format does not exist or the motion does not fit into it.
+    """
+    if to not in FORMATS:
+        raise LevadeError(f"--to: no format {to!r}; {did_you_mean(to, FORMATS)}")
+    form = FORMATS[to]
+    if form.check is not None:
+        form.check(motion)
+    model = motion.compiled()
+    own = 1.0 / motion.timestep
+
+    def at(rate: float) -> Samples:
+        return sample(motion, model, rate=rate, reference=reference, hold=hold, kp=kp, kd=kd)
+
+    samples = at(rate if rate is not None else form.rate or own)
+    playing = samples if form.plays else at(own)
+    feedback = _feedback(motion, playing, own_gains=kp is None and kd is None)
+    content = Content(motion, model, samples, playing, provenance(motion, command), feedback)
+    with filling(directory) as partial:
+        notes = form.write(content, partial)
+        names = sorted(path.relative_to(partial) for path in partial.rglob("*") if path.is_file())
+    if (
+        feedback is None and Path(as_csv.META) in names
+    ):  # of an earlier export to the same directory: nothing here says any more that it belongs to it
+        (directory / as_csv.FEEDBACK).unlink(missing_ok=True)
+    notes = [*_notes(motion, playing), *_feedback_notes(motion, feedback), *notes]
+    return Exported(to, directory, tuple(directory / name for name in names), samples, tuple(notes))
+
+
+def _feedback(motion: Motion, playing: Samples, *, own_gains: bool) -> Feedback | None:
+    """The motion's stabiliser, where it fits what is played: drives of the same gains, and a row at each of its ticks."""
+    feedback = motion.feedback
+    if feedback is None or not own_gains:
+        return None
+    rows = playing.rate * feedback.period
+    return feedback if rows > 0.5 and abs(rows - round(rows)) < 1e-6 else None
+
+
+def _feedback_notes(motion: Motion, feedback: Feedback | None) -> list[str]:
+    own = motion.feedback
+    if own is None or feedback is not None:
+        return []
+    return [
+        f"the stabiliser is left out: it goes with the simulation's gains, and with rates that are"
+        f" multiples of {1 / own.period:g} Hz"
+    ]
+
+
+def _notes(motion: Motion, samples: Samples) -> list[str]:
+    """What the user of the files should know before the robot does."""
+    notes = [] if motion.result.success else ["the motion does not meet its success criteria"]
+    if around := surroundings(motion):
+        notes.append(
+            f"the motion needs {around} where its task has it (scene in the provenance); the rows do not say so"
+        )
+    if samples.rate < SLOW:
+        notes.append(
+            f"{samples.rate:g} Hz is slow for sending to a robot, for whose motion {SLOW:g} Hz or more is right"
+        )
+    if still := held(motion):
+        angles = ", ".join(f"{joint} {angle:g}" for joint, angle in still.items())
+        notes.append(
+            f"the simulation holds {angles} [rad, slides m], and no command says so: hold them there (meta: held)"
+        )
+    joints = samples.joints
+    over = np.maximum(joints.lower - samples.command_position, samples.command_position - joints.upper).max(axis=0)
+    if (over > 0).any():
+        names = ", ".join(name for name, by in zip(joints.names, over, strict=True) if by > 0)
+        notes.append(
+            f"positions to send go beyond the range of {names}, by up to {over.max():.3f} rad; player.py clamps them"
+        )
+    return notes
