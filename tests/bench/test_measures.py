@@ -89,6 +89,12 @@ def test_a_summary_is_of_one_task_robot_and_optimizer(make) -> None:
     assert summarise([make(200), make(300, seed=1, until="budget")])[0].until == "mixed"
 
 
+def test_runs_from_before_an_optimizer_had_its_name_are_with_those_from_after(make) -> None:
+    before, after = make(200, optimizer="levade"), make(300, optimizer="cma-aimed", seed=1)
+    assert grouped([before, after]) == {("rearing", "hyq2max"): {"levade": [before, after]}}
+    assert before.key == make(200, optimizer="cma-aimed").key
+
+
 def test_the_table_in_markdown(make) -> None:
     text = markdown(summarise([make(200), make(None, optimizer="a|b")]))
     lines = text.splitlines()

@@ -42,12 +42,19 @@ def test_a_plan_is_the_product_of_its_lists(tmp_path: Path) -> None:
 
 def test_left_out_the_task_decides() -> None:
     (only,) = cases(Plan(tasks=("rearing",), seeds=1))
-    assert only.key == ("rearing", "hyq2max", "levade", 0)
+    assert only.key == ("rearing", "hyq2max", "cma-aimed", 0)
     assert (only.task.search.trials, only.task.search.polish, only.budget_steps) == (3009, 340, None)
     (through,) = cases(Plan(tasks=("rearing",), seeds=1, until="budget"))
     assert through.task.search.polish is None
     assert through.checksum != only.checksum
     assert Plan(tasks=("rearing",)).seed_list == (0, 1, 2, 3, 4)
+
+
+def test_an_alias_is_kept_as_a_label_and_finds_the_same_results() -> None:
+    (by_name,) = cases(Plan(tasks=("rearing",), optimizers=("cma-aimed",), seeds=1))
+    (by_alias,) = cases(Plan(tasks=("rearing",), optimizers=("levade",), seeds=1))
+    assert (by_name.optimizer, by_alias.optimizer) == ("cma-aimed", "levade")
+    assert (by_name.key, by_name.checksum) == (by_alias.key, by_alias.checksum)
 
 
 def test_settings_of_the_tasks_optimizer_are_not_for_another(tmp_path: Path) -> None:
@@ -75,6 +82,7 @@ def test_settings_of_the_tasks_optimizer_are_not_for_another(tmp_path: Path) -> 
         ("{tasks: [rearing], until: solved}", r"until: .*success.* or .*budget"),
         ("{tasks: [rearin]}", r"no task 'rearin'; did you mean rearing\?"),
         ("{tasks: [rearing], robots: [hyq]}", r"no robot 'hyq'; did you mean hyq2max\?"),
+        ("{tasks: [rearing], optimizers: [levade, cma-aimed]}", r"optimizers: cma-aimed is there twice"),
         ("{tasks: [rearing], optimizers: [cmaa]}", r"optimizers: no optimizer 'cmaa'; did you mean cma\?"),
         ("{tasks: [rearing], optimizers: {mine: {}}}", r"optimizers: no optimizer 'mine'"),
         (

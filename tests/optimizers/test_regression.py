@@ -138,6 +138,8 @@ def test_points_stay_finite_whatever_the_slope(size: float, farthest: float) -> 
     assert np.isfinite(moved).all()
     if size == 0:
         np.testing.assert_array_equal(moved, drawn)
+        origin = np.zeros((1, 6))
+        np.testing.assert_array_equal(corrected(origin, np.array([170.0, -16.0]), slope, 100.0), origin)
 
 
 @pytest.mark.parametrize(("n", "m"), [(40, 12), (12, 40), (20, 20)])

@@ -11,6 +11,7 @@ import signal
 import subprocess
 import sys
 import time
+import zlib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -165,6 +166,22 @@ def test_a_run_of_any_optimizer_goes_on_to_the_same_end(
     assert_same_end(tmp_path / "part", whole)
     other = run(objective, seed=4, directory=tmp_path / "other")
     assert not np.array_equal(other.motion["weights"], whole.motion["weights"])
+
+
+def test_a_run_from_when_the_default_was_called_levade_goes_on_to_the_same_end(tmp_path: Path) -> None:
+    """Its task file has the alias, and its checkpoint the checksum of that file."""
+    changes = [*CHANGES, "search.optimizer=cma-aimed"]
+    whole = run(load_task("rearing", changes=changes), seed=3, threads=1, directory=tmp_path / "whole")
+    part = tmp_path / "part"
+    run(load_task("rearing", changes=changes), seed=3, threads=1, directory=part, observe=stop_after(3))
+    text = (part / TASK).read_text()
+    assert text.count("optimizer: cma-aimed\n") == 1
+    text = text.replace("optimizer: cma-aimed\n", "optimizer: levade\n")
+    (part / TASK).write_text(text)
+    assert json.loads((part / CHECKPOINT).read_text().splitlines()[0])["task_checksum"] == zlib.crc32(text.encode())
+    assert load_task(part / TASK) == load_task(tmp_path / "whole" / TASK)
+    assert resume(part, threads=1).motion.meta == whole.motion.meta
+    assert (part / CHECKPOINT).read_bytes() == (tmp_path / "whole" / CHECKPOINT).read_bytes()
 
 
 def test_it_may_be_interrupted_again_and_again(

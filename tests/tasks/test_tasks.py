@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import re
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +18,17 @@ from levade.errors import LevadeError
 from levade.robots import dimensions, load_robot
 from levade.search import make_objective
 from levade.search.optimizing import make_attempt
-from levade.tasks import Cost, Search, Task, builtin_tasks, load_task, task_from_dict, task_to_dict, task_to_yaml
+from levade.tasks import (
+    Cost,
+    Search,
+    Task,
+    builtin_tasks,
+    load_task,
+    task_checksum,
+    task_from_dict,
+    task_to_dict,
+    task_to_yaml,
+)
 from levade.tasks.units import UNITS, to_si
 
 BUILT_IN = list(builtin_tasks())
@@ -141,6 +152,30 @@ def test_a_short_task_has_sound_defaults() -> None:
     assert task_from_dict(task_to_dict(task), where="x") == task
     several = minimal(costs={"up": {"term": "position", "weight": 1, "z": 0.5}, "position": {"weight": 2, "x": 1.0}})
     assert set(task_from_dict(several, where="x").costs) == {"up", "position"}
+
+
+def test_an_alias_of_an_optimizer_becomes_its_name() -> None:
+    task = load_task("rearing")
+    assert task.search.optimizer == "cma-aimed"
+    aimed = load_task("rearing", changes=["search.settings={aimed: 3}"])
+    for name in ("levade", "cma-aimed"):
+        assert load_task("rearing", changes=[f"search.optimizer={name}"]) == task
+        assert task_from_dict(minimal(search={"optimizer": name}), where="x").search == Search()
+        kept = load_task("rearing", changes=[f"search.optimizer={name}", "search.settings={aimed: 3}"])
+        assert kept == aimed
+    assert Search(optimizer="levade") == Search()
+    assert "optimizer: cma-aimed\n" in task_to_yaml(task)
+
+
+def test_the_checksum_is_of_the_task_and_of_what_else_decides() -> None:
+    task = load_task("rearing")
+    first = task_to_yaml(task).replace("optimizer: cma-aimed", "optimizer: levade")
+    assert task_checksum(task) == zlib.crc32(first.encode())  # as in runs and benches from before it had this name
+    assert task_checksum(task, None) == zlib.crc32(f"{first}None".encode())
+    others = [
+        task_checksum(load_task("rearing", changes=[change])) for change in ("search.optimizer=cma", "horizon=0.4")
+    ]
+    assert len({task_checksum(task), task_checksum(task, 7), *others}) == 4
 
 
 def test_units_become_si() -> None:

@@ -24,7 +24,7 @@ from levade.optimizers.choice import (
 from levade.optimizers.cmaes import CMAES
 from levade.optimizers.mppi import MPPI
 from levade.optimizers.pi2 import PI2, PI2CMA
-from levade.optimizers.protocol import Optimizer, UsesErrors
+from levade.optimizers.protocol import Optimizer, UsesErrors, uses_errors
 from levade.optimizers.random_search import RandomSearch
 from levade.optimizers.space import SearchSpace
 
@@ -46,4 +46,5 @@ __all__ = [
     "canonical",
     "make_optimizer",
     "settings",
+    "uses_errors",
 ]

@@ -20,7 +20,7 @@ def adapted(optimizer: Any, size: int) -> Optimizer:
         size: Weights of a candidate, d.
 
     Returns:
-        An optimizer; it is a `UsesErrors` if the object has ``forget_costs``.
+        An optimizer; a `UsesErrors` if the object has ``forget_costs``.
 
     Raises:
         LevadeError: If it lacks ``ask`` or ``tell``.

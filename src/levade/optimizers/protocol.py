@@ -21,7 +21,7 @@ To make resumed searches repeat to the bit, draw random numbers from ``numpy.ran
 
 from __future__ import annotations
 
-from typing import Protocol, runtime_checkable
+from typing import Protocol, TypeGuard
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,12 +64,8 @@ class Optimizer(Protocol):
         ...
 
 
-@runtime_checkable
-class UsesErrors(Protocol):
-    """An `Optimizer` that also uses the signed errors behind the costs: by how much candidates miss each criterion.
-
-    ``isinstance`` tells it by its methods alone. It reads no property: reading `population` may be a reason to ask.
-    """
+class UsesErrors(Optimizer, Protocol):
+    """An optimizer that also uses the signed errors behind the costs: by how much candidates miss each criterion."""
 
     def tell(self, cost: Array, errors: Array | None = None) -> None:
         """Learn from the candidates that `ask` returned last.
@@ -88,3 +84,11 @@ class UsesErrors(Protocol):
             changed: Which of the errors have another meaning, too, shape (k,).
         """
         ...
+
+
+def uses_errors(optimizer: Optimizer) -> TypeGuard[UsesErrors]:
+    """Whether an optimizer is a `UsesErrors`, by its method ``forget_costs``.
+
+    ``isinstance`` would read its properties on Python 3.11, and to read `population` can be a reason to ask.
+    """
+    return callable(getattr(optimizer, "forget_costs", None))

@@ -187,8 +187,9 @@ def corrected(
     with np.errstate(over="ignore", invalid="ignore"):
         moved = drawn - np.linalg.solve(normal, excess.T).T @ slope.T
         moved = np.where(np.isfinite(np.linalg.norm(moved, axis=1, keepdims=True)), moved, drawn)
-    reach = np.linalg.norm(moved, axis=1, keepdims=True)
-    return np.asarray(moved * np.minimum(farthest / np.maximum(reach, np.finfo(float).tiny), 1.0))
+        reach = np.linalg.norm(moved, axis=1, keepdims=True)
+        share = np.minimum(farthest / np.maximum(reach, np.finfo(float).tiny), 1.0)
+    return np.asarray(moved * share)
 
 
 def ridge(difference: Array, change: Array) -> Array:

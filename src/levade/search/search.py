@@ -13,14 +13,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator, Mapping
 from dataclasses import replace
-from typing import cast
 
 import numpy as np
 
 from levade.arrays import Array
 from levade.costs import DIVERGED
 from levade.errors import LevadeError
-from levade.optimizers import Optimizer, SearchSpace, UsesErrors
+from levade.optimizers import Optimizer, SearchSpace, uses_errors
 from levade.search.evaluation import Evaluation, Trials
 from levade.search.initial import InitialGuess
 from levade.search.optimizing import make_attempt
@@ -358,7 +357,7 @@ class Search:
         Args:
             hold: Whether another part of the hold is simulated, too, so that errors that look at it change.
         """
-        if isinstance(self._optimizer, UsesErrors):
+        if uses_errors(self._optimizer):
             criteria = self._task.success.values()
             self._optimizer.forget_costs(np.array([hold and looks_at_hold(criterion) for criterion in criteria]))
 
@@ -368,8 +367,8 @@ def _rank(trial: Trial) -> tuple[bool, float, float]:
 
 
 def _tell(optimizer: Optimizer, task: Task, cost: Array, evaluation: Evaluation) -> None:
-    if isinstance(optimizer, UsesErrors):
-        cast(UsesErrors, optimizer).tell(cost, _missed(task, evaluation))
+    if uses_errors(optimizer):
+        optimizer.tell(cost, _missed(task, evaluation))
     else:
         optimizer.tell(cost)
 

@@ -315,8 +315,8 @@ def task_checksum(task: Task, *more: object) -> int:
     """
     content = task_to_dict(task, code=True)
     first = {name: alias for alias, name in ALIASES.items()}
-    if isinstance(task.search.optimizer, str):
-        content["search"]["optimizer"] = first.get(task.search.optimizer, task.search.optimizer)
+    name = content["search"]["optimizer"]
+    content["search"]["optimizer"] = first.get(name, name) if isinstance(name, str) else name
     return zlib.crc32("".join([_yaml(content), *map(str, more)]).encode())
 
 
