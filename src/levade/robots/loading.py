@@ -87,7 +87,9 @@ def load_robot(
     place = path.parent / form.model
     if not place.is_file():
         raise LevadeError(f"{path}: model: no file {place}")
-    draft = read_model(place)
+    draft = read_model(
+        place, trunk=form.trunk, joints=[joint for leg in form.legs.values() for joint in leg.joints]
+    )
     if form.trunk is not None:
         float_freely(draft, form.trunk, path)
     if variant is not None:

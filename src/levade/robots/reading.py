@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 import xml.etree.ElementTree as ET
+from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import count
@@ -21,6 +22,7 @@ from levade.robots.findings import Finding, named, note, warning
 from levade.robots.meshes import find_mesh, read_mesh
 from levade.robots.servos import Servo, read_servos
 from levade.robots.urdf import read_urdf
+from levade.robots.world import collide_as_paired, float_alone, leave_only, robot_root
 from levade.trajectory import Array
 
 _UNITS = "kg and kg m2"
@@ -64,8 +66,17 @@ class Draft:
             raise LevadeError(f"{self.path}: {_explain(error)}") from None
 
 
-def read_model(path: Path) -> Draft:
-    """Read an MJCF or URDF file. Raises LevadeError."""
+def read_model(path: Path, *, trunk: str | None = None, joints: Iterable[str] = ()) -> Draft:
+    """Read an MJCF or URDF file.
+
+    Args:
+        path: The file.
+        trunk: Name of a body of the robot, where a description gives one: the rest of the world is left out.
+        joints: Names of joints of the robot, likewise.
+
+    Raises:
+        LevadeError: If the file cannot be read or simulated.
+    """
     try:
         content = path.read_text(encoding="utf-8")
     except UnicodeDecodeError:
@@ -77,15 +88,16 @@ def read_model(path: Path) -> Draft:
     _name_everything(draft.spec)
     _check_ranges(draft)
     model = draft.compile()
+    root = robot_root(draft.spec, model, trunk=trunk, joints=joints, where=str(path))
     if not draft.urdf:
         _say_what_is_mended(draft)
         servos = read_servos(model)
         draft.driven = {name for name, servo in servos.items() if servo.driven}
         draft.servos = {name: servo for name, servo in servos.items() if servo.kp is not None}
         draft.effort = {name: servo.torque for name, servo in servos.items() if np.isfinite(servo.torque)}
-        draft.keyframes = _keyframes(model)
+        draft.keyframes = _keyframes(model, root)
     _keep_massless(draft, model)
-    _strip(draft)
+    _strip(draft, model, root)
     return draft
 
 
@@ -263,11 +275,11 @@ def _keep_massless(draft: Draft, model: mujoco.MjModel) -> None:
             body.ipos, body.inertia = [0.0, 0.0, 0.0], [1e-12, 1e-12, 1e-12]
 
 
-def _keyframes(model: mujoco.MjModel) -> list[Keyframe]:
-    free = [j for j in range(model.njnt) if model.jnt_type[j] == mujoco.mjtJoint.mjJNT_FREE]
-    if len(free) != 1:
+def _keyframes(model: mujoco.MjModel, root: str | None) -> list[Keyframe]:
+    free = -1 if root is None else int(model.body(root).jntadr[0])
+    if free < 0 or model.jnt_type[free] != mujoco.mjtJoint.mjJNT_FREE:
         return []
-    first = model.jnt_qposadr[free[0]] + 3
+    first = model.jnt_qposadr[free] + 3
     hinges = [j for j in range(model.njnt) if model.jnt_type[j] == mujoco.mjtJoint.mjJNT_HINGE]
     return [
         Keyframe(
@@ -279,46 +291,15 @@ def _keyframes(model: mujoco.MjModel) -> list[Keyframe]:
     ]
 
 
-def _strip(draft: Draft) -> None:
+def _strip(draft: Draft, model: mujoco.MjModel, root: str | None) -> None:
     """Leave the bare robot: without actuators, sensors, keyframes, and what stands in the world beside it."""
     spec = draft.spec
     for element in [*spec.sensors, *spec.actuators, *spec.keys]:
         spec.delete(element)
-    world = spec.worldbody
-    of_world = {geom.name for geom in world.geoms if geom.name}
-    for pair in [pair for pair in spec.pairs if {pair.geomname1, pair.geomname2} & of_world]:
-        spec.delete(pair)
-    if world.geoms and not draft.urdf:
-        draft.findings.append(
-            note(
-                "worldbody",
-                f"{len(world.geoms)} geoms of the world (floor, obstacles) are left out",
-                "a task's scene says what the robot stands on",
-            )
-        )
-    for element in [*world.geoms, *world.sites, *spec.lights, *spec.cameras]:
-        spec.delete(element)
-    robots = [body for body in world.bodies if any(_moves(child) for child in body.bodies)]
-    for body in [body for body in world.bodies if (body not in robots if robots else not _moves(body))]:
-        draft.findings.append(note(f"body {body.name}", "of the world, is left out"))
-        _delete_body(spec, body)
-
-
-def _moves(body) -> bool:
-    return bool(body.joints) or any(_moves(child) for child in body.bodies)
-
-
-def _delete_body(spec: mujoco.MjSpec, body) -> None:
-    """With what else names it or its shapes."""
-    bodies, geoms = {body.name}, {geom.name for geom in body.find_all("geom") if geom.name}
-    bodies |= {child.name for child in body.find_all("body")}
-    for pair in [pair for pair in spec.pairs if {pair.geomname1, pair.geomname2} & geoms]:
-        spec.delete(pair)
-    for exclude in [exclude for exclude in spec.excludes if {exclude.bodyname1, exclude.bodyname2} & bodies]:
-        spec.delete(exclude)
-    for equality in [equality for equality in spec.equalities if {equality.name1, equality.name2} & bodies]:
-        spec.delete(equality)
-    spec.delete(body)
+    if not draft.urdf:
+        collide_as_paired(spec, model, root, draft.findings)
+    leave_only(spec, root, draft.findings)
+    float_alone(spec, draft.findings)
 
 
 def _explain(error: Exception) -> str:

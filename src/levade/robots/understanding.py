@@ -137,6 +137,11 @@ def find_legs(model: mujoco.MjModel, trunk: int, where: str) -> tuple[tuple[Leg,
     return tuple(found[name] for name in LEG_NAMES.values()), others
 
 
+def has_legs(model: mujoco.MjModel, trunk: int) -> bool:
+    """Whether four legs hang on the body of that id."""
+    return _four_alike(model, find_limbs(model, trunk)) is not None
+
+
 def _four_alike(model: mujoco.MjModel, limbs: list[Limb]) -> list[Limb] | None:
     """The four serial limbs of three hinges, or of two; where there are more, the four whose hinges are those of a leg."""
     for count in (3, 2):
