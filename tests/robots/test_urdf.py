@@ -259,7 +259,7 @@ def test_joints_that_mimic_others_and_a_world_link_are_no_trouble(file: Path, qu
     robot = load(file, quadruped().urdf(), ("</robot>", f"{world}{tail}</robot>"))
     assert robot.trunk == "trunk"
     assert robot.mass == pytest.approx(quadruped().mass + 0.3)
-    assert any("joint wag: mimics another joint" in said for said in findings(robot, "note"))
+    assert any("joint wag: follows other joints (wag = 1 lf_haa)" in said for said in findings(robot, "warning"))
 
 
 def test_light_links_get_armature_for_stable_servos(file: Path, quadruped: type) -> None:

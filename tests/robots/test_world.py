@@ -110,13 +110,17 @@ def test_of_two_robots_the_description_names_one(tmp_path: Path, quadruped: type
     inside = text[text.index(TRUNK) : text.index("</worldbody>")]
     renamed = inside.replace('name="', 'name="b_').replace('mass="6.0"', 'mass="7.0"')
     text = text.replace("</worldbody>", renamed + "</worldbody>")
-    with pytest.raises(LevadeError, match=r"2 bodies float freely \(trunk, b_trunk\); name the robot's in a robot.yaml"):
+    with pytest.raises(
+        LevadeError, match=r"2 bodies float freely \(trunk, b_trunk\); name the robot's in a robot.yaml"
+    ):
         load(tmp_path, text)
     assert load(tmp_path, text, yaml="trunk: b_trunk\n").joint_names[0] == "b_lf_haa"
     legs = "".join(
         f"  {leg}: {{joints: [{leg}_haa, {leg}_hfe, {leg}_kfe], foot: {leg}_foot, side: {side}, end: {end}}}\n"
-        for leg, side, end in (("lf", "left", "front"), ("rf", "right", "front"), ("lh", "left", "hind"), ("rh", "right", "hind"))
-    )  # fmt: skip
+        for leg, side, end in zip(
+            ("lf", "rf", "lh", "rh"), ("left", "right") * 2, ("front",) * 2 + ("hind",) * 2, strict=True
+        )
+    )
     assert load(tmp_path, text, yaml=f"legs:\n{legs}").mass == pytest.approx(quadruped().mass - 4 * 0.05)
 
 

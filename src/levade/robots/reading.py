@@ -19,6 +19,7 @@ import numpy as np
 
 from levade.errors import LevadeError
 from levade.robots.findings import Finding, named, note, warning
+from levade.robots.loops import Coupling, Loop, take_couplings, take_loops
 from levade.robots.meshes import find_mesh, read_mesh
 from levade.robots.servos import Servo, read_servos
 from levade.robots.urdf import read_urdf
@@ -31,11 +32,15 @@ _FUSED = " The static bodies of the spec were fused before this error, and remai
 
 @dataclass(frozen=True)
 class Keyframe:
-    """A pose that an MJCF comes with. quaternion: of the trunk. angles: joint -> [rad]."""
+    """A pose that an MJCF comes with.
+
+    quaternion: of the trunk. angles: joint -> [rad] of hinges, [m] of slides. balls: joint -> quaternion (4,).
+    """
 
     name: str
     quaternion: Array
     angles: dict[str, float]
+    balls: dict[str, Array] = field(default_factory=dict)
 
 
 @dataclass
@@ -43,7 +48,9 @@ class Draft:
     """A robot's file, read.
 
     effort [Nm], velocity [rad/s]: joint -> limit, of those that have one. servos: joint -> position servo.
-    driven: joints of an MJCF that an actuator drives. origins: what of the robot came from where, see `Robot`.
+    driven: joints of an MJCF that an actuator drives. couplings: joints that follow others. loops: bodies that were
+    held together. held: joint that was taken out -> its angle [rad], or [m]. origins: what of the robot came from where,
+    see `Robot`.
     """
 
     path: Path
@@ -55,6 +62,9 @@ class Draft:
     servos: dict[str, Servo] = field(default_factory=dict)
     driven: set[str] = field(default_factory=set)
     keyframes: list[Keyframe] = field(default_factory=list)
+    couplings: list[Coupling] = field(default_factory=list)
+    loops: list[Loop] = field(default_factory=list)
+    held: dict[str, float] = field(default_factory=dict)
     findings: list[Finding] = field(default_factory=list)
     origins: dict[str, str] = field(default_factory=dict)
 
@@ -98,6 +108,8 @@ def read_model(path: Path, *, trunk: str | None = None, joints: Iterable[str] = 
         draft.keyframes = _keyframes(model, root)
     _keep_massless(draft, model)
     _strip(draft, model, root)
+    if not draft.urdf:
+        draft.couplings, draft.loops = take_couplings(draft.spec, model), take_loops(draft.spec)
     return draft
 
 
@@ -134,7 +146,16 @@ def _read_urdf(path: Path, root: ET.Element) -> Draft:
             for geom in body.geoms:
                 if geom.contype or geom.conaffinity:
                     geom.group = 3  # where there is something to look at, what collides need not be drawn
-    return Draft(path, spec, source.assets, True, source.effort, source.velocity, findings=source.findings)
+    return Draft(
+        path,
+        spec,
+        source.assets,
+        True,
+        source.effort,
+        source.velocity,
+        couplings=source.couplings,
+        findings=source.findings,
+    )
 
 
 def _read_mjcf(path: Path) -> Draft:
@@ -280,14 +301,18 @@ def _keyframes(model: mujoco.MjModel, root: str | None) -> list[Keyframe]:
     if free < 0 or model.jnt_type[free] != mujoco.mjtJoint.mjJNT_FREE:
         return []
     first = model.jnt_qposadr[free] + 3
-    hinges = [j for j in range(model.njnt) if model.jnt_type[j] == mujoco.mjtJoint.mjJNT_HINGE]
+    places = {model.joint(j).name: int(model.jnt_qposadr[j]) for j in range(model.njnt)}
+    kinds = {model.joint(j).name: mujoco.mjtJoint(int(model.jnt_type[j])) for j in range(model.njnt)}
+    scalars = [name for name, kind in kinds.items() if kind.name in ("mjJNT_HINGE", "mjJNT_SLIDE")]
+    balls = [name for name, kind in kinds.items() if kind.name == "mjJNT_BALL"]
     return [
         Keyframe(
             model.key(k).name,
-            model.key_qpos[k, first : first + 4].copy(),
-            {model.joint(j).name: float(model.key_qpos[k, model.jnt_qposadr[j]]) for j in hinges},
+            pose[first : first + 4].copy(),
+            {name: float(pose[places[name]]) for name in scalars},
+            {name: pose[places[name] : places[name] + 4].copy() for name in balls},
         )
-        for k in range(model.nkey)
+        for k, pose in enumerate(model.key_qpos)
     ]
 
 

@@ -37,6 +37,7 @@ class Robot:
     variant: name of the description's variant, None for the plain model.
     linkage: whether ``limits`` has the linkage's torque curves. source: the description's path, for messages.
     findings: what was noticed, chosen and left out when the robot was read.
+    held: joint of the file that is held fixed -> its angle [rad], or place [m] of a slide.
     origins: of "legs", "neutral", "torque", "velocity", "gains" and, where there are such joints, "fixed": what decided.
     """
 
@@ -53,6 +54,7 @@ class Robot:
     linkage: bool = False
     source: str = ""
     findings: tuple[Finding, ...] = ()
+    held: Mapping[str, float] = field(default_factory=dict)
     origins: Mapping[str, str] = field(default_factory=dict, repr=False)
 
     @property

@@ -13,8 +13,9 @@ from pathlib import Path
 
 import numpy as np
 
-from levade.errors import LevadeError
+from levade.errors import LevadeError, did_you_mean
 from levade.robots.findings import Finding, named, note, warning
+from levade.robots.loops import Coupling
 from levade.robots.meshes import coarse, find_mesh, read_mesh
 
 _WORLD = "levade-world"
@@ -32,13 +33,14 @@ class UrdfSource:
     """A URDF, mended.
 
     text: for MuJoCo's reader; its meshes are named by bare, unique names. assets: name -> content.
-    effort [Nm], velocity [rad/s]: joint -> limit, where the file has a positive one.
+    effort [Nm], velocity [rad/s]: joint -> limit, where the file has a positive one. couplings: joints that mimic others.
     """
 
     text: str
     assets: dict[str, bytes] = field(default_factory=dict)
     effort: dict[str, float] = field(default_factory=dict)
     velocity: dict[str, float] = field(default_factory=dict)
+    couplings: list[Coupling] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)
 
 
@@ -145,10 +147,11 @@ def _check_joints(path: Path, joints: dict[str, ET.Element], source: UrdfSource)
             raise LevadeError(
                 f"{path}: joint {name}: type {kind!r} is none that levade simulates; {', '.join(_KNOWN_JOINTS)}"
             )
-        if joint.find("mimic") is not None and kind != "fixed":
-            joint.set("type", "fixed")
-            source.findings.append(note(f"joint {name}", "mimics another joint, which is not simulated: held fixed"))
-            continue
+        mimic = joint.find("mimic")
+        if mimic is not None:
+            joint.remove(mimic)
+            if kind != "fixed":
+                source.couplings.append(_mimicry(path, name, mimic, joints))
         limit = joint.find("limit")
         if limit is None and kind == "revolute":
             limit = ET.SubElement(joint, "limit")
@@ -170,6 +173,15 @@ def _check_joints(path: Path, joints: dict[str, ET.Element], source: UrdfSource)
                     f"{path}: joint {name}: limits leave it no room, both are {lower:g}; give a range, or make it fixed"
                 )
             joint.set("type", "continuous")
+
+
+def _mimicry(path: Path, name: str, mimic: ET.Element, joints: dict[str, ET.Element]) -> Coupling:
+    where = f"{path}: joint {name}: mimic"
+    leader = mimic.get("joint", "")
+    if leader not in joints or leader == name:
+        raise LevadeError(f"{where}: no other joint {leader!r}; {did_you_mean(leader, set(joints) - {name})}")
+    slope, offset = (_number(mimic.get(key), f"{where} {key}") for key in ("multiplier", "offset"))
+    return Coupling(name, leader, (offset or 0.0, 1.0 if slope is None else slope), "<mimic>")
 
 
 def _mend_inertial(path: Path, name: str, link: ET.Element) -> tuple[str, float]:

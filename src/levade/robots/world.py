@@ -81,7 +81,9 @@ def leave_only(spec: mujoco.MjSpec, root: str | None, findings: list[Finding]) -
     for element in [*world.geoms, *world.sites, *spec.lights, *spec.cameras]:
         spec.delete(element)
     if gone:
-        findings.append(note(named("body", [body.name for body in gone]), "of the world, left out: no part of the robot"))
+        findings.append(
+            note(named("body", [body.name for body in gone]), "of the world, left out: no part of the robot")
+        )
     for body in gone:
         spec.delete(body)
 
@@ -113,9 +115,7 @@ def float_alone(spec: mujoco.MjSpec, findings: list[Finding]) -> None:
         findings.append(warning(named("body", [body.name for body in floating]), what, remedy))
 
 
-def collide_as_paired(
-    spec: mujoco.MjSpec, model: mujoco.MjModel, root: str | None, findings: list[Finding]
-) -> None:
+def collide_as_paired(spec: mujoco.MjSpec, model: mujoco.MjModel, root: str | None, findings: list[Finding]) -> None:
     """Let shapes collide that touch the world only by a <pair>: a scene's ground is not the one that the pair names."""
     own = {body.name for body in (_tree(spec.body(root)) if root is not None else spec.bodies[1:])}
     of_world = {geom.name for geom in spec.geoms if geom.name and geom.parent.name not in own}
@@ -157,8 +157,7 @@ def tendon_bodies(tendon: mujoco.MjsTendon) -> set[str]:
     """Names of the bodies whose joints, sites or shapes a tendon runs over."""
     found = set()
     for wrap in tendon.path:
-        with_body = wrap.type != mujoco.mjtWrap.mjWRAP_PULLEY and wrap.target is not None
-        if with_body:
+        if wrap.type != mujoco.mjtWrap.mjWRAP_PULLEY and wrap.target is not None:
             found.add(wrap.target.parent.name)
     return found
 
