@@ -12,6 +12,7 @@ from levade.errors import LevadeError, did_you_mean
 from levade.robots.actuation import DCMotor
 from levade.robots.anatomy import understand
 from levade.robots.driving import SERVO, find_actuation, find_limits
+from levade.robots.files import is_model
 from levade.robots.packages import find_package_robot, package_robots
 from levade.robots.posing import pose
 from levade.robots.preparing import (
@@ -145,10 +146,10 @@ def _describe(path: Path) -> RobotForm:
     """The description at a path; for a model, the robot.yaml beside it that describes it, or else a bare one."""
     from levade.robots.description import RobotForm, read_description
 
-    if path.suffix.lower() not in _MODELS:
+    if path.suffix.lower() not in _MODELS and not is_model(path):
         return read_description(path)
     beside = path.with_name("robot.yaml")
-    if beside.is_file():
+    if beside.is_file() and not is_model(beside):
         form = read_description(beside)
         if Path(form.model).name == path.name:
             return form

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 import xml.etree.ElementTree as ET
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import count
@@ -18,9 +18,10 @@ import mujoco
 import numpy as np
 
 from levade.errors import LevadeError
-from levade.robots.findings import Finding, named, note, warning
+from levade.robots.assets import compile_readable, read_assets
+from levade.robots.files import parts, read_xml
+from levade.robots.findings import Finding, named, warning
 from levade.robots.loops import Coupling, Loop, take_couplings, take_loops
-from levade.robots.meshes import find_mesh, read_mesh
 from levade.robots.servos import Servo, read_servos
 from levade.robots.urdf import read_urdf
 from levade.robots.world import collide_as_paired, float_alone, leave_only, robot_root
@@ -87,17 +88,13 @@ def read_model(path: Path, *, trunk: str | None = None, joints: Iterable[str] = 
     Raises:
         LevadeError: If the file cannot be read or simulated.
     """
-    try:
-        content = path.read_text(encoding="utf-8")
-    except UnicodeDecodeError:
-        raise LevadeError(f"{path}: not a text file; give an MJCF or URDF") from None
-    except OSError as error:
-        raise LevadeError(f"{path}: cannot be read ({error.strerror})") from None
-    root = _parse(path, content)
-    draft = _read_urdf(path, root) if root is not None and root.tag == "robot" else _read_mjcf(path)
+    content = read_xml(path)
+    element = _parse(path, content)
+    urdf = element if element is not None and element.tag == "robot" else None
+    draft = _read_mjcf(path, content) if urdf is None else _read_urdf(path, urdf)
     _name_everything(draft.spec)
     _check_ranges(draft)
-    model = draft.compile()
+    model = compile_readable(draft)
     root = robot_root(draft.spec, model, trunk=trunk, joints=joints, where=str(path))
     if not draft.urdf:
         _say_what_is_mended(draft)
@@ -118,7 +115,7 @@ def _parse(path: Path, content: str) -> ET.Element | None:
     if not content.strip():
         raise LevadeError(f"{path}: is empty; give an MJCF or URDF")
     try:
-        root = ET.fromstring(content.encode())
+        root = ET.fromstring(content)
     except ET.ParseError as error:
         if "<mujoco" in content:
             with suppress(ValueError):
@@ -126,7 +123,8 @@ def _parse(path: Path, content: str) -> ET.Element | None:
                 return None
         raise LevadeError(f"{path}: broken XML ({error}); mend it there") from None
     if root.tag not in ("robot", "mujoco"):
-        raise LevadeError(f"{path}: starts with <{root.tag}>; a URDF starts with <robot>, an MJCF with <mujoco>")
+        tag = root.tag.rpartition("}")[2][:40]
+        raise LevadeError(f"{path}: starts with <{tag}>; a URDF starts with <robot>, an MJCF with <mujoco>")
     return root
 
 
@@ -158,79 +156,33 @@ def _read_urdf(path: Path, root: ET.Element) -> Draft:
     )
 
 
-def _read_mjcf(path: Path) -> Draft:
+def _read_mjcf(path: Path, content: str) -> Draft:
+    pieces = {name: (place, text) for name, place, text in parts(path, content)}
     try:
-        spec = mujoco.MjSpec.from_file(str(path))
+        spec = _mjcf_spec(path, content, pieces)
     except ValueError as error:
         raise LevadeError(f"{path}: {_explain(error)}") from None
     draft = Draft(path, spec, {}, False)
-    names: dict[Path, str] = {}
-    for kind, folder in (("meshes", spec.meshdir), ("hfields", spec.meshdir), ("textures", spec.texturedir)):
-        for element in getattr(spec, kind):
-            files = [file for file in (element.file, *getattr(element, "cubefiles", ())) if file]
-            if not files:
-                continue
-            place = find_mesh(str(Path(folder) / element.file), path.parent) if element.file else None
-            element.name = element.name or Path(files[0]).stem
-            problem = None if place is not None else f"missing: {files[0]}"
-            if place is not None and place not in names:
-                try:
-                    suffix, content = read_mesh(place) if kind == "meshes" else (place.suffix, place.read_bytes())
-                    stem = f"{place.stem}{suffix}"
-                    names[place] = stem if stem not in draft.assets else f"{len(draft.assets)}-{stem}"
-                    draft.assets[names[place]] = content
-                except (LevadeError, OSError) as error:
-                    problem = str(error)
-            if problem is None and place is not None:
-                element.file = names[place]
-            else:
-                _do_without(draft, kind, element, problem or "")
-    spec.meshdir = spec.texturedir = ""
-    spec.assets = draft.assets
+    for skin in list(spec.skins):  # only looked at
+        spec.delete(skin)
+    folders = [path.parent, *dict.fromkeys(place.parent for place, _ in pieces.values())]
+    read_assets(draft, folders)
     return draft
 
 
-def _do_without(draft: Draft, kind: str, element, problem: str) -> None:
-    """Take a mesh whose file cannot be had out of the model, if the physics does not need it."""
-    spec, name = draft.spec, element.name
-    if kind == "textures":
-        draft.findings.append(note(f"texture {name}", f"not shown, {problem}"))
-        for material in spec.materials:
-            material.textures = ["" if texture == name else texture for texture in material.textures]
-        spec.delete(element)
-        return
-    users = [geom for geom in spec.geoms if (geom.meshname if kind == "meshes" else geom.hfieldname) == name]
-    for geom in users:
-        body = geom.parent
-        others = [g for g in body.geoms if g not in users]
-        colliding = bool(geom.contype or geom.conaffinity)
-        if not body.explicitinertial and not _massless(geom) and body.name != "world":
-            raise LevadeError(
-                f"{draft.path}: the inertia of body {body.name} comes from the mesh {name}, {problem};"
-                " put the file where it says, or give the body an <inertial>"
-            )
-        if colliding and not any(g.contype or g.conaffinity for g in others):
-            draft.findings.append(
-                warning(
-                    f"body {body.name}",
-                    f"collides with nothing, {problem}",
-                    "put the file where it says, or give the body a collision primitive",
-                )
-            )
-        elif colliding:
-            draft.findings.append(
-                warning(
-                    f"body {body.name}", f"collides as its other geoms only, {problem}", "put the file where it says"
-                )
-            )
-        else:
-            draft.findings.append(note(f"body {body.name}", f"not shown as its mesh, {problem}"))
-        spec.delete(geom)
-    spec.delete(element)
+def _mjcf_spec(path: Path, content: str, pieces: Mapping[str, tuple[Path, str]]) -> mujoco.MjSpec:
+    """What MuJoCo makes of an MJCF. Its own reader goes by the file's name, and takes every encoding for UTF-8."""
+    if path.suffix == ".xml" and all(map(_is_utf8, (path, *(place for place, _ in pieces.values())))):
+        return mujoco.MjSpec.from_file(str(path))
+    return mujoco.MjSpec.from_string(content, include={name: text.encode() for name, (_, text) in pieces.items()})
 
 
-def _massless(geom) -> bool:
-    return geom.mass == 0 or (np.isnan(geom.mass) and geom.density == 0)
+def _is_utf8(path: Path) -> bool:
+    try:
+        path.read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        return False
+    return True
 
 
 def _name_everything(spec: mujoco.MjSpec) -> None:

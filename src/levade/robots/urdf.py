@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 import numpy as np
 
@@ -61,6 +61,7 @@ def read_urdf(path: Path, root: ET.Element) -> UrdfSource:
         raise LevadeError(
             f"{path}: has {len(roots)} root links ({', '.join(roots[:3]) or 'a loop'}); it should have one"
         )
+    folders = _mesh_folders(path, root)
     base = _real_root(root, links, joints, roots[0])
     _check_joints(path, joints, source)
     losses: dict[str, list[tuple[str, str]]] = {}
@@ -74,7 +75,7 @@ def read_urdf(path: Path, root: ET.Element) -> UrdfSource:
         problem, moment = _mend_inertial(path, name, link)
         if problem:
             mended.setdefault(problem, {})[name] = moment
-        _mend_shapes(path, name, link, source, losses)
+        _mend_shapes(path, name, link, source, losses, folders)
     if without:
         remedy = "give mass and inertia, or the motion is that of nothing"
         source.findings.append(warning(named("link", without), "no inertial", remedy))
@@ -240,7 +241,12 @@ def _name_shapes_apart(links: dict[str, ET.Element]) -> None:
 
 
 def _mend_shapes(
-    path: Path, name: str, link: ET.Element, source: UrdfSource, losses: dict[str, list[tuple[str, str]]]
+    path: Path,
+    name: str,
+    link: ET.Element,
+    source: UrdfSource,
+    losses: dict[str, list[tuple[str, str]]],
+    folders: list[Path],
 ) -> None:
     """Give meshes their content, and leave out those that cannot be had."""
     collisions = link.findall("collision")
@@ -254,7 +260,7 @@ def _mend_shapes(
                 continue
             if mesh is None:
                 continue
-            problem = _attach_mesh(path, mesh, source, visual=kind == "visual")
+            problem = _attach_mesh(path, mesh, source, folders, visual=kind == "visual")
             if problem is None:
                 continue
             link.remove(shape)
@@ -278,10 +284,19 @@ def _lost(kind: str, losses: list[tuple[str, str]]) -> Finding:
     )
 
 
-def _attach_mesh(path: Path, mesh: ET.Element, source: UrdfSource, *, visual: bool) -> str | None:
+def _mesh_folders(path: Path, root: ET.Element) -> list[Path]:
+    """Where MuJoCo looks for meshes: in the folder that the URDF's extension for MuJoCo names, and beside the file."""
+    compiler = root.find("mujoco/compiler")
+    named = [] if compiler is None else [compiler.get(key) for key in ("meshdir", "assetdir")]
+    return [path.parent / folder for folder in (*filter(None, named), "")]
+
+
+def _attach_mesh(path: Path, mesh: ET.Element, source: UrdfSource, folders: list[Path], *, visual: bool) -> str | None:
     """Name the mesh's content; a reason if it cannot be had."""
     reference = mesh.get("filename", "")
-    place = find_mesh(reference, path.parent)
+    bare = PurePosixPath(reference.replace("\\", "/")).name
+    also = [folder / name for folder in folders for name in (reference, bare) if name]
+    place = find_mesh(reference, path.parent, also)
     if place is None:
         return f"{reference} is missing"
     scale = mesh.get("scale", "1 1 1")
@@ -291,6 +306,8 @@ def _attach_mesh(path: Path, mesh: ET.Element, source: UrdfSource, *, visual: bo
         suffix, content = read_mesh(place)
     except LevadeError as error:
         return str(error)
+    except OSError as error:
+        return f"{place.name} cannot be read ({error.strerror})"
     if visual and suffix == ".stl" and len(content) > _LARGE_VISUAL:
         content = coarse(content)
     # MuJoCo names a mesh asset after its file: one file for each scale and content
