@@ -10,6 +10,7 @@ import mujoco
 import numpy as np
 
 from levade.errors import LevadeError
+from levade.robots.inertias import survive_text
 from levade.robots.reading import Draft
 from levade.robots.world import delete_tendons
 from levade.trajectory import Array
@@ -76,7 +77,7 @@ def fix_joints(draft: Draft, angles: Mapping[str, Angle], path: Path) -> dict[st
         LevadeError: If a joint cannot be held at that angle.
     """
     if not draft.urdf:  # as text, frames and Euler angles are gone, and angles are in radians
-        draft.compile()
+        survive_text(draft)
         draft.spec = mujoco.MjSpec.from_string(draft.spec.to_xml(), assets=draft.assets)
         draft.spec.assets = draft.assets
     spec = draft.spec

@@ -13,6 +13,7 @@ from levade.robots.actuation import DCMotor
 from levade.robots.anatomy import understand
 from levade.robots.driving import SERVO, find_actuation, find_limits
 from levade.robots.files import is_model
+from levade.robots.inertias import survive_text
 from levade.robots.packages import find_package_robot, package_robots
 from levade.robots.posing import pose
 from levade.robots.preparing import (
@@ -100,7 +101,7 @@ def load_robot(
         support_servos(draft, bare, neutral, chosen)
     thin_visuals(draft, bare.model)
     lighten(draft)
-    model = draft.compile()
+    model = survive_text(draft)
     return Robot(
         name=form.name,
         mjcf=draft.spec.to_xml(),

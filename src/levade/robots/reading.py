@@ -21,7 +21,9 @@ from levade.errors import LevadeError
 from levade.robots.assets import compile_readable, read_assets
 from levade.robots.files import parts, read_xml
 from levade.robots.findings import Finding, named, warning
+from levade.robots.inertias import lift_explicit
 from levade.robots.loops import Coupling, Loop, take_couplings, take_loops
+from levade.robots.ranges import check_ranges, doubt_ranges
 from levade.robots.servos import Servo, read_servos
 from levade.robots.urdf import read_urdf
 from levade.robots.world import collide_as_paired, float_alone, leave_only, robot_root
@@ -93,8 +95,14 @@ def read_model(path: Path, *, trunk: str | None = None, joints: Iterable[str] = 
     urdf = element if element is not None and element.tag == "robot" else None
     draft = _read_mjcf(path, content) if urdf is None else _read_urdf(path, urdf)
     _name_everything(draft.spec)
-    _check_ranges(draft)
+    check_ranges(draft.spec, str(path))
+    if not draft.urdf:
+        lift_explicit(draft.spec)
     model = compile_readable(draft)
+    doubts = doubt_ranges(draft.spec, model)
+    if doubts:
+        draft.findings += doubts
+        model = draft.compile()
     root = robot_root(draft.spec, model, trunk=trunk, joints=joints, where=str(path))
     if not draft.urdf:
         _say_what_is_mended(draft)
@@ -202,17 +210,6 @@ def _free_name(name: str, taken: set[str]) -> str:
     free = name if name not in taken else next(n for i in count(1) if (n := f"{name}_{i}") not in taken)
     taken.add(free)
     return free
-
-
-def _check_ranges(draft: Draft) -> None:
-    """Raise LevadeError for joints whose limits are inverted: MuJoCo takes them for none."""
-    for joint in draft.spec.joints:
-        lower, upper = joint.range
-        if lower > upper and joint.limited != mujoco.mjtLimited.mjLIMITED_FALSE:
-            raise LevadeError(
-                f"{draft.path}: joint {joint.name}: limits are inverted, lower {lower:g} is above upper {upper:g};"
-                " exchange them"
-            )
 
 
 def _say_what_is_mended(draft: Draft) -> None:

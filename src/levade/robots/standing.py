@@ -89,7 +89,8 @@ class Bare:
             return (pivot - anchor + turned) @ flat
 
         lower, upper = (limit - angles[knee] for limit in self.ranges[knee])
-        if not np.isfinite([lower, upper]).all() or upper - lower > 2 * np.pi:
+        wide = not np.isfinite([lower, upper]).all() or upper - lower > 2 * np.pi
+        if wide:
             lower, upper = -np.pi, np.pi
         scan = np.linspace(lower + _MARGIN, upper - _MARGIN, _SCAN)
         gaps = np.linalg.norm(across(scan), axis=1) - wanted
@@ -105,8 +106,9 @@ class Bare:
             down = flat @ np.array([0.0, 0.0, -1.0])
             turn = float(np.arctan2(axis @ np.cross(vector, down), vector @ down))
             turned = _within(angles[hip] + turn, *self.ranges[hip])
-            if turned is not None:
-                candidates.append({**angles, knee: angles[knee] + bend, hip: turned})
+            bent = _within(angles[knee] + bend, *self.ranges[knee]) if wide else angles[knee] + bend
+            if turned is not None and bent is not None:
+                candidates.append({**angles, knee: bent, hip: turned})
         if not candidates:
             return None
         return min(candidates, key=lambda bent: self._outward(leg, bent))
@@ -170,6 +172,7 @@ def _stands(bare: Bare, frame: Keyframe) -> bool:
 
 
 def _within(angle: float, lower: float, upper: float) -> float | None:
-    """The angle, or the same one a turn away, inside a range; None if none is."""
-    turned = (angle + turns * 2 * np.pi for turns in (0, -1, 1))
-    return next((float(a) for a in turned if lower + _MARGIN <= a <= upper - _MARGIN), None)
+    """Of an angle and those that are turns away, the one inside a range that is nearest to zero; None if none is."""
+    turned = (angle + turns * 2 * np.pi for turns in (0, -1, 1, -2, 2))
+    inside = [float(a) for a in turned if lower + _MARGIN <= a <= upper - _MARGIN]
+    return min(inside, key=abs) if inside else None

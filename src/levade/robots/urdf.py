@@ -15,6 +15,7 @@ import numpy as np
 
 from levade.errors import LevadeError, did_you_mean
 from levade.robots.findings import Finding, named, note, warning
+from levade.robots.inertias import lifted
 from levade.robots.loops import Coupling
 from levade.robots.meshes import coarse, find_mesh, read_mesh
 
@@ -208,7 +209,12 @@ def _mend_inertial(path: Path, name: str, link: ET.Element) -> tuple[str, float]
     tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     principal = np.linalg.eigvalsh(tensor)
     least = mass * _SMALLEST**2
-    if principal[0] > least and principal[0] + principal[1] >= principal[2] * (1 - 1e-6):
+    if principal[0] > least and principal[0] + principal[1] >= principal[2] * (1 + 1e-6):
+        return "", 0.0
+    edge = lifted(tensor) if principal[2] > least else None
+    if edge is not None:
+        for (i, k), key in zip(((0, 0), (1, 1), (2, 2)), ("ixx", "iyy", "izz"), strict=True):
+            inertia.set(key, repr(float(edge[i, k])))
         return "", 0.0
     # what no body can have: the sphere of the same mean inertia, or one of water where there is none at all
     mean = float(np.mean(np.diag(tensor)))
