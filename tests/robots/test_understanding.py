@@ -13,7 +13,7 @@ import pytest
 
 from levade.errors import LevadeError
 from levade.robots import Robot, load_robot, mirror_signs
-from levade.robots.doctor import Patient
+from levade.robots.doctor import Patient, inspect
 
 FRONT, HIND = (("lf", 1, 1), ("rf", 1, -1)), (("lh", -1, 1), ("rh", -1, -1))
 MIDDLE = (("lm", 0, 1), ("rm", 0, -1))
@@ -302,3 +302,16 @@ def test_a_torque_limit_of_the_description_is_what_a_joint_gets(quadruped: type,
     assert (abs(model.jnt_actfrcrange[1:][limited]) == 35).all()
     (tmp_path / "robot.yaml").write_text("model: toy.urdf\nlimits: {torque: 5}\n")
     assert load_robot(path).limits.torque.tolist() == [5.0] * 12
+
+
+@pytest.mark.parametrize("description", ["with.yaml", "with2.yaml"])
+def test_legs_described_by_hand_may_have_other_roles(description: str) -> None:
+    """A hexapod: no joint of it is an abduction; gains come from the length of its links, all of them."""
+    robot = load_robot(Path(__file__).parent / "cases" / "hexa" / description)
+    assert (len(robot.legs), len(robot.joint_names)) == (6, 18)
+    assert [leg.roles for leg in robot.legs[::3]] != [("haa", "hfe", "kfe")] * 2
+    assert not [finding for finding in inspect(robot) if finding.kind == "warning"]
+    length = Patient(robot).leg_length
+    assert length == pytest.approx(0.06 + 0.12 + 0.16, abs=1e-6)
+    if description == "with.yaml":
+        np.testing.assert_allclose(robot.actuation.kp, robot.mass * 9.81 * 0.5 * length / (4 * 0.1))

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 _ROOM = 3e-5
 """Share of C by which A + B is to be larger: more than what rounding to six digits can take away."""
+_LEAST = 1e-14
+"""[kg m2]; MuJoCo takes less for nothing."""
 ROUNDED = 0.01
 """Share of C by which A + B may be below it, and A below zero: a file that has two or three digits."""
 
@@ -53,7 +55,7 @@ def lift_explicit(spec: mujoco.MjSpec) -> None:
             continue
         least, middle, most = np.linalg.eigvalsh(tensor)
         slight = 1e-6 * most if body.compiler.balanceinertia else np.inf
-        if least + middle >= most or most - least - middle > slight:
+        if (least > _LEAST and least + middle >= most) or most - least - middle > slight:
             continue
         better = lifted(tensor)
         if better is not None and not np.isnan(body.fullinertia).any():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -51,8 +52,11 @@ class Bare:
         return tip(self.model, data, self.model.geom(leg.foot).id, self.model.joint(leg.joints[-1]).id)
 
     def leg_length(self, leg: Leg) -> float:
-        """[m], from hip flexion over the knee to the end of the foot, along the links."""
+        """[m], from hip flexion over the knee to the end of the foot, along the links; of other legs, along all of them."""
         data = self.data_at(self._zero(leg))
+        if not {"hfe", "kfe"} <= set(leg.roles):
+            points = [*(data.joint(joint).xanchor for joint in leg.joints), self.tip(data, leg)]
+            return float(sum(np.linalg.norm(b - a) for a, b in itertools.pairwise(points)))
         hip, knee = (data.joint(leg.joints[leg.roles.index(role)]).xanchor for role in ("hfe", "kfe"))
         axis = data.joint(leg.joints[leg.roles.index("hfe")]).xaxis
         flat = np.eye(3) - np.outer(axis, axis)

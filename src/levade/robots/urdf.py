@@ -14,12 +14,13 @@ from pathlib import Path, PurePosixPath
 import numpy as np
 
 from levade.errors import LevadeError, did_you_mean
-from levade.robots.findings import Finding, named, note, warning
+from levade.robots.findings import Finding, named, note, some, warning
 from levade.robots.inertias import lifted
 from levade.robots.loops import Coupling
 from levade.robots.meshes import coarse, find_mesh, read_mesh
 
 _WORLD = "levade-world"
+_NAME_OF_WORLD = "world"
 _DUMMY = 1e-4
 """[kg]: links below it are markers that somebody's parser needed, not bodies."""
 _LARGE_VISUAL, _HUGE_VISUAL = 1_500_000, 12_000_000
@@ -63,7 +64,8 @@ def read_urdf(path: Path, root: ET.Element) -> UrdfSource:
             f"{path}: has {len(roots)} root links ({', '.join(roots[:3]) or 'a loop'}); it should have one"
         )
     folders = _mesh_folders(path, root)
-    base = _real_root(root, links, joints, roots[0])
+    base = _real_root(path, root, links, joints, roots[0], source.findings)
+    parents = {_link(joint, "child"): name for name, joint in joints.items()}
     _check_joints(path, joints, source)
     losses: dict[str, list[tuple[str, str]]] = {}
     mended: dict[str, dict[str, float]] = {}
@@ -122,19 +124,87 @@ def _tree(path: Path, links: dict[str, ET.Element], joints: dict[str, ET.Element
     return parents
 
 
-def _real_root(root: ET.Element, links: dict[str, ET.Element], joints: dict[str, ET.Element], base: str) -> str:
+def _real_root(
+    path: Path,
+    root: ET.Element,
+    links: dict[str, ET.Element],
+    joints: dict[str, ET.Element],
+    base: str,
+    findings: list[Finding],
+) -> str:
     """The link that floats: not a "world" that the file itself ties the robot to by a floating or fixed joint."""
     while True:
-        hanging = [(name, joint) for name, joint in joints.items() if _link(joint, "parent") == base]
+        hanging = {name: joint for name, joint in joints.items() if _link(joint, "parent") == base}
         bare = links[base].find("inertial") is None and links[base].find("collision") is None
-        floating = len(hanging) == 1 and hanging[0][1].get("type") == "floating"
-        world = len(hanging) == 1 and base == "world" and hanging[0][1].get("type") == "fixed"
-        if not (bare and (floating or world)):
-            return base
-        name, joint = hanging[0]
+        loose = all(joint.get("type") in ("floating", "fixed") for joint in hanging.values())
+        if base.lower() == _NAME_OF_WORLD and hanging and loose:
+            carriers = [name for name in hanging if _carries_joints(joints, name)] or list(hanging)[:1]
+            if len(carriers) > 1:
+                names = [_link(joints[name], "child") for name in carriers]
+                raise LevadeError(f"{path}: link {base} carries {len(names)} robots ({some(names)}); keep one of them")
+            beside = [link for name in hanging if name != carriers[0] for link in _remove(root, links, joints, name)]
+            if beside:
+                findings.append(note(named("link", beside), f"fixed to the {base}, left out: no part of the robot"))
+            (name,) = carriers
+        elif bare and len(hanging) == 1 and [joint.get("type") for joint in hanging.values()] == ["floating"]:
+            (name,) = hanging
+        else:
+            break
+        child = _link(joints[name], "child")
         root.remove(links.pop(base))
         root.remove(joints.pop(name))
-        base = _link(joint, "child")
+        base = child
+    if bare and base.lower() == _NAME_OF_WORLD and hanging:
+        raise LevadeError(
+            f"{path}: joint {next(iter(hanging))} moves the robot against the link {base}, so that it does not float"
+            " freely; make that joint floating or fixed"
+        )
+    return _rename_worlds(links, joints, base)
+
+
+def _rename_worlds(links: dict[str, ET.Element], joints: dict[str, ET.Element], base: str) -> str:
+    """Give a link of the robot that is called world another name, since MuJoCo's reader takes it for its own world."""
+    if _NAME_OF_WORLD not in links:
+        return base
+    name = next(n for n in (f"{_NAME_OF_WORLD}{'_' * k}link" for k in range(1, len(links) + 2)) if n not in links)
+    renamed = {name if link == _NAME_OF_WORLD else link: element for link, element in links.items()}
+    links.clear()
+    links.update(renamed)
+    links[name].set("name", name)
+    for joint in joints.values():
+        for end in ("parent", "child"):
+            element = joint.find(end)
+            if element is not None and element.get("link") == _NAME_OF_WORLD:
+                element.set("link", name)
+    return name if base == _NAME_OF_WORLD else base
+
+
+def _carries_joints(joints: dict[str, ET.Element], name: str) -> bool:
+    """Whether anything beyond a joint moves."""
+    return any(joints[further].get("type") != "fixed" for further in _beyond(joints, name))
+
+
+def _beyond(joints: dict[str, ET.Element], name: str) -> list[str]:
+    """The joints that a joint carries."""
+    found, waiting = [], [_link(joints[name], "child")]
+    while waiting:
+        link = waiting.pop()
+        further = [other for other, joint in joints.items() if _link(joint, "parent") == link]
+        found += further
+        waiting += [_link(joints[other], "child") for other in further]
+    return found
+
+
+def _remove(root: ET.Element, links: dict[str, ET.Element], joints: dict[str, ET.Element], name: str) -> list[str]:
+    """Take a joint and what it carries out of the file; the names of the links that are gone."""
+    gone = []
+    for joint in [name, *_beyond(joints, name)]:
+        element = joints.pop(joint)
+        link = _link(element, "child")
+        root.remove(element)
+        root.remove(links.pop(link))
+        gone.append(link)
+    return gone
 
 
 def _link(joint: ET.Element, end: str) -> str:
