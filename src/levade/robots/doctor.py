@@ -23,6 +23,7 @@ from levade.robots.dimensions import dimensions
 from levade.robots.findings import Finding, named, note, some, warning
 from levade.robots.preparing import TIMESTEP
 from levade.robots.robot import Robot
+from levade.robots.settling import doubt_standing
 from levade.robots.shapes import support
 from levade.robots.standing import Bare
 from levade.robots.symmetry import mirror_signs
@@ -82,6 +83,7 @@ def inspect(robot: Robot) -> list[Finding]:
     found = list(robot.findings)
     for check in (_masses, _ranges, _torques, _feet, _shapes, _back, _servos, _symmetry, _frame, _physics):
         found += check(patient)
+    found += doubt_standing(robot)
     return sorted(dict.fromkeys(found), key=lambda finding: finding.kind != "warning")
 
 

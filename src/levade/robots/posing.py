@@ -106,6 +106,8 @@ def _neutral(draft: Draft, bare: Bare, path: Path, torque: Array) -> dict[str, f
         if all(abs(needed[joint]) <= limit for joint, limit in zip(bare.joints, torque, strict=True)):
             break
     else:
+        if reachable is None and _upside_down(bare):
+            raise LevadeError(f"{path}: its feet are above its hips: it seems that -z is up there; turn the model")
         if reachable is None:
             raise LevadeError(
                 f"{path}: no standing posture within the joints' ranges has the feet under the hips; give one:"
@@ -115,3 +117,10 @@ def _neutral(draft: Draft, bare: Bare, path: Path, torque: Array) -> dict[str, f
     draft.origins["neutral"] = f"found by search: feet under the hips, {extension:.0%} of the leg's length below"
     draft.findings.append(note("posture neutral", draft.origins["neutral"]))
     return angles
+
+
+def _upside_down(bare: Bare) -> bool:
+    """Whether every foot is above its hip, the joints in the middle of their ranges."""
+    middle = {joint: float(np.mean(limits)) for joint, limits in bare.ranges.items() if np.isfinite(limits).all()}
+    data = bare.data_at(middle)
+    return all(bare.tip(data, leg)[2] > data.joint(leg.joints[0]).xanchor[2] for leg in bare.legs)

@@ -146,9 +146,10 @@ def find_legs(model: mujoco.MjModel, trunk: int, where: str) -> tuple[tuple[Leg,
         for centre in centres
     ]
     if sorted(quadrants) != sorted(LEG_NAMES):
+        turned = _turned(model, data, legs[0], np.array([data.xaxis[j] for j in legs[0].joints]))
         raise LevadeError(
             f"{where}: its four legs are not left, right, front and hind in the frame of {model.body(trunk).name}"
-            " (x forward, y left, z up); turn that frame"
+            f" (x forward, y left, z up); {f'it seems that {turned} there: ' if turned else ''}turn that frame"
         )
     found = {}
     for limb, (side, end) in zip(legs, quadrants, strict=True):
@@ -242,12 +243,35 @@ def _check_roles(model: mujoco.MjModel, data: mujoco.MjData, trunk: int, limb: L
     if named.count("hfe") == named.count("kfe") == 1:
         return
     axes = np.array([data.xaxis[j] for j in limb.joints])
-    turned = sorted(_role_axes(axes[:, [1, 0, 2]])) == sorted(_role_axes(np.eye(3)[[0, 1, 1]][-len(axes) :]))
-    remedy = "it seems that y is forward there: turn the model" if turned else "this limb is no such leg"
+    turned = _turned(model, data, limb, axes)
+    remedy = f"it seems that {turned} there: turn the model" if turned else "this limb is no such leg"
     raise LevadeError(
         f"{where}: joints {', '.join(names)} turn about {', '.join(map(_axis_name, axes))} of {model.body(trunk).name};"
         f" levade knows legs of hip abduction (about x), hip flexion and knee (about y), x forward; {remedy}"
     )
+
+
+def _turned(model: mujoco.MjModel, data: mujoco.MjData, limb: Limb, axes: Array) -> str:
+    """Which axes point forward and up, if the limb is a leg in another frame; empty if it is none."""
+    along = _role_axes(axes)
+    left = along[-1]
+    if along[-2] != left or (len(along) > 2 and along[0] == left):
+        return ""
+    body = int(model.jnt_bodyid[limb.joints[-1]])
+    tips = [data.geom_xpos[g] for g in range(model.ngeom) if int(model.geom_bodyid[g]) == body and _collides(model, g)]
+    if not tips:
+        return ""
+    hang = tips[0] - data.xanchor[limb.joints[0]]
+    if int(np.argmax(np.abs(hang))) == left:
+        return ""
+    # three hinges say which way is up; of two, the leg hangs down more than it reaches forward
+    up = 3 - left - along[0] if len(along) > 2 else int(np.argmax(np.abs(hang)))
+    forward = 3 - left - up
+    if (forward, left, up) == (0, 1, 2):
+        return ""
+    if up == 2:
+        return f"{'xyz'[forward]} is forward"
+    return f"{'-' if hang[up] > 0 else ''}{'xyz'[up]} is up and {'xyz'[forward]} along the robot"
 
 
 def _role_axes(axes: Array) -> list[int]:
