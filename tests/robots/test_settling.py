@@ -64,7 +64,7 @@ def test_a_simulation_that_breaks_down_is_a_finding(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     robot = load(tmp_path, quadruped().mjcf())
-    robot = replace(robot, actuation=replace(robot.actuation, kd=np.full(12, -1e4), torque=np.full(12, np.inf)))
+    robot = replace(robot, actuation=replace(robot.actuation, kp=np.full(12, 1e12), torque=np.full(12, np.inf)))
     assert [str(f) for f in doubt_standing(robot) if "does not stand in its neutral posture" in str(f)]
     assert capfd.readouterr() == ("", "")
     assert not (tmp_path / "MUJOCO_LOG.TXT").exists()

@@ -265,6 +265,8 @@ def _servos(patient: Patient) -> Iterator[Finding]:
     mujoco.mj_makeM(model, data)
     inertia = np.zeros((model.nv, model.nv))
     mujoco.mj_fullM(model, data, inertia)
+    if not np.isfinite(inertia).all() or not np.isfinite(np.linalg.inv(inertia)).all():
+        return  # masses beyond all measure, which are said elsewhere
     dofs = [int(model.joint(joint).dofadr[0]) for joint in robot.joint_names]
     stiffness, damping = np.zeros(model.nv), np.zeros(model.nv)
     stiffness[dofs], damping[dofs] = robot.actuation.kp, robot.actuation.kd

@@ -23,6 +23,7 @@ from levade.robots.files import parts, read_xml
 from levade.robots.findings import Finding, named, warning
 from levade.robots.inertias import lift_explicit
 from levade.robots.loops import Coupling, Loop, take_couplings, take_loops
+from levade.robots.quiet import quiet
 from levade.robots.ranges import check_ranges, doubt_ranges
 from levade.robots.servos import Servo, read_servos
 from levade.robots.urdf import read_urdf
@@ -90,6 +91,11 @@ def read_model(path: Path, *, trunk: str | None = None, joints: Iterable[str] = 
     Raises:
         LevadeError: If the file cannot be read or simulated.
     """
+    with quiet():
+        return _read(path, trunk, joints)
+
+
+def _read(path: Path, trunk: str | None, joints: Iterable[str]) -> Draft:
     content = read_xml(path)
     element = _parse(path, content)
     urdf = element if element is not None and element.tag == "robot" else None

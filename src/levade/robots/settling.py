@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 
 import mujoco
@@ -18,6 +17,7 @@ from levade.errors import LevadeError
 from levade.robots.dimensions import dimensions
 from levade.robots.findings import Finding, named, warning
 from levade.robots.preparing import TIMESTEP
+from levade.robots.quiet import quiet
 from levade.robots.robot import Robot
 
 TIME = 1.0
@@ -52,7 +52,7 @@ def settle(robot: Robot) -> Settled:
     for i, (name, angle) in enumerate(zip(robot.joint_names, neutral, strict=True)):
         data.joint(name).qpos[0] = angle
         data.ctrl[2 * i] = angle
-    with _quiet():
+    with quiet():
         mujoco.mj_step(model, data, nstep=round(TIME / TIMESTEP))
         mujoco.mj_forward(model, data)
     depth = {
@@ -96,7 +96,8 @@ def _remedy(robot: Robot) -> str:
     weight = float(model.body_mass.sum())
     kp = gains.stiffness(weight, dimensions(robot).leg)
     if float(robot.actuation.kp.min()) < 0.5 * kp:
-        return f"stiffer servos: robot.yaml, actuations: {{servo: {{kind: pid, kp: {float(f'{kp:.2g}'):g}}}}}, or a standing posture"
+        servo = f"{{servo: {{kind: pid, kp: {float(f'{kp:.2g}'):g}}}}}"
+        return f"stiffer servos: robot.yaml, actuations: {servo}, or a standing posture"
     return "check masses, torque limits, and robot.yaml, postures: {neutral: ...}"
 
 
@@ -136,14 +137,3 @@ def _on_ground(robot: Robot) -> mujoco.MjModel:
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     spec.option.cone, spec.option.impratio = mujoco.mjtCone.mjCONE_ELLIPTIC, 10.0
     return spec.compile()
-
-
-@contextmanager
-def _quiet() -> Iterator[None]:
-    """Simulations that break down are a finding, no message on standard error."""
-    before = mujoco.get_mju_user_warning()
-    mujoco.set_mju_user_warning(lambda message: None)
-    try:
-        yield
-    finally:
-        mujoco.set_mju_user_warning(before)
