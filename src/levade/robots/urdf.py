@@ -223,7 +223,7 @@ def _check_joints(path: Path, joints: dict[str, ET.Element], source: UrdfSource)
         if mimic is not None:
             joint.remove(mimic)
             if kind != "fixed":
-                source.couplings.append(_mimicry(path, name, mimic, joints))
+                source.couplings.append(_mimicry(path, name, mimic, joints, source.findings))
         limit = joint.find("limit")
         if limit is None and kind == "revolute":
             limit = ET.SubElement(joint, "limit")
@@ -247,12 +247,18 @@ def _check_joints(path: Path, joints: dict[str, ET.Element], source: UrdfSource)
             joint.set("type", "continuous")
 
 
-def _mimicry(path: Path, name: str, mimic: ET.Element, joints: dict[str, ET.Element]) -> Coupling:
+def _mimicry(
+    path: Path, name: str, mimic: ET.Element, joints: dict[str, ET.Element], findings: list[Finding]
+) -> Coupling:
     where = f"{path}: joint {name}: mimic"
     leader = mimic.get("joint", "")
-    if leader not in joints or leader == name:
-        raise LevadeError(f"{where}: no other joint {leader!r}; {did_you_mean(leader, set(joints) - {name})}")
     slope, offset = (_number(mimic.get(key), f"{where} {key}") for key in ("multiplier", "offset"))
+    if leader not in joints or leader == name:
+        hint = did_you_mean(leader, set(joints) - {name})
+        findings.append(
+            warning(f"joint {name}", f"mimics {leader!r}, which is no other joint of the file: held fixed", hint)
+        )
+        return Coupling(name, "", (offset or 0.0,), "<mimic>")
     return Coupling(name, leader, (offset or 0.0, 1.0 if slope is None else slope), "<mimic>")
 
 
