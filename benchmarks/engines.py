@@ -38,15 +38,15 @@ def experiment(case: tuple[str, str, int]) -> dict[str, Any]:
     """One seed of a task in an engine: solved, and replayed in every engine."""
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
     from levade.engines import Ode
-    from levade.replay import replay_in
-    from levade.run import run
-    from levade.solve import Objective
+    from levade.motions import replay_in
+    from levade.search import make_objective
+    from levade.search.run import run
     from levade.tasks import load_task
 
     name, engine, seed = case
     began = time.process_time()
     with tempfile.TemporaryDirectory() as folder:
-        objective = Objective(load_task(name, changes=[f"physics.engine={engine}"]), threads=1)
+        objective = make_objective(load_task(name, changes=[f"physics.engine={engine}"]), threads=1)
         outcome = run(objective, seed=seed, directory=Path(folder))
     solution, motion = outcome.solution, outcome.motion
     own = replay_in(engine, motion)
@@ -86,11 +86,12 @@ def close(errors: dict[str, float]) -> bool:
 
 def rate(engine: str) -> float:
     """Steps per second of CPU time, one process, rearing's first generation."""
-    from levade.solve import Objective, make_optimizer
+    from levade.search import make_objective
+    from levade.search.optimizing import make_attempt
     from levade.tasks import load_task
 
-    objective = Objective(load_task("rearing", changes=[f"physics.engine={engine}"]), threads=1)
-    weights = make_optimizer(objective, 0).ask()
+    objective = make_objective(load_task("rearing", changes=[f"physics.engine={engine}"]), threads=1)
+    weights = make_attempt(objective.task, objective.space, seed=0).ask()
     objective.rollout(weights)
     rates = []
     for _ in range(7):
@@ -101,7 +102,7 @@ def rate(engine: str) -> float:
 
 
 def collect(seeds: int) -> None:
-    from levade.motion import versions
+    from levade.motions import versions
 
     made = versions("ode")
     content: dict[str, Any] = {"results": []}

@@ -11,9 +11,9 @@ import argparse
 import time
 from pathlib import Path
 
-from levade.check import Perturbed, Subject, perturbed
+from levade.check import Perturbed, perturbed
 from levade.engines import Perturbation
-from levade.motion import Motion
+from levade.motions import Motion, RecordedSimulation
 from levade.stabilise import stabilise
 
 
@@ -31,16 +31,16 @@ def main() -> None:
         began = time.process_time()
         found = stabilise(motion, seed=options.seed, threads=options.threads)
         took = time.process_time() - began
-        subject = Subject(motion, threads=options.threads)
+        simulation = RecordedSimulation(motion, threads=options.threads)
 
-        def share(feedback, subject: Subject = subject) -> Perturbed:
-            return perturbed(subject, Perturbation(), runs=options.runs, seed=options.seed, feedback=feedback)
+        def share(feedback, simulation: RecordedSimulation = simulation) -> Perturbed:
+            return perturbed(simulation, Perturbation(), runs=options.runs, seed=options.seed, feedback=feedback)
 
         without = share(None)
         within = without if found.design is None else share(found.motion.feedback)
         design = "none is better" if found.design is None else ", ".join(f"{v:g}" for v in vars(found.design).values())
         print(
-            f"| {motion.meta['task']['name']}, {motion.meta['robot']} | {_text(without)} | {_text(within)}"
+            f"| {motion.task_name}, {motion.robot} | {_text(without)} | {_text(within)}"
             f" | {found.open_loop:.1%}, {found.share:.1%} | {design} | {took:.0f} |",
             flush=True,
         )

@@ -29,9 +29,10 @@ from mujoco.batch import Batch
 
 from levade.costs import errors
 from levade.costs.orientation import geodesic
-from levade.engines.simulating import RESET_OFF, SENSORS_OFF, STATE, simulate
-from levade.motion import versions
-from levade.solve import Objective, make_optimizer, solve
+from levade.engines.batches import RESET_OFF, SENSORS_OFF, STATE, simulate
+from levade.motions import versions
+from levade.search import Objective, make_objective, solve
+from levade.search.optimizing import make_attempt
 from levade.tasks import load_task, looks_at_hold
 from levade.trajectory import Trajectories
 
@@ -79,7 +80,7 @@ class Physics:
         self.policy = dataclasses.replace(objective.policy, timestep=float(model.opt.timestep), hold_steps=0)
         self.batch = Batch(model, n, 1)
         data, state = mujoco.MjData(model), objective.state
-        data.qpos[:], data.qvel[:], data.act[:] = state.qpos, state.qvel, state.act
+        data.qpos[:], data.qvel[:], data.act[:] = state.qpos[0], state.qvel[0], state.act[0]
         self.row = np.empty(mujoco.mj_stateSize(model, STATE))
         mujoco.mj_getState(model, data, self.row, STATE)
 
@@ -90,15 +91,7 @@ class Physics:
         began = time.process_time()
         out, diverged = simulate(self.batch, self.row, ctrl, ("qpos", "qvel", "actuator_force"))
         self.seconds = time.process_time() - began
-        robot = self.objective.robot
-        return layout.trajectories(
-            out,
-            reference,
-            limits=robot.limits,
-            trunk_com_offset=robot.trunk_com_offset,
-            diverged=diverged,
-            legs=robot.leg_geometry,
-        )
+        return layout.trajectories(out, reference, diverged=diverged)
 
 
 def apart(one: Trajectories, other: Trajectories) -> tuple[np.ndarray, np.ndarray]:
@@ -116,10 +109,10 @@ def collect(motions: int, seeds: int, repeats: int) -> None:
     }
     for name in TASKS:
         task = load_task(name, changes=["search.polish=0"])
-        objective = Objective(task, threads=1)
+        objective = make_objective(task, threads=1)
         drawn, seed = [], 0
         while sum(map(len, drawn)) < motions:
-            drawn.append(make_optimizer(objective, seed=seed).ask())
+            drawn.append(make_attempt(objective.task, objective.space, seed=seed).ask())
             seed += 1
         found = []
         for seed in range(seeds):

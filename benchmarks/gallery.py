@@ -47,10 +47,10 @@ def make(task: str, robot: str, seed: int) -> dict[str, Any]:
     """Solve a task and draw it."""
     from PIL import Image
 
-    from levade.motion import Motion, versions
+    from levade.motions import Motion, versions
     from levade.report.rendering import Camera
     from levade.report.video import strip
-    from levade.run import run
+    from levade.search.run import run
     from levade.tasks import load_task
 
     with tempfile.TemporaryDirectory() as folder:

@@ -77,28 +77,28 @@ def measure(task: str, *, threads: int, trials: int, seed: int, read: Callable[[
 
     from mujoco.batch import Batch
 
-    from levade import solve as loop
     from levade.engines import MujocoEngine
     from levade.policies import Policy
+    from levade.search import Evaluation, Objective, make_objective, solve
+    from levade.search.optimizing import make_attempt
     from levade.tasks import load_task
 
-    objective = loop.Objective(
-        load_task(task, changes=[f"search.trials={trials}", "search.polish=null"]), threads=threads
-    )
-    optimizer = type(loop.make_optimizer(objective, seed))
+    changes = [f"search.trials={trials}", "search.polish=null"]
+    objective = make_objective(load_task(task, changes=changes), threads=threads)
+    optimizer = type(make_attempt(objective.task, objective.space, seed=seed))
     clock = Clock(read)
     with ExitStack() as stack:
         for owner, name, part in (
             (Batch, "rollout", "engine"),
             (MujocoEngine, "rollout", "recording"),
             (Policy, "reference", "policy"),
-            (loop.Objective, "_judge", "costs"),
-            (loop.Objective, "cost", "costs"),
+            (Objective, "judge", "costs"),
+            (Evaluation, "cost", "costs"),
             (optimizer, "ask", "optimizer"),
             (optimizer, "tell", "optimizer"),
         ):
             stack.enter_context(watched(owner, name, clock, part))
-        loop.solve(objective, seed=seed)
+        solve(objective, seed=seed)
     return clock.end()
 
 

@@ -47,7 +47,7 @@ CASES = [(task, horizon) for task in ACCURACY for horizon in ("0.3 s", "3 s")]
 def experiment(case: tuple[str, str, int]) -> dict[str, Any]:
     """One seed of one case."""
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
-    from levade.solve import Objective, solve
+    from levade.search import make_objective, solve
     from levade.tasks import load_task
 
     name, horizon, seed = case
@@ -56,7 +56,7 @@ def experiment(case: tuple[str, str, int]) -> dict[str, Any]:
         changes += ["horizon=3.0", "policy.time=seconds"]
     if name == "posture-recovery":
         changes += ["policy.goal=neutral", "costs.hold_orientation.weight=0", "costs.hold_position.weight=0"]
-    objective = Objective(load_task(name, changes=changes), threads=1)
+    objective = make_objective(load_task(name, changes=changes), threads=1)
     solution = solve(objective, seed=seed)
     result: dict[str, Any] = {
         "task": name,
@@ -77,7 +77,7 @@ def experiment(case: tuple[str, str, int]) -> dict[str, Any]:
 
 
 def run(seeds: int) -> None:
-    from levade.motion import versions
+    from levade.motions import versions
 
     cases = [(task, horizon, seed) for task, horizon in CASES for seed in range(seeds)]
     RESULTS.parent.mkdir(exist_ok=True)

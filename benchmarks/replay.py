@@ -20,8 +20,9 @@ import numpy as np
 
 from levade.export import export, player
 from levade.export.model import gains as gains_of
-from levade.motion import Motion, record
-from levade.solve import Objective, solve
+from levade.motions import Motion
+from levade.search import make_objective, solve
+from levade.search.recording import record
 from levade.tasks import load_task
 
 TASKS = ("rearing", "posture-recovery", "squat-jump", "self-righting")
@@ -43,8 +44,8 @@ class Drives:
         spec = mujoco.MjSpec.from_string(motion.model_xml, assets=dict(motion.assets))
         self.ideal = kind == "ideal"
         if self.ideal:
-            for name, limit in zip(motion["joint_names"], motion.meta["limits"]["torque"], strict=True):
-                actuator = spec.actuator(str(name))
+            for name, limit in zip(motion.joint_names, motion.embodiment.limits.torque, strict=True):
+                actuator = spec.actuator(name)
                 actuator.set_to_motor()
                 actuator.ctrlspec, actuator.actdim = 0, -1
                 actuator.forcerange = [-limit, limit]
@@ -52,7 +53,7 @@ class Drives:
         self.data = mujoco.MjData(self.model)
         self.data.qpos[:], self.data.qvel[:] = motion["qpos0"], motion["qvel0"]
         self.data.act[:] = motion["act0"][: self.model.na]
-        joints = [self.model.joint(str(name)) for name in motion["joint_names"]]
+        joints = [self.model.joint(str(name)) for name in motion.joint_names]
         self.qpos, self.qvel = ([int(j.qposadr[0]) for j in joints], [int(j.dofadr[0]) for j in joints])
         self.last = self.data.qpos.copy()
 
@@ -81,7 +82,14 @@ def distance(motion: Motion, reference: str, drives: str, gain: float) -> tuple[
         export(motion, "csv", Path(directory), reference=reference, **gains)
         played = player.Motion.load(Path(directory) / "motion.csv")
     worst = player.play(
-        played, robot, ramp=1.0, start_tolerance=NEVER, tolerance=NEVER, clamp=False, wait=lambda instant: 0.0
+        played,
+        robot,
+        ramp=1.0,
+        start_tolerance=NEVER,
+        tolerance=NEVER,
+        speed_tolerance=NEVER,
+        clamp=False,
+        wait=lambda instant: 0.0,
     )
     between = np.zeros(3)
     mujoco.mju_subQuat(between, robot.last[3:7], motion["trunk_quaternion"][-1])
@@ -98,7 +106,7 @@ def main() -> None:
         "| task | references | drives | attitude [rad] | height [cm] | tracking error [rad] |\n|---|---|---|---|---|---|"
     )
     for task in arguments.tasks:
-        objective = Objective(load_task(task))
+        objective = make_objective(load_task(task))
         motions = [record(objective, solve(objective, seed=seed), seed=seed) for seed in range(arguments.seeds)]
         for reference, drives, gain in ROWS:
             off = np.array([distance(motion, reference, drives, gain) for motion in motions])

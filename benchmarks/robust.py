@@ -46,11 +46,11 @@ RUNS_IN_ODE = 100
 
 def prepared(task: str, robot: str, kind: str) -> Any:
     """The objective of a task or of its robust variant."""
-    from levade.solve import Objective
+    from levade.search import make_objective
     from levade.tasks import load_task
 
     suffix, engine = KINDS[kind]
-    return Objective(load_task(task + suffix, robot=robot, changes=[f"physics.engine={engine}"]), threads=1)
+    return make_objective(load_task(task + suffix, robot=robot, changes=[f"physics.engine={engine}"]), threads=1)
 
 
 def there_is(task: str, kind: str) -> bool:
@@ -70,11 +70,10 @@ def checksum(objective: Any) -> int:
 
 def experiment(task: str, robot: str, kind: str, seed: int) -> dict[str, Any]:
     """One search, and what the checks say of its motion."""
-    from levade.check import Demands, Subject, margins, numerics, other_engines, perturbed
-    from levade.check.perturbed import judge
+    from levade.check import Demands, margins, numerics, other_engines, perturbed
     from levade.engines import Perturbation
-    from levade.motion import versions
-    from levade.run import run
+    from levade.motions import RecordedSimulation, run_trials, versions
+    from levade.search.run import run
     from levade.tasks import load_task
 
     objective = prepared(task, robot, kind)
@@ -83,10 +82,10 @@ def experiment(task: str, robot: str, kind: str, seed: int) -> dict[str, Any]:
         outcome = run(objective, seed=seed, directory=Path(folder) / "run")
     solved, solution = time.process_time(), outcome.solution
     criteria = load_task(f"{task}-robust", robot=robot).success
-    subject = Subject(outcome.motion, criteria=criteria, threads=1)
-    found = perturbed(subject, Perturbation(), runs=RUNS, seed=CHECK_SEED)
-    numbers = numerics(subject)
-    other = {name: one.success for name, one in other_engines(subject).items()}
+    simulation = RecordedSimulation(outcome.motion, criteria=criteria, threads=1)
+    found = perturbed(simulation, Perturbation(), runs=RUNS, seed=CHECK_SEED)
+    numbers = numerics(simulation)
+    other = {name: one.success for name, one in other_engines(simulation).items()}
     row = {
         "task": task,
         "robot": robot,
@@ -103,16 +102,15 @@ def experiment(task: str, robot: str, kind: str, seed: int) -> dict[str, Any]:
         **other,
         "margins": {
             name: {"value": one.value, "least": one.least, "failed": list(one.failed)}
-            for name, one in margins(subject, Demands()).items()
+            for name, one in margins(simulation, Demands()).items()
             if one.passed is not None
         },
         "cpu_s": [round(solved - started, 1), round(time.process_time() - solved, 1)],
         "versions": versions("ode"),
     }
     if KINDS[kind][1] == "ode":
-        ensemble = objective.engine.ensemble()
-        sample = Perturbation().draw(ensemble.model, ensemble.joints, n=RUNS_IN_ODE, seed=CHECK_SEED)
-        there = judge(subject, ensemble, subject.reference, sample)
+        sample = Perturbation().draw(objective.engine.model, simulation.joints, n=RUNS_IN_ODE, seed=CHECK_SEED)
+        there = run_trials(RecordedSimulation(outcome.motion, criteria=criteria, engine=objective.engine), sample)
         row |= {"runs_in_ode": RUNS_IN_ODE, "successes_in_ode": int(there.success.sum())}
     return row
 
@@ -291,14 +289,14 @@ def variants() -> str:
 
 
 def page(rows: list[dict[str, Any]]) -> str:
+
     from levade.check import Demands
     from levade.engines import Perturbation
-    from levade.solve import Objective
+    from levade.search import make_objective
     from levade.tasks import Robust, load_task
 
-    objective = Objective(load_task("rearing"), threads=1)
-    ensemble = objective.engine.ensemble()  # type: ignore[attr-defined]
-    drawn = Perturbation().draw(ensemble.model, ensemble.joints, n=1, seed=0)
+    objective = make_objective(load_task("rearing"), threads=1)
+    drawn = Perturbation().draw(objective.engine.model, objective.robot.embodiment.joints, n=1, seed=0)
     default = Robust()
     cpu = sum(math.fsum(row["cpu_s"]) for row in rows)
     versions = rows[-1]["versions"] if rows else {}

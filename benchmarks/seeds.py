@@ -17,11 +17,11 @@ from concurrent.futures import ProcessPoolExecutor
 def one(case: tuple[str, int]) -> tuple[str, bool, int | None, dict[str, float]]:
     """Task, success, trials to success, errors of one seed."""
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
-    from levade.solve import Objective, solve
+    from levade.search import make_objective, solve
     from levade.tasks import load_task
 
     name, seed = case
-    solution = solve(Objective(load_task(name), threads=1), seed=seed)
+    solution = solve(make_objective(load_task(name), threads=1), seed=seed)
     return name, solution.success, solution.trials_to_success, dict(solution.best.errors)
 
 

@@ -39,11 +39,11 @@ BUDGET = 6000
 
 def prepared(task: str, robot: str) -> Any:
     """The objective of a task on a robot, with the budget of this benchmark."""
-    from levade.solve import Objective
+    from levade.search import make_objective
     from levade.tasks import load_task
 
     changes = [f"search.trials={BUDGET}", "search.polish=0"]
-    return Objective(load_task(task, robot=robot, changes=changes), threads=1)
+    return make_objective(load_task(task, robot=robot, changes=changes), threads=1)
 
 
 def checksum(objective: Any) -> int:
@@ -57,8 +57,8 @@ def one(case: tuple[str, str, int]) -> dict[str, Any]:
     """One search."""
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
     from levade.errors import LevadeError
-    from levade.motion import versions
-    from levade.solve import solve
+    from levade.motions import versions
+    from levade.search import solve
 
     task, robot, seed = case
     row: dict[str, Any] = {"task": task, "robot": robot, "seed": seed}

@@ -18,7 +18,8 @@ import mujoco
 import numpy as np
 from mujoco.batch import Batch
 
-from levade.solve import Objective, make_optimizer
+from levade.search import Trials, make_objective
+from levade.search.optimizing import make_attempt
 from levade.tasks import load_task
 
 
@@ -35,15 +36,15 @@ def main() -> None:
     arguments = parser.parse_args()
 
     task = load_task(arguments.task)
-    objectives = {threads: Objective(task, threads=threads) for threads in (1, 2)}
+    objectives = {threads: make_objective(task, threads=threads) for threads in (1, 2)}
     one = objectives[1]
-    optimizer = make_optimizer(one, seed=0)
+    optimizer = make_attempt(one.task, one.space, seed=0)
     weights = optimizer.ask()
     n, steps = len(weights), task.horizon_steps
     generations = max(1, round(4e4 / (n * steps)))  # about a second for each timing
 
     state = mujoco.MjData(one.engine.model)
-    state.qpos[:], state.qvel[:], state.act[:] = one.state.qpos, one.state.qvel, one.state.act
+    state.qpos[:], state.qvel[:], state.act[:] = one.state.qpos[0], one.state.qvel[0], one.state.act[0]
     whole = mujoco.mjtState.mjSTATE_INTEGRATION
     row = np.empty(mujoco.mj_stateSize(one.engine.model, whole))
     mujoco.mj_getState(one.engine.model, state, row, whole)
@@ -59,8 +60,8 @@ def main() -> None:
 
     def objective(threads: int) -> None:
         for _ in range(generations):
-            evaluation = objectives[threads].evaluate(weights, hold_steps=0)
-            objectives[threads].cost(evaluation, {name: cost.weight for name, cost in task.costs.items()})
+            evaluation = objectives[threads].evaluate(Trials(weights, hold_steps=0))
+            evaluation.cost({name: cost.weight for name, cost in task.costs.items()})
 
     times: dict[tuple[str, int], list[float]] = {(kind, t): [] for kind in ("bare", "objective") for t in (1, 2)}
     for _ in range(arguments.repeats):

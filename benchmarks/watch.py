@@ -17,7 +17,7 @@ import sys
 import time
 from pathlib import Path
 
-from levade.solve import Objective, solve
+from levade.search import Objective, make_objective, solve
 from levade.tasks import load_task
 from levade.viewer.pages import watch_page
 from levade.viewer.scenes import LiveScenes
@@ -70,7 +70,7 @@ def main() -> None:
     arguments = parser.parse_args()
 
     changes = [f"search.trials={arguments.trials}", "search.polish=null"]
-    objective = Objective(load_task(arguments.task, changes=changes))
+    objective = make_objective(load_task(arguments.task, changes=changes))
     kinds = ("no page", "closed", "open")
     run(objective, "no page")  # warm
     clock: dict[str, list[float]] = {kind: [] for kind in kinds}

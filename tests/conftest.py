@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import bdb
 import shutil
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -13,6 +15,28 @@ from hypothesis import settings
 # The same examples in every run, and no time limit for one: CI machines differ in speed by a factor.
 settings.register_profile("levade", derandomize=True, deadline=None)
 settings.load_profile("levade")
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_cmdline_main(config: pytest.Config) -> None:
+    """Use a process per core, except where ``-n`` says otherwise or a person debugs: workers have no terminal.
+
+    With ``--pdb``, ``--trace``, ``-s`` or under a debugger everything runs in this process. `-p no:xdist` works, too.
+    """
+    option = config.option
+    if hasattr(config, "workerinput") or not hasattr(option, "numprocesses"):
+        return  # in a worker, or without xdist
+    if option.numprocesses is None and option.tx == []:
+        option.numprocesses = 0 if _debugging(option) else "auto"
+    if option.numprocesses and option.dist == "no":
+        option.dist = "worksteal"
+
+
+def _debugging(option: Any) -> bool:
+    """Whether a debugger is asked for or there already: Python's own, or that of an editor."""
+    traced = isinstance(getattr(sys.gettrace(), "__self__", None), bdb.Bdb)
+    attached = not {"debugpy", "pydevd"}.isdisjoint(sys.modules)
+    return bool(option.usepdb or option.trace or option.capture == "no" or traced or attached)
 
 
 @pytest.fixture(scope="session")

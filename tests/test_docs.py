@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from levade.solve import Objective, solve
+from levade.search import make_objective, solve
 from levade.tasks import TERMS, task_from_dict
 
 ROOT = Path(__file__).parents[1]
@@ -25,7 +25,7 @@ def block(document: str, language: str, containing: str) -> str:
 
 def test_the_task_in_the_documentation_is_solved() -> None:
     task = task_from_dict(yaml.safe_load(block("docs/tasks.md", "yaml", "kneel")), where="docs/tasks.md")
-    assert solve(Objective(task), seed=0).success
+    assert solve(make_objective(task), seed=0).success
 
 
 def test_the_documentation_lists_every_term() -> None:
@@ -34,7 +34,7 @@ def test_the_documentation_lists_every_term() -> None:
 
 
 def test_the_python_example_of_the_readme_runs(capsys: pytest.CaptureFixture[str]) -> None:
-    code = block("README.md", "python", "from levade.solve import")
+    code = block("README.md", "python", "from levade.search import")
     exec(compile(code, "README.md", "exec"), {})
     assert capsys.readouterr().out.startswith("True ")
 
@@ -44,7 +44,7 @@ def test_the_replay_of_the_documentation_gives_the_motion_in_the_file(
 ) -> None:
     import numpy as np
 
-    from levade.run import run
+    from levade.search.run import run
     from levade.tasks import load_task
 
     monkeypatch.chdir(tmp_path)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from levade.solve import Objective, solve
+from levade.search import make_objective, solve
 from levade.tasks import load_task
 
 
@@ -12,7 +12,7 @@ from levade.tasks import load_task
 @pytest.mark.parametrize(("name", "budget"), [("rearing", 3009), ("posture-recovery", 3002)])
 def test_at_least_nine_of_ten_seeds_succeed_within_the_papers_budget(name: str, budget: int) -> None:
     """Each up to its first success: what comes after makes the motion better, not the search more successful."""
-    objective = Objective(load_task(name, changes=["search.polish=0"]))
+    objective = make_objective(load_task(name, changes=["search.polish=0"]))
     solutions = [solve(objective, seed=seed) for seed in range(10)]
     for solution in solutions:
         assert solution.trials <= budget

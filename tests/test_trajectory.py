@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from levade.trajectory import components, cross, rotate, rotation_matrix
+from levade.rotations import components, cross, rotate, rotation_matrix
 
 
 @pytest.mark.parametrize(("a", "b"), [((5, 7, 3), (3,)), ((3,), (3,)), ((4, 1, 3), (4, 6, 3)), ((0, 2, 3), (3,))])

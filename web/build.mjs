@@ -1,6 +1,6 @@
-// Bundles web/src/report.js and live.js into the package's report.js and live.js: `npm ci && npm run build`, in web/. Their first
-// lines say of which sources they were made, which a test compares (tests/report/test_bundle.py), and their last ones are the
-// licence of three.js.
+// Bundles web/src/levade.js into the package's levade.js, and copies the two style sheets, minified: `npm ci && npm run build`, in
+// web/. The first line of the script names the sources it was made of, which a test compares (tests/report/test_bundle.py); its
+// last lines are the licence of three.js. The script is one for all pages, so that three.js is in the package once.
 
 import { createHash } from "node:crypto";
 import { readdirSync, readFileSync } from "node:fs";
@@ -27,22 +27,17 @@ function licence(name) {
 }
 
 const three = JSON.parse(readFileSync(join(here, "node_modules/three/package.json"), "utf8"));
-const [entry, outfile] = process.argv.slice(2);
-const bundles = entry
-  ? [[entry, outfile]]
-  : ["report", "live"].map((name) => [`src/${name}.js`, `../src/levade/report/web/${name}.js`]);
-for (const [from, to] of bundles) {
-  await build({
-    absWorkingDir: here,
-    entryPoints: [from],
-    outfile: to,
-    bundle: true,
-    minify: true,
-    format: "iife",
-    target: ["chrome109", "firefox115", "safari16"],
-    legalComments: "eof",
-    footer: { js: `/*! three.js ${three.version}:\n${licence("three")}\n*/` },
-    banner: { js: `/* levade report, made of web/ by its build.mjs; sources ${sourcesHash()} */` },
-    logLevel: "info",
-  });
-}
+const options = { absWorkingDir: here, minify: true, target: ["chrome109", "firefox115", "safari16"], logLevel: "info" };
+const out = "../src/levade/report/web";
+await build({
+  ...options,
+  entryPoints: ["src/levade.js"],
+  outfile: `${out}/levade.js`,
+  bundle: true,
+  format: "iife",
+  globalName: "levade",
+  legalComments: "eof",
+  footer: { js: `/*! three.js ${three.version}:\n${licence("three")}\n*/` },
+  banner: { js: `/* levade's pages, made of web/ by its build.mjs; sources ${sourcesHash()} */` },
+});
+await build({ ...options, entryPoints: ["src/style.css", "src/live.css"], outdir: out });

@@ -23,7 +23,7 @@ from levade.bench.case import made_with
 from levade.errors import LevadeError
 from levade.policies import Policy
 from levade.policies.groups import expansion
-from levade.solve import Objective
+from levade.search import Objective, make_objective
 from levade.tasks import Task, load_task, task_to_yaml
 from levade.tasks.document import task_to_dict
 
@@ -137,7 +137,7 @@ def _run_proposer(job: Job) -> Result:
             answer, basis = wire.receive(back)
             if basis is not None:
                 objective = _with_basis(objective, basis)
-            wire.send(to, {"do": "start"}, objective.initial_weights)
+            wire.send(to, {"do": "start"}, objective.space.mean)
             result = _search(job, objective, answer, to, back)
         except (EOFError, OSError):
             process.wait()
@@ -160,7 +160,7 @@ def _search(job: Job, objective: Objective, answer: Mapping[str, Any], to: Any, 
         assert candidates is not None
         cpu = said["cpu"]
         evaluation = objective.evaluate(candidates)
-        cost = objective.cost(evaluation, weights)
+        cost = evaluation.cost(weights)
         wire.send(to, {"do": "tell"}, cost)
         trials += len(candidates)
         diverged += int(evaluation.diverged.sum())
@@ -204,11 +204,11 @@ def _check_same(job: Job, command: list[str], case: Path) -> None:
     """What was written by hand gives levade's costs and successes, or nothing is compared."""
     objective = _objective(job.task)
     random = np.random.default_rng(0)
-    weights = objective.initial_weights + 0.1 * random.standard_normal((4, objective.policy.size))
+    weights = objective.space.mean + 0.1 * random.standard_normal((4, objective.policy.size))
     np.save(case / "check.npy", weights)
     said = _call(command)
     evaluation = objective.evaluate(weights)
-    cost = objective.cost(evaluation, {name: cost.weight for name, cost in job.task.costs.items()})
+    cost = evaluation.cost({name: cost.weight for name, cost in job.task.costs.items()})
     np.testing.assert_allclose(said["cost"], cost, rtol=1e-6)
     assert said["success"] == evaluation.success.tolist()
 
@@ -225,10 +225,10 @@ def export(objective: Objective, case: Path) -> None:
     (case / "task.yaml").write_text(task_to_yaml(objective.task))
     index, sign = expansion(policy.groups)
     phi, phi_rate = policy.basis
-    arrays = {"mean": objective.initial_weights, "phi": phi, "phi_rate": phi_rate, "index": index, "sign": sign}
+    arrays = {"mean": objective.space.mean, "phi": phi, "phi_rate": phi_rate, "index": index, "sign": sign}
     for name, value in zip(("factor", "added", "factor_rate", "added_rate"), _ends(policy), strict=True):
         arrays[name] = value
-    np.savez(case / "arrays.npz", qpos=state.qpos, qvel=state.qvel, act=state.act, **arrays)
+    np.savez(case / "arrays.npz", qpos=state.qpos[0], qvel=state.qvel[0], act=state.act[0], **arrays)
 
 
 def _ends(policy: Policy) -> tuple[np.ndarray, ...]:
@@ -290,7 +290,7 @@ class Basis:
 
 def _with_basis(objective: Objective, values: np.ndarray) -> Objective:
     other = copy.copy(objective)
-    other.__dict__.pop("initial_weights", None)
+    other.__dict__.pop("space", None)  # which is of the kernels
     other.policy = dataclasses.replace(objective.policy, kernels=Basis(values))  # type: ignore[arg-type]
     return other
 
@@ -301,5 +301,5 @@ _latest: tuple[Task, Objective] | None = None
 def _objective(task: Task) -> Objective:
     global _latest
     if _latest is None or _latest[0] != task:
-        _latest = task, Objective(task, threads=1)
+        _latest = task, make_objective(task, threads=1)
     return _latest[1]

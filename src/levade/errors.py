@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 
 
 class LevadeError(Exception):
@@ -19,3 +20,12 @@ def did_you_mean(name: str, valid: Iterable[str]) -> str:
     names = sorted(valid)
     near = difflib.get_close_matches(name, names, n=1, cutoff=0.6)
     return f"did you mean {near[0]}?" if near else f"valid names: {', '.join(names)}"
+
+
+@contextmanager
+def located(where: str) -> Iterator[None]:
+    """Make errors begin with the key of the task that they are about, such as ``policy.``."""
+    try:
+        yield
+    except LevadeError as error:
+        raise LevadeError(f"{where}{error}") from None

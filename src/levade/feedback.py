@@ -19,8 +19,9 @@ from typing import Any
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
-from levade.trajectory import Array, rotate
+from levade.rotations import conjugate, rotate
 
 ARRAYS: dict[str, tuple[str, ...]] = {
     "feedback_gain": ("gains", "joints", "columns"),
@@ -88,7 +89,7 @@ def sensed(quaternion: Array, rate: Array, joint_position: Array, joint_velocity
     quaternion: (..., 4), trunk frame to world. rate: (..., 3) [rad/s], angular velocity in trunk axes, a gyroscope's.
     joint_position, joint_velocity: (..., joints) [rad], [rad/s].
     """
-    up = rotate(quaternion * np.array([1.0, -1.0, -1.0, -1.0]), np.array([0.0, 0.0, 1.0]))
+    up = rotate(conjugate(quaternion), np.array([0.0, 0.0, 1.0]))
     return np.concatenate([up, rate, joint_position, joint_velocity], axis=-1)
 
 

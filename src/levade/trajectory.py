@@ -10,14 +10,16 @@ SI units; quaternions w-x-y-z; joint order is the robot's.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.floating]
+from levade.arrays import Array
+from levade.embodiment import Embodiment, JointLimits, LegGeometry
+from levade.rotations import cross, rotate
 
 
 @dataclass(frozen=True)
@@ -28,7 +30,8 @@ class JointReference:
     velocity: (n, steps, joints) [rad/s], its analytic time derivative.
     timestep: [s].
     horizon_steps: number of rows up to the horizon T; later rows are the hold.
-    before: (joints,) [rad], what the joints were told until the first row came, at rest; None where it is not known.
+    before: (joints,) or (n, joints) [rad], what the joints were told until the first row came, at rest; None where it is not
+        known.
     """
 
     position: Array
@@ -43,95 +46,40 @@ class JointReference:
 
     def __getitem__(self, trials: slice | NDArray[np.integer | np.bool_] | list[int]) -> JointReference:
         """The same reference for a subset of the trials."""
-        return replace(self, position=self.position[trials], velocity=self.velocity[trials])
+        before = self.before if self.before is None or self.before.ndim == 1 else self.before[trials]
+        return replace(self, position=self.position[trials], velocity=self.velocity[trials], before=before)
 
+    def repeated(self, n: int) -> JointReference:
+        """The same reference for n trials, if it is of one trial; itself if it is of n."""
+        if len(self.position) == n:
+            return self
+        shape = (n, *self.position.shape[1:])
+        position, velocity = np.broadcast_to(self.position, shape), np.broadcast_to(self.velocity, shape)
+        return replace(self, position=position, velocity=velocity)
 
-@dataclass(frozen=True)
-class TorqueCurve:
-    """Torque that a joint's linkage can transmit, over its angle: ``peak * cos(rate * (|angle| - centre))``.
+    @classmethod
+    def stacked(cls, references: Sequence[JointReference]) -> JointReference:
+        """The trials of several references of one length, one after another.
 
-    peak: [Nm]; rate: [-]; centre: [rad], the angle of the best lever arm.
-    """
-
-    peak: float
-    rate: float
-    centre: float
-
-    def __call__(self, angle: Array) -> Array:
-        """Torque limit [Nm] at each angle [rad], same shape, never negative."""
-        return np.maximum(0.0, self.peak * np.cos(self.rate * (np.abs(angle) - self.centre)))
-
-
-@dataclass(frozen=True)
-class JointLimits:
-    """What the joints may do; infinite where the robot's description gives no limit.
-
-    lower, upper: (joints,) [rad]. velocity: (joints,) [rad/s]. torque: (joints,) [Nm].
-    torque_curves: joint index -> limit over the joint's angle, in addition to ``torque``.
-    stall_torque: (joints,) [Nm] and no_load_speed: (joints,) [rad/s], the ends of the line that limits the torque while
-    driving; None where the actuators have none.
-    """
-
-    lower: Array
-    upper: Array
-    velocity: Array
-    torque: Array
-    torque_curves: Mapping[int, TorqueCurve] = field(default_factory=dict)
-    stall_torque: Array | None = None
-    no_load_speed: Array | None = None
-
-    def torque_at(self, joint_position: Array) -> Array:
-        """Torque limit [Nm] at (..., joints) [rad], same shape: the constant limit lowered by the linkage curves."""
-        limit = np.broadcast_to(self.torque, joint_position.shape).copy()
-        for joint, curve in self.torque_curves.items():
-            np.minimum(limit[..., joint], curve(joint_position[..., joint]), out=limit[..., joint])
-        return limit
-
-    def angle_left(self, joint_position: Array) -> Array:
-        """[rad] to the nearer end of the range, negative beyond it; infinite without a range. (..., joints), as given."""
-        return np.minimum(joint_position - self.lower, self.upper - joint_position)
-
-    def speed_left(self, joint_velocity: Array) -> Array:
-        """What is left of the speed limit, as a share of it, negative beyond it; 1 without a limit. (..., joints)."""
-        return 1 - np.abs(joint_velocity) / self.velocity
-
-    def torque_speed_left(self, joint_torque: Array, joint_velocity: Array) -> Array:
-        """``1 - |torque| / stall_torque - |speed| / no_load_speed`` while driving; else 1, and without such a line.
-
-        A drive is beyond its line, and this negative, where its torque lags behind its speed. (..., joints), as given.
+        Raises:
+            ValueError: If their lengths, time steps or horizons differ, or some know what came before and some do not.
         """
-        if self.stall_torque is None or self.no_load_speed is None:
-            return np.ones_like(joint_torque)
-        used = np.abs(joint_torque) / self.stall_torque + np.abs(joint_velocity) / self.no_load_speed
-        return 1 - np.where(joint_torque * joint_velocity > 0, used, 0.0)
-
-
-@dataclass(frozen=True, eq=False)
-class LegGeometry:
-    """Where a leg's joints and foot are in the trunk frame with every joint at zero.
-
-    side: "left" or "right". end: "front" or "hind". joints: indices in the robot's joint order, from the trunk outward.
-    anchors: (k, 3) [m], a point on each joint's axis. axes: (k, 3), unit. foot: (3,) [m], centre of the foot.
-    sole: [m], how far the foot reaches below its centre, standing in the neutral posture.
-    """
-
-    name: str
-    side: str
-    end: str
-    joints: tuple[int, ...]
-    anchors: Array
-    axes: Array
-    foot: Array
-    sole: float
-
-    def foot_position(self, joint_position: Array) -> Array:
-        """(..., joints) [rad], all of the robot's, to (..., 3) [m]: the foot's centre in the trunk frame."""
-        place = np.broadcast_to(self.foot, (*joint_position.shape[:-1], 3))
-        for joint, anchor, axis in zip(self.joints[::-1], self.anchors[::-1], self.axes[::-1], strict=True):
-            half = 0.5 * joint_position[..., joint, None]
-            turn = np.concatenate([np.cos(half), np.sin(half) * axis], axis=-1)
-            place = anchor + rotate(turn, place - anchor)
-        return place
+        first = references[0]
+        alike = {(one.steps, one.timestep, one.horizon_steps, one.before is None) for one in references}
+        if len(alike) > 1:
+            raise ValueError(f"references: of several kinds (steps, timestep, horizon, known before): {sorted(alike)}")
+        before = None
+        if first.before is not None:
+            rows = [
+                np.broadcast_to(one.before, (len(one.position), one.position.shape[2]))
+                for one in references
+                if one.before is not None
+            ]
+            before = np.concatenate(rows)
+        position, velocity = (
+            np.concatenate([getattr(one, name) for one in references]) for name in ("position", "velocity")
+        )
+        return replace(first, position=position, velocity=velocity, before=before)
 
 
 @dataclass(frozen=True)
@@ -145,9 +93,8 @@ class Trajectories:
     trunk_quaternion: (n, steps, 4), trunk frame to world, w-x-y-z, unit length.
     trunk_linear_velocity: (n, steps, 3) [m/s], of the frame origin, in world axes.
     trunk_angular_velocity: (n, steps, 3) [rad/s], in trunk axes: what a gyroscope on the trunk reads.
-    trunk_com_offset: (3,) [m], centre of mass of the trunk in the trunk frame.
     reference: what was asked of the joints, same n and steps.
-    limits: the robot's joint limits. legs: its legs.
+    embodiment: what is known of the robot: its limits, legs and where its trunk's centre of mass is.
     timestep: [s]. horizon_steps: rows up to the horizon T.
     diverged: (n,) bool, trials whose simulation broke down; their later rows repeat the last sound one.
     foot_contact_force: (n, steps, feet, 3) [N], net contact force on each foot in world axes, in the robot's leg order;
@@ -163,15 +110,36 @@ class Trajectories:
     trunk_quaternion: Array
     trunk_linear_velocity: Array
     trunk_angular_velocity: Array
-    trunk_com_offset: Array
     reference: JointReference
-    limits: JointLimits
+    embodiment: Embodiment
     timestep: float
     horizon_steps: int
     diverged: NDArray[np.bool_]
     foot_contact_force: Array | None = None
     body_contact_force: Mapping[str, Array] = field(default_factory=dict)
-    legs: tuple[LegGeometry, ...] = ()
+
+    def __getitem__(self, trials: slice) -> Trajectories:
+        """The trajectories of some of the trials; views, not copies."""
+        arrays = {
+            one.name: value[trials] for one in fields(self) if isinstance(value := getattr(self, one.name), np.ndarray)
+        }
+        forces = {body: force[trials] for body, force in self.body_contact_force.items()}
+        return replace(self, **arrays, reference=self.reference[trials], body_contact_force=forces)
+
+    @property
+    def limits(self) -> JointLimits:
+        """The robot's joint limits."""
+        return self.embodiment.limits
+
+    @property
+    def legs(self) -> tuple[LegGeometry, ...]:
+        """The robot's legs."""
+        return self.embodiment.legs
+
+    @property
+    def trunk_com_offset(self) -> Array:
+        """Centre of mass of the trunk in the trunk frame [m], shape (3,)."""
+        return self.embodiment.trunk_com_offset
 
     @property
     def n(self) -> int:
@@ -199,55 +167,3 @@ class Trajectories:
         """(n, rows) [m], the lowest point of a leg's foot over z = 0, for the given rows only."""
         foot = rotate(self.trunk_quaternion[:, rows], leg.foot_position(self.joint_position[:, rows]))
         return self.trunk_position[:, rows][..., 2] + foot[..., 2] - leg.sole
-
-
-def rotate(quaternion: Array, vector: Array) -> Array:
-    """Rotate vectors (..., 3) by unit quaternions (..., 4), w-x-y-z; leading shapes broadcast."""
-    w, u = quaternion[..., :1], quaternion[..., 1:]
-    t = 2.0 * cross(u, vector)
-    return vector + w * t + cross(u, t)
-
-
-def cross(a: Array, b: Array) -> Array:
-    """Cross product of (..., 3) and (..., 3); leading shapes broadcast.
-
-    The bits of numpy's own, whose care for axes takes several times as long as the products of a generation.
-    """
-    (a0, a1, a2), (b0, b1, b2) = components(a), components(b)
-    first = np.asarray(a1 * b2 - a2 * b1)
-    out = np.empty((*first.shape, 3))
-    out[..., 0] = first
-    out[..., 1] = a2 * b0 - a0 * b2
-    out[..., 2] = a0 * b1 - a1 * b0
-    return out
-
-
-def components(values: Array) -> tuple[Array, ...]:
-    """(..., k) to k views (...)."""
-    return tuple(values[..., i] for i in range(values.shape[-1]))
-
-
-def rotation_matrix(quaternion: Array) -> Array:
-    """(..., 4) unit quaternions, w-x-y-z, to (..., 3, 3) matrices that take trunk axes to world axes."""
-    w, x, y, z = components(quaternion)
-    return np.stack(
-        [
-            np.stack([1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)], axis=-1),
-            np.stack([2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)], axis=-1),
-            np.stack([2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)], axis=-1),
-        ],
-        axis=-2,
-    )
-
-
-def roll_pitch_yaw(quaternion: Array) -> Array:
-    """(..., 4) quaternions, w-x-y-z, to (..., 3) intrinsic z-y-x angles [rad]: roll, pitch, yaw.
-
-    Pitch is in [-pi/2, pi/2], roll and yaw in (-pi, pi]. At pitch = +-pi/2 roll and yaw are not unique; costs and
-    success criteria therefore measure orientation as `levade.costs.orientation` says, not by subtracting these angles.
-    """
-    w, x, y, z = components(quaternion)
-    roll = np.arctan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
-    pitch = np.arcsin(np.clip(2 * (w * y - z * x), -1.0, 1.0))
-    yaw = np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
-    return np.stack([roll, pitch, yaw], axis=-1)

@@ -17,7 +17,7 @@ from levade.bench.case import run_case
 from levade.bench.comparison import RESULTS
 from levade.bench.plan import cases
 from levade.errors import LevadeError
-from levade.solve import Generation, Objective, solve
+from levade.search import Generation, make_objective, solve
 
 QUICK = {"horizon": 0.06, "search.population": 8}
 PLAN = Plan(tasks=("rearing",), optimizers=("cma", "random"), seeds=3, trials=40, changes=QUICK)
@@ -44,7 +44,7 @@ def test_a_result_is_what_the_solve_says(whole: tuple[Path, list[Result]]) -> No
     wanted = cases(PLAN)
     assert [result.key for result in results] == [case.key for case in wanted]
     for result, case in zip(results, wanted, strict=True):
-        solution = solve(Objective(case.task, threads=1), seed=case.seed)
+        solution = solve(make_objective(case.task, threads=1), seed=case.seed)
         assert (result.trials, result.cost, result.diverged) == (solution.trials, solution.best.cost, solution.diverged)
         assert (result.success, result.trials_to_success) == (False, None)
         assert (result.stopped, result.budget_trials, result.until) == ("budget", 40, "success")
@@ -152,7 +152,7 @@ def test_what_is_simulated_twice_is_counted_twice() -> None:
 
 
 def test_the_engine_counts_steps() -> None:
-    objective = Objective(cases(PLAN)[0].task, threads=1)
+    objective = make_objective(cases(PLAN)[0].task, threads=1)
     before = objective.engine.steps
     seen: list[int] = []
 

@@ -108,13 +108,13 @@ def test_a_basis_of_its_own_is_what_the_joints_follow(case: ModuleType, job) -> 
     line = np.arange(1, 31) / 30
     values = np.stack([np.stack([1 - line, line], axis=1), np.tile([-1.0, 1.0], (30, 1)) / 0.06])
     other = case._with_basis(objective, values)
-    start, end = objective.initial_weights.reshape(6, 16)[:, 0], np.arange(6) / 10
+    start, end = objective.space.mean.reshape(6, 16)[:, 0], np.arange(6) / 10
     reference = other.policy.reference(np.stack([start, end], axis=1).reshape(1, 12))
     leader = other.policy.project(reference.position[0])
     np.testing.assert_allclose(leader, start + line[:, None] * (end - start), atol=1e-12)
     np.testing.assert_allclose(other.policy.project(reference.velocity[0])[7], (end - start) / 0.06, rtol=1e-9)
     assert objective.policy.size == 96
-    np.testing.assert_allclose(other.initial_weights.reshape(6, 2)[:, 0], start)
+    np.testing.assert_allclose(other.space.mean.reshape(6, 2)[:, 0], start)
     assert case.run_job(mine).trials == 20
 
 

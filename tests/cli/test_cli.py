@@ -13,8 +13,7 @@ from pathlib import Path
 import pytest
 
 from levade import __version__
-from levade.cli import main
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.optimizers import OPTIMIZERS
 from levade.report.summary import summary_data
 
@@ -22,36 +21,15 @@ QUICK = ["--set", "search.optimizer=cma", "--set", "search.population=8", "--tri
 LOOSE = ["--set", "success.pitch.tolerance=9", "--set", "success.height.tolerance=9"]
 
 
-@pytest.fixture(autouse=True)
-def _here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    for name in ("FORCE_COLOR", "CLICOLOR_FORCE", "TTY_COMPATIBLE"):
-        monkeypatch.delenv(name, raising=False)
-
-
-@pytest.fixture
-def run(capfd: pytest.CaptureFixture[str]):
-    """Run the command line in this process: exit status, standard output, standard error."""
-
-    def call(*arguments: str) -> tuple[int, str, str]:
-        with pytest.raises(SystemExit) as exit_:
-            main(list(arguments))
-        out, err = capfd.readouterr()
-        assert isinstance(exit_.value.code, int)
-        return exit_.value.code, out, err
-
-    return call
-
-
-def test_help_and_version(run) -> None:
-    status, out, err = run("--version")
+def test_help_and_version(levade) -> None:
+    status, out, err = levade("--version")
     assert (status, out, err) == (0, f"levade {__version__}\n", "")
     for arguments in ((), ("--help",)):
-        status, out, err = run(*arguments)
+        status, out, err = levade(*arguments)
         assert (status, err) == (0, "")
         for command in ("solve", "show", "tasks", "robots"):
             assert f"\n  {command} " in out
-    status, out, err = run("solve", "--help")
+    status, out, err = levade("solve", "--help")
     assert (status, err) == (0, "")
     for option in ("--robot", "--seed", "--trials", "--optimizer", "--set", "--out", "--json", "--resume"):
         assert option in out
@@ -118,11 +96,11 @@ def test_help_and_version(run) -> None:
 )
 @pytest.mark.parametrize("json_too", [False, True])
 def test_wrong_input_is_one_line_and_nothing_is_written(
-    run, tmp_path: Path, arguments: str, message: str, json_too: bool
+    levade, tmp_path: Path, arguments: str, message: str, json_too: bool
 ) -> None:
     if json_too and not arguments.startswith(("solve", "show")):
         pytest.skip("no --json here")
-    status, out, err = run(*arguments.split(" ", 1)[:1], *["--json"] * json_too, *arguments.split(" ")[1:])
+    status, out, err = levade(*arguments.split(" ", 1)[:1], *["--json"] * json_too, *arguments.split(" ")[1:])
     assert status == 2
     assert err.startswith("levade: ")
     assert message in err
@@ -133,24 +111,24 @@ def test_wrong_input_is_one_line_and_nothing_is_written(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_task_file_with_a_mistake(run, tmp_path: Path) -> None:
+def test_a_task_file_with_a_mistake(levade, tmp_path: Path) -> None:
     (tmp_path / "mine.yaml").write_text(
         "name: mine\nhorizon: 300 ms\ncosts: {position: {weight: 1, z: 90 deg}}\nsuccess: {}\n"
     )
-    status, out, err = run("solve", "mine.yaml")
+    status, out, err = levade("solve", "mine.yaml")
     assert (status, out) == (2, "")
     assert err == (
         "levade: mine.yaml.costs.position.z: '90 deg' is an angle, but this is a length;"
         " units here: m, cm, mm, height, leg, trunk\n"
     )
     (tmp_path / "mine.yaml").write_bytes(b"\x00\xff")
-    assert run("solve", "mine.yaml")[0] == 2
+    assert levade("solve", "mine.yaml")[0] == 2
     assert [path.name for path in tmp_path.iterdir()] == ["mine.yaml"]
 
 
 @pytest.mark.parametrize(("extra", "status"), [(LOOSE, 0), ([], 1)])
-def test_solve_says_by_its_status_whether_it_succeeded(run, tmp_path: Path, extra: list[str], status: int) -> None:
-    code, out, err = run("solve", "rearing", *QUICK, *extra)
+def test_solve_says_by_its_status_whether_it_succeeded(levade, tmp_path: Path, extra: list[str], status: int) -> None:
+    code, out, err = levade("solve", "rearing", *QUICK, *extra)
     assert (code, err) == (status, "")
     assert "\x1b" not in out
     for name in ("motion.npz", "task.yaml", "progress.csv", "checkpoint.jsonl"):
@@ -162,11 +140,11 @@ def test_solve_says_by_its_status_whether_it_succeeded(run, tmp_path: Path, extr
     assert Motion.load(tmp_path / "rearing" / "motion.npz").meta["success"] is (status == 0)
 
 
-def test_a_robust_search_without_success_says_that_the_model_alone_does_it(run) -> None:
+def test_a_robust_search_without_success_says_that_the_model_alone_does_it(levade) -> None:
     """A quarter turn at the start is nothing that standing still makes up for."""
     turned = "robust={samples: 2, perturb: {start_attitude: [1.5, 1.6]}}"
     stand = ["success={height: {target: 0.57, tolerance: 5 cm}}", "stages=[{name: full}]", turned]
-    code, out, _ = run("solve", "rearing", *QUICK, "--trials", "48", *(word for s in stand for word in ("--set", s)))
+    code, out, _ = levade("solve", "rearing", *QUICK, "--trials", "48", *(word for s in stand for word in ("--set", s)))
     assert code == 1
     assert "All of this is met on the model, but not on enough of the robots that differ from it.\nNo success" in out
     motion = Motion.load("rearing/motion.npz")
@@ -174,8 +152,8 @@ def test_a_robust_search_without_success_says_that_the_model_alone_does_it(run) 
 
 
 @pytest.mark.parametrize(("extra", "status"), [(LOOSE, 0), ([], 1)])
-def test_json_is_one_object_and_nothing_else(run, extra: list[str], status: int) -> None:
-    code, out, err = run("solve", "rearing", "--json", "--seed", "5", "--out", "x/y", *QUICK, *extra)
+def test_json_is_one_object_and_nothing_else(levade, extra: list[str], status: int) -> None:
+    code, out, err = levade("solve", "rearing", "--json", "--seed", "5", "--out", "x/y", *QUICK, *extra)
     assert (code, err) == (status, "")
     assert out.count("\n") == 1
     content = json.loads(out)
@@ -202,38 +180,38 @@ def test_json_is_one_object_and_nothing_else(run, extra: list[str], status: int)
     assert motion.meta["cost"] == content["cost"]
 
 
-def test_the_same_seed_and_the_file_that_is_left_give_the_same_motion(run) -> None:
-    run("solve", "rearing", "--seed", "4", "--out", "one", *QUICK)
-    run("solve", "one/task.yaml", "--seed", "4", "--out", "two", "--threads", "2")
-    run("solve", "rearing", "--seed", "5", "--out", "three", *QUICK)
+def test_the_same_seed_and_the_file_that_is_left_give_the_same_motion(levade) -> None:
+    levade("solve", "rearing", "--seed", "4", "--out", "one", *QUICK)
+    levade("solve", "one/task.yaml", "--seed", "4", "--out", "two", "--threads", "2")
+    levade("solve", "rearing", "--seed", "5", "--out", "three", *QUICK)
     one, two, three = (Motion.load(f"{name}/motion.npz") for name in ("one", "two", "three"))
     for name, values in one.arrays.items():
         assert values.tobytes() == two[name].tobytes()
     assert one["weights"].tobytes() != three["weights"].tobytes()
 
 
-def test_files_of_ones_own_are_kept_unless_forced(run, tmp_path: Path) -> None:
-    run("solve", "rearing", *QUICK)
+def test_files_of_ones_own_are_kept_unless_forced(levade, tmp_path: Path) -> None:
+    levade("solve", "rearing", *QUICK)
     (tmp_path / "task.yaml").write_text((tmp_path / "rearing" / "task.yaml").read_text())
     before = (tmp_path / "task.yaml").read_bytes()
-    status, out, err = run("solve", "task.yaml", "--out", ".")
+    status, out, err = levade("solve", "task.yaml", "--out", ".")
     assert (status, out) == (2, "")
     assert "task.yaml: is of no run here, and would be replaced" in err
     assert (tmp_path / "task.yaml").read_bytes() == before
-    assert run("solve", "task.yaml", "--out", ".", "--force")[0] == 1
-    assert run("solve", "rearing/task.yaml")[0] == 1  # a finished run is replaced by itself
+    assert levade("solve", "task.yaml", "--out", ".", "--force")[0] == 1
+    assert levade("solve", "rearing/task.yaml")[0] == 1  # a finished run is replaced by itself
 
 
-def test_odd_names_are_printed_as_they_are(run) -> None:
-    status, out, _ = run("solve", "rearing", "--out", "out[bold]", *QUICK)
+def test_odd_names_are_printed_as_they_are(levade) -> None:
+    status, out, _ = levade("solve", "rearing", "--out", "out[bold]", *QUICK)
     assert status == 1
     assert "Written: out[bold]/motion.npz" in out
 
 
 @pytest.mark.parametrize("extra", [LOOSE, []])
-def test_show(run, extra: list[str]) -> None:
-    solved = run("solve", "rearing", "--seed", "2", *QUICK, *extra)[0]
-    status, out, err = run("show", "rearing/motion.npz")
+def test_show(levade, extra: list[str]) -> None:
+    solved = levade("solve", "rearing", "--seed", "2", *QUICK, *extra)[0]
+    status, out, err = levade("show", "rearing/motion.npz")
     assert (status, err) == (solved, "")
     assert "\x1b" not in out
     assert "rearing on hyq2max, seed 2: 0.06 s, 30 steps of 2 ms" in out
@@ -241,41 +219,41 @@ def test_show(run, extra: list[str]) -> None:
     lines = out.splitlines()
     assert len({line.split()[0] for line in lines}) >= 6  # no row is broken in two
     assert all(len(line.split()) > 3 for line in lines)
-    status, out, err = run("show", "rearing/motion.npz", "--json")
+    status, out, err = levade("show", "rearing/motion.npz", "--json")
     assert (status, err, out.count("\n")) == (solved, "", 1)
     assert json.loads(out)["seed"] == 2
 
 
-def test_listings(run) -> None:
+def test_listings(levade) -> None:
     from levade.robots import builtin_robots
     from levade.robots.packages import package_robots
     from levade.tasks import builtin_tasks
 
-    status, out, err = run("tasks")
+    status, out, err = levade("tasks")
     assert (status, err) == (0, "")
     assert [line.split()[0] for line in out.splitlines()] == list(builtin_tasks())
-    status, out, _ = run("tasks", "--json")
+    status, out, _ = levade("tasks", "--json")
     assert [task["name"] for task in json.loads(out)["tasks"]] == list(builtin_tasks())
-    status, out, _ = run("robots")
+    status, out, _ = levade("robots")
     assert out.splitlines()[0].startswith("hyq2max  ")
-    status, out, _ = run("robots", "--json")
+    status, out, _ = levade("robots", "--json")
     assert (status, out.count("\n")) == (0, 1)
     robots = [(r["name"], r["description"]) for r in json.loads(out)["robots"]]
     packaged = [(name, path.name) for name, path in package_robots().items()]  # whatever is installed
     assert robots == [*builtin_robots(), *packaged]
 
 
-def test_a_task_to_start_from(run, tmp_path: Path) -> None:
+def test_a_task_to_start_from(levade, tmp_path: Path) -> None:
     from levade.tasks import builtin_tasks, load_task
 
-    status, out, err = run("tasks", "show", "rearing")
+    status, out, err = levade("tasks", "show", "rearing")
     assert (status, err) == (0, "")
     assert out == builtin_tasks()["rearing"].read_text(encoding="utf-8")
-    status, out, err = run("tasks", "show", "rearing", "--full", "--robot", "hyq2max")
+    status, out, err = levade("tasks", "show", "rearing", "--full", "--robot", "hyq2max")
     assert (status, err) == (0, "")
     (tmp_path / "full.yaml").write_text(out)
     assert load_task(tmp_path / "full.yaml") == load_task("rearing")
-    status, out, err = run("tasks", "schema")
+    status, out, err = levade("tasks", "schema")
     assert (status, err, json.loads(out)["title"]) == (0, "", "levade task")
 
 

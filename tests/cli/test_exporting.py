@@ -7,33 +7,19 @@ from pathlib import Path
 
 import pytest
 
-from levade.cli import main
 from levade.export import FORMATS
-from levade.run import run
-from levade.tasks import load_task
 
 
-@pytest.fixture(scope="module")
-def motion(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A motion that has not met its goal."""
-    directory = tmp_path_factory.mktemp("runs") / "rearing"
-    run(load_task("rearing", changes=["search.population=8", "search.trials=16"]), seed=0, directory=directory)
-    return directory / "motion.npz"
-
-
-def levade(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:
-    with pytest.raises(SystemExit) as stopped:
-        main([str(argument) for argument in arguments])
-    out, err = capsys.readouterr()
-    assert isinstance(stopped.value.code, int)
-    return stopped.value.code, out, err
+@pytest.fixture
+def motion(unmet: Path) -> Path:
+    return unmet / "motion.npz"
 
 
 @pytest.mark.parametrize("to", FORMATS)
-def test_it_prints_what_was_written(motion: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], to: str) -> None:
+def test_it_prints_what_was_written(motion: Path, tmp_path: Path, levade, to: str) -> None:
     if to == "ros2":
         pytest.importorskip("mcap", reason="a bag needs mcap: pip install levade[ros2]")
-    status, out, err = levade(capsys, "export", motion, "--to", to, "--out", tmp_path / to, "--json")
+    status, out, err = levade("export", motion, "--to", to, "--out", tmp_path / to, "--json")
     assert (status, err, out.count("\n")) == (0, "", 1)
     content = json.loads(out)
     assert content["format"] == to
@@ -43,21 +29,18 @@ def test_it_prints_what_was_written(motion: Path, tmp_path: Path, capsys: pytest
     assert len(content["joints"]) == 12
     assert content["notes"][0] == "the motion does not meet its success criteria"
     assert Path(tmp_path / to / "player.py").read_text().startswith("#!/usr/bin/env python3\n")
-    status, out, err = levade(capsys, "export", motion, "--to", to, "--out", tmp_path / to)
+    status, out, err = levade("export", motion, "--to", to, "--out", tmp_path / to)
     assert (status, err) == (0, "")
     assert "rows at" in out
     assert "player.py" in out
 
 
-def test_it_writes_beside_the_motion_and_records_the_command(
-    motion: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_it_writes_beside_the_motion_and_records_the_command(motion: Path, tmp_path: Path, levade) -> None:
     (tmp_path / "my run").mkdir()
     copy = tmp_path / "my run" / "motion.npz"
     copy.write_bytes(motion.read_bytes())
-    monkeypatch.chdir(tmp_path)
     status, out, _ = levade(
-        *(capsys, "export", "my run/motion.npz", "--to", "csv", "--rate", 250, "--reference", "commanded", "--no-hold")
+        *("export", "my run/motion.npz", "--to", "csv", "--rate", 250, "--reference", "commanded", "--no-hold")
     )
     assert status == 0
     assert "Written to my run/motion-csv: meta.json, motion.csv, player.py" in out
@@ -86,14 +69,12 @@ def test_it_writes_beside_the_motion_and_records_the_command(
 def test_wrong_input_is_one_line_and_nothing_is_written(
     motion: Path,
     tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
-    monkeypatch: pytest.MonkeyPatch,
+    levade,
     options: list[str],
     message: str,
 ) -> None:
-    monkeypatch.chdir(tmp_path)
     before = sorted(path.name for path in motion.parent.iterdir())
-    status, out, err = levade(capsys, "export", motion, *options)
+    status, out, err = levade("export", motion, *options)
     assert (status, out) == (2, "")
     assert message in err
     assert err.count("\n") == 1
@@ -101,8 +82,8 @@ def test_wrong_input_is_one_line_and_nothing_is_written(
     assert sorted(path.name for path in motion.parent.iterdir()) == before
 
 
-def test_what_is_no_motion(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    status, _, err = levade(capsys, "export", tmp_path / "none.npz", "--to", "csv")
+def test_what_is_no_motion(tmp_path: Path, levade) -> None:
+    status, _, err = levade("export", tmp_path / "none.npz", "--to", "csv")
     assert status == 2
     assert "no such file; give the motion.npz that levade solve wrote" in err
-    assert levade(capsys, "export")[0] == 2
+    assert levade("export")[0] == 2

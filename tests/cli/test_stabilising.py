@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import json
-import os
 import signal
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
-from levade.cli import main
-from levade.motion import Motion, record
-from levade.solve import Objective, solve
+from levade.motions import Motion
+from levade.search import make_objective, solve
+from levade.search.recording import record
 from levade.stabilise import stabilise
 from levade.tasks import load_task
 
@@ -21,53 +18,40 @@ from levade.tasks import load_task
 @pytest.fixture(scope="module")
 def motion(tmp_path_factory: pytest.TempPathFactory) -> Path:
     changes = ["success.pitch.tolerance=0.02", "success.height.tolerance=0.05"]
-    objective = Objective(load_task("rearing", changes=changes), threads=1)
+    objective = make_objective(load_task("rearing", changes=changes), threads=1)
     path = tmp_path_factory.mktemp("stabilise") / "motion.npz"
     record(objective, solve(objective, seed=0), seed=0).save(path)
     return path
 
 
-def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
-    with pytest.raises(SystemExit) as caught:
-        main(arguments)
-    captured = capsys.readouterr()
-    return int(caught.value.code or 0), captured.out, captured.err
-
-
 @pytest.mark.slow
-def test_it_writes_a_motion_that_a_check_knows_as_stabilised(motion: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    code, out, err = run(capsys, "stabilise", str(motion), "--runs", "32", "--json")
+def test_it_writes_a_motion_that_a_check_knows_as_stabilised(motion: Path, levade) -> None:
+    code, out, err = levade("stabilise", str(motion), "--runs", "32", "--json")
     content = json.loads(out)
     assert (code, err) == (0, "")
     assert content["share"] > content["open_loop"]
     written = Path(content["written"])
     assert written == motion.with_name("motion-stabilised.npz")
     assert Motion.load(written).feedback is not None
-    _, out, _ = run(capsys, "check", str(written), "--runs", "40", "--json")
+    _, out, _ = levade("check", str(written), "--runs", "40", "--json")
     checked = json.loads(out)
     assert checked["open_loop"]["runs"] == checked["perturbed"]["runs"] == 40
     assert checked["perturbed"]["successes"] > checked["open_loop"]["successes"]
-    _, out, _ = run(capsys, "check", str(written), "--runs", "8")
+    _, out, _ = levade("check", str(written), "--runs", "8")
     assert "without the stabiliser" in out
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_search_that_is_stopped_keeps_its_best(motion: Path, tmp_path: Path, number: signal.Signals) -> None:
+def test_a_search_that_is_stopped_keeps_its_best(motion: Path, tmp_path: Path, process, number: signal.Signals) -> None:
     """The real thing: a signal while the second design is tried."""
     written = tmp_path / "kept.npz"
-    process = subprocess.Popen(
-        [sys.executable, "-m", "levade", "stabilise", str(motion), "--threads=1", f"--out={written}"],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        env={**os.environ, "PYTHONUNBUFFERED": "1", "COLUMNS": "200"},
-    )
-    assert process.stdout is not None
-    told = [process.stdout.readline() for _ in range(2)]
+    stabilising = process("stabilise", motion, "--threads=1", f"--out={written}")
+    assert stabilising.stdout is not None
+    told = [stabilising.stdout.readline() for _ in range(2)]
     assert told[0].strip().startswith("no feedback:")
-    process.send_signal(number)
-    out, err = process.communicate(timeout=100)
-    assert (process.returncode, err) == (0, "")
+    stabilising.send_signal(number)
+    out, err = stabilising.communicate(timeout=100)
+    assert (stabilising.returncode, err) == (0, "")
     count = 1 + sum(line.strip().startswith("corrections of") for line in out.splitlines())
     assert f"Interrupted after {count} design{'s' * (count > 1)}: the best is kept." in out
     assert count < 6
@@ -82,22 +66,20 @@ def test_before_the_first_design_there_is_nothing_to_keep(motion: Path) -> None:
     assert found.motion.feedback is None
 
 
-def test_a_motion_that_nothing_disturbs_is_left_alone(
-    motion: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_motion_that_nothing_disturbs_is_left_alone(motion: Path, tmp_path: Path, levade) -> None:
     from dataclasses import fields
 
     from levade.engines import Perturbation
 
     still = [word for one in fields(Perturbation) for word in ("--perturb", f"{one.name}=null")]
     out_file = tmp_path / "none.npz"
-    code, out, err = run(capsys, "stabilise", str(motion), "--runs", "8", "--out", str(out_file), *still)
+    code, out, err = levade("stabilise", str(motion), "--runs", "8", "--out", str(out_file), *still)
     assert (code, err) == (1, "")
     assert "nothing is written" in out
     assert not out_file.exists()
 
 
-def test_mistakes_are_one_line(motion: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_mistakes_are_one_line(motion: Path, levade) -> None:
     for words, message in (
         (["--bound", "9"], "--bound 9"),
         (["--out", "/nowhere/motion.npz"], "/nowhere/motion.npz: no such directory"),
@@ -105,7 +87,7 @@ def test_mistakes_are_one_line(motion: Path, capsys: pytest.CaptureFixture[str])
         (["--out", str(motion)], "is the motion itself; give another file, or leave it out"),
         (["--perturb", "frction=[1,1]"], "friction"),
     ):
-        code, out, err = run(capsys, "stabilise", str(motion), *words)
+        code, out, err = levade("stabilise", str(motion), *words)
         assert (code, out) == (2, "")
         assert message in err
         assert err.count("\n") == 1

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from levade.trajectory import JointLimits, JointReference, TorqueCurve, Trajectories
+from levade.embodiment import Embodiment, JointLimits, TorqueCurve
+from levade.trajectory import JointReference, Trajectories
 
 JOINTS = 12
 
@@ -47,7 +48,10 @@ def make_trajectories(
         "diverged": np.zeros(n, dtype=bool),
         "body_contact_force": {"trunk": np.maximum(0, normal(scale=100)), "hip": np.maximum(0, normal(scale=50))},
     }
-    return Trajectories(**(arrays | changes))
+    arrays |= changes
+    about = {name: arrays.pop(name) for name in ("limits", "legs", "trunk_com_offset") if name in arrays}
+    embodiment = Embodiment("trunk", tuple(f"joint{i}" for i in range(JOINTS)), (), **about)
+    return Trajectories(embodiment=embodiment, **arrays)
 
 
 @pytest.fixture(scope="session")

@@ -42,13 +42,11 @@ def motion(robot: Robot) -> tuple[Trajectories, np.ndarray]:
         trunk_quaternion=quaternion,
         trunk_linear_velocity=np.zeros((n, rows, 3)),
         trunk_angular_velocity=np.zeros((n, rows, 3)),
-        trunk_com_offset=robot.trunk_com_offset,
         reference=JointReference(zeros, zeros, 0.002, 4),
-        limits=robot.limits,
+        embodiment=robot.embodiment,
         timestep=0.002,
         horizon_steps=4,
         diverged=np.zeros(n, dtype=bool),
-        legs=robot.leg_geometry,
     )
     return trajectories, heights
 

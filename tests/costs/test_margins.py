@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from levade.costs import Criterion, Margins
+from levade.embodiment import JointLimits
 from levade.errors import LevadeError
 from levade.robots import load_robot
-from levade.trajectory import JointLimits
+from levade.trajectory import Trajectories
 
 LIMITS = JointLimits(
     lower=np.full(2, -1.0),
@@ -20,6 +21,11 @@ LIMITS = JointLimits(
     stall_torque=np.full(2, 200.0),
     no_load_speed=np.full(2, 20.0),
 )
+
+
+def with_limits(trajectories: Trajectories, limits: JointLimits) -> Trajectories:
+    """The same trajectories of a robot with other limits."""
+    return dataclasses.replace(trajectories, embodiment=dataclasses.replace(trajectories.embodiment, limits=limits))
 
 
 @pytest.fixture
@@ -49,7 +55,7 @@ def test_the_line_counts_while_driving_only(at_rest):
     moved = dataclasses.replace(at_rest, joint_torque=torque, joint_velocity=speed)
     assert Margins(torque_speed=0.1)(moved) == pytest.approx([4.0, 0.0])
     without = dataclasses.replace(LIMITS, stall_torque=None, no_load_speed=None)
-    assert (Margins(torque_speed=0.1)(dataclasses.replace(moved, limits=without)) == 0).all()
+    assert (Margins(torque_speed=0.1)(with_limits(moved, without)) == 0).all()
 
 
 @pytest.mark.parametrize(
@@ -69,7 +75,7 @@ def test_margins_are_criteria_too(at_rest, quantity, expected):
 def test_joints_without_limits_have_all_of_them_left(at_rest):
     ends = np.full(2, np.inf)
     none = JointLimits(-ends, ends, ends, ends)
-    free = dataclasses.replace(at_rest, limits=none, joint_velocity=np.full((2, 25, 2), 1e3))
+    free = dataclasses.replace(with_limits(at_rest, none), joint_velocity=np.full((2, 25, 2), 1e3))
     for quantity in ("angle_margin", "speed_margin", "torque_speed_margin"):
         assert Criterion(quantity, minimum=1.0, at="min").holds(free).all()
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from levade.costs import Orientation
 from levade.costs.orientation import angle_between, geodesic, pitch_past_vertical, quaternion_from_roll_pitch_yaw
 from levade.errors import LevadeError
-from levade.trajectory import roll_pitch_yaw, rotation_matrix
+from levade.rotations import roll_pitch_yaw, rotation_matrix
 
 REAR = -1.0472
 DEGREE = math.pi / 180

@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from levade.engines import MujocoEngine, Physics, Settled, State
+from levade.engines import Engine, Physics, Settled, State, make_engine, start_state
 from levade.robots import Robot, load_robot
 from levade.scenes import Scene
 from levade.trajectory import JointReference
@@ -20,13 +20,13 @@ def robot() -> Robot:
 
 
 @pytest.fixture(scope="session")
-def engine(robot: Robot) -> MujocoEngine:
-    return MujocoEngine(robot, Scene(), Physics(), threads=1)
+def engine(robot: Robot) -> Engine:
+    return make_engine(robot, Scene(), Physics(), threads=1)
 
 
 @pytest.fixture(scope="session")
-def state(engine: MujocoEngine) -> State:
-    return engine.start(Settled())
+def state(robot: Robot, engine: Engine) -> State:
+    return start_state(engine, robot, Scene(), Settled())
 
 
 @pytest.fixture(scope="session")

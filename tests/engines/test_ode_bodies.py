@@ -8,8 +8,8 @@ import pytest
 
 from levade.engines import Ode
 from levade.engines.ode.library import load
+from levade.engines.ode.multibody import multibody_of
 from levade.engines.ode.simulation import Record, Simulation
-from levade.engines.ode.skeleton import skeleton
 from levade.errors import LevadeError
 
 try:
@@ -40,12 +40,12 @@ def simulate(
     model: mujoco.MjModel, steps: int, *, qpos=None, qvel=None, target=None, settings: Ode = GAZEBO, **forces
 ) -> Record:
     """One trial; target: (steps, J) [rad] of the hinges, at rest."""
-    run = Simulation(skeleton(model), settings, model.opt.timestep)
-    joints = len(run.skeleton.hinges.names)
+    run = Simulation(multibody_of(model), settings, model.opt.timestep)
+    joints = len(run.multibody.hinges.names)
     position = np.zeros((1, steps, joints)) if target is None else np.asarray(target, dtype=float)[None]
     start = (model.qpos0 if qpos is None else np.array(qpos, dtype=float), np.zeros(model.nv), np.zeros(model.na))
     start[1][:] = 0 if qvel is None else qvel
-    return run.run(*start, position, np.zeros_like(position), **forces)
+    return run.run(*(part[None] for part in start), position, np.zeros_like(position), **forces)
 
 
 def in_mujoco(model: mujoco.MjModel, steps: int, *, qpos, qvel) -> np.ndarray:
@@ -187,7 +187,7 @@ def test_a_body_and_what_is_welded_to_it_are_one_link() -> None:
         '<body pos="0.1 0 0.3"><geom type="sphere" size="0.04" mass="1"/></body></body>'
     )
     qpos, qvel = [0, 0, 20, 1, 0, 0, 0], [0, 0, 1, 2.0, 1.0, -3.0]
-    s = skeleton(model)
+    s = multibody_of(model)
     assert len(s.mass) == 1
     assert s.mass[0] == pytest.approx(6.0)
     out = simulate(model, 250, qpos=qpos, qvel=qvel)
@@ -221,4 +221,4 @@ def test_a_body_and_what_is_welded_to_it_are_one_link() -> None:
 )
 def test_what_ode_cannot_simulate_is_said(body: str, more: str, message: str) -> None:
     with pytest.raises(LevadeError, match=message):
-        skeleton(model_of(body, more=more))
+        multibody_of(model_of(body, more=more))

@@ -13,12 +13,12 @@ import numpy as np
 import pytest
 
 import levade.robots
-from levade.engines import Engine, Fall, MujocoEngine, Ode, Physics, Settled, State, make_engine
-from levade.engines.ode import crew, library
+from levade.engines import FOOT_CONTACT_FORCE, Engine, Fall, Ode, Physics, Settled, State, make_engine, start_state
+from levade.engines.ode import library, workers
+from levade.engines.ode.broadphase import BroadPhase
 from levade.engines.ode.joints import Torques, link_motion
 from levade.engines.ode.library import load
-from levade.engines.ode.nearness import Nearness
-from levade.engines.ode.skeleton import skeleton
+from levade.engines.ode.multibody import multibody_of
 from levade.errors import LevadeError
 from levade.robots import Robot, load_robot
 from levade.scenes import Box, Scene
@@ -41,13 +41,13 @@ def ode(robot: Robot) -> Engine:
 
 
 @pytest.fixture(scope="module")
-def standing(ode: Engine) -> State:
-    return ode.start(Settled())
+def standing(robot: Robot, ode: Engine) -> State:
+    return start_state(ode, robot, Scene(), Settled())
 
 
-def hold(engine: Engine, state: State, steps: int, **forces) -> Trajectories:
-    position = np.repeat(state.joint_reference[None, None], steps, axis=1)
-    return engine.rollout(state, JointReference(position, np.zeros_like(position), 0.002, steps), **forces)
+def hold(engine: Engine, state: State, steps: int, **options) -> Trajectories:
+    position = np.repeat(state.joint_reference[None], steps, axis=1)
+    return engine.rollout(state, JointReference(position, np.zeros_like(position), 0.002, steps), **options)
 
 
 def states(engine: Engine, out: Trajectories, trial: int = 0) -> Iterator[mujoco.MjData]:
@@ -73,8 +73,8 @@ def states(engine: Engine, out: Trajectories, trial: int = 0) -> Iterator[mujoco
 @pytest.mark.parametrize("actuation", ["hydraulic", "ideal"])
 def test_drives_deliver_what_mujoco_s_deliver(actuation: str) -> None:
     """At random angles, speeds, references and states of the lag, to rounding."""
-    engine = MujocoEngine(load_robot("hyq2max", actuation=actuation), Scene(), Physics(), threads=1)
-    s, random = skeleton(engine.model), np.random.default_rng(0)
+    engine = make_engine(load_robot("hyq2max", actuation=actuation), Scene(), Physics(), threads=1)
+    s, random = multibody_of(engine.model), np.random.default_rng(0)
     for _ in range(50):
         data = mujoco.MjData(engine.model)
         q, v, error, rate = random.normal(size=(4, 12)) * [[1], [8], [0.4], [5]]
@@ -93,10 +93,10 @@ def test_a_step_in_flight_is_mujoco_s_explicit_step(robot: Robot, ode: Engine, s
     """
     engine = make_engine(robot, Scene(), Physics(integrator="Euler"), threads=1)
     random = np.random.default_rng(1)
-    qpos, qvel = standing.qpos.copy(), random.normal(size=standing.qvel.size)
-    qpos[2] = 5.0
+    qpos, qvel = standing.qpos.copy(), random.normal(size=standing.qvel.shape)
+    qpos[0, 2] = 5.0
     quaternion = random.normal(size=4)
-    qpos[3:7] = quaternion / np.linalg.norm(quaternion)
+    qpos[0, 3:7] = quaternion / np.linalg.norm(quaternion)
     start = dataclasses.replace(standing, qpos=qpos, qvel=qvel)
     out = {name: hold(e, start, 1) for name, e in (("ode", ode), ("mujoco", engine))}
     for name in ARRAYS:
@@ -113,7 +113,7 @@ def test_in_flight_momentum_is_kept_and_the_centre_of_mass_falls_freely(
     legs alone have, as first-order integrators with steps of 2 ms keep it (half of it at 1 ms).
     """
     engine = make_engine(robot, Scene(), Physics(engine=name), threads=1)
-    state = engine.start(Fall(height=8.0, roll=0.3, pitch=-0.2, time=0.0))
+    state = start_state(engine, robot, Scene(), Fall(height=8.0, roll=0.3, pitch=-0.2, time=0.0))
     out = engine.rollout(state, wave(state.joint_reference, n=1, steps=200, scale=0.2))
     rows = [
         (d.subtree_com[0].copy(), d.subtree_linvel[0].copy(), d.subtree_angmom[0].copy()) for d in states(engine, out)
@@ -130,13 +130,16 @@ def test_in_flight_momentum_is_kept_and_the_centre_of_mass_falls_freely(
 
 
 def test_standing_takes_the_same_torques_and_forces(
-    robot: Robot, engine: MujocoEngine, ode: Engine, state: State, standing: State
+    robot: Robot, engine: Engine, ode: Engine, state: State, standing: State
 ) -> None:
     """Statics of a robot on four feet, which do not slip: what is left open is how hard the feet push against each other,
     and that depends on how they came down. So: heights within 2 mm, torques within 1.5 Nm of up to 37.
     """
-    assert standing.qpos[2] == pytest.approx(state.qpos[2], abs=0.002)
-    here, there = hold(ode, standing, 100, feet=True), hold(engine, state, 100, feet=True)
+    assert standing.qpos[0, 2] == pytest.approx(state.qpos[0, 2], abs=0.002)
+    here, there = (
+        hold(ode, standing, 100, record=[FOOT_CONTACT_FORCE]),
+        hold(engine, state, 100, record=[FOOT_CONTACT_FORCE]),
+    )
     torque = here.joint_torque[0, 50:].mean(axis=0) - there.joint_torque[0, 50:].mean(axis=0)
     assert np.abs(torque).max() < 1.5
     assert np.abs(there.joint_torque).max() > 30
@@ -154,8 +157,8 @@ def test_a_step_of_a_hanging_leg(actuation: str) -> None:
     """
     robot = load_robot("hyq2max", actuation=actuation)
     engines = {name: make_engine(robot, Scene(), Physics(engine=name), threads=1) for name in ("mujoco", "ode")}
-    state = engines["mujoco"].start(Fall(height=3.0, time=0.0))
-    position = np.repeat(state.joint_position[None, None], 100, axis=1)
+    state = start_state(engines["mujoco"], robot, Scene(), Fall(height=3.0, time=0.0))
+    position = np.repeat(state.joint_position[None], 100, axis=1)
     position[:, :, 2] -= 0.2
     position[:, :, 1] += 0.1
     reference = JointReference(position, np.zeros_like(position), 0.002, 100)
@@ -171,7 +174,7 @@ def test_a_step_of_a_hanging_leg(actuation: str) -> None:
 
 
 def test_motions_stay_together_for_a_tenth_of_a_second(
-    engine: MujocoEngine, ode: Engine, standing: State, wave: Callable[..., JointReference]
+    engine: Engine, ode: Engine, standing: State, wave: Callable[..., JointReference]
 ) -> None:
     """Legs that push the ground: contact tells the engines apart, slowly at first."""
     reference = wave(standing.joint_reference, n=5, steps=50)
@@ -187,26 +190,26 @@ def test_processes_order_and_company_do_not_matter(
     wave: Callable[..., JointReference],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(crew, "_HIRE", 0)
+    monkeypatch.setattr(workers, "_START", 0)
     reference = wave(standing.joint_reference, n=7, steps=220)
-    expected = ode.rollout(standing, reference, feet=True, bodies=("trunk", "lf_lower"))
+    expected = ode.rollout(standing, reference, record=(FOOT_CONTACT_FORCE, "trunk", "lf_lower"))
     three = make_engine(robot, Scene(), PHYSICS, threads=3)
     order = [6, 2, 4, 0, 1, 3, 5]
     for label, out, rows in (
-        ("again", ode.rollout(standing, reference, feet=True), slice(None)),
-        ("three processes", three.rollout(standing, reference, feet=True), slice(None)),
+        ("again", ode.rollout(standing, reference, record=[FOOT_CONTACT_FORCE]), slice(None)),
+        ("three processes", three.rollout(standing, reference, record=[FOOT_CONTACT_FORCE]), slice(None)),
         ("shuffled", ode.rollout(standing, reference[order]), order),
-        ("alone", ode.rollout(standing, reference[3:4], feet=True), slice(3, 4)),
+        ("alone", ode.rollout(standing, reference[3:4], record=[FOOT_CONTACT_FORCE]), slice(3, 4)),
     ):
         for name in ARRAYS:
             np.testing.assert_array_equal(getattr(out, name), getattr(expected, name)[rows], err_msg=f"{label}: {name}")
         if out.foot_contact_force is not None:
             np.testing.assert_array_equal(out.foot_contact_force, expected.foot_contact_force[rows], err_msg=label)
-    helpers = list(three._stage._crew._helpers)  # type: ignore[attr-defined]
-    assert [helper.poll() for helper in helpers] == [None, None]
+    started = list(three._workers._workers)  # type: ignore[attr-defined]
+    assert [worker.poll() for worker in started] == [None, None]
     del three
     gc.collect()
-    assert None not in [helper.poll() for helper in helpers]  # they go with the engine
+    assert None not in [worker.poll() for worker in started]  # they go with the engine
     # the shank's body has the foot on it, and only the foot touched the ground
     force = np.linalg.norm(expected.foot_contact_force[:, :, 0], axis=-1)
     np.testing.assert_allclose(expected.body_contact_force["lf_lower"], force, rtol=1e-6, atol=1e-6)
@@ -217,8 +220,8 @@ def test_every_pair_that_touches_is_found(robot: Robot) -> None:
     """ODE asked about every pair, in contorted postures among obstacles, against those that the quick test passes on."""
     scene = Scene(boxes=(Box((0.2, 0.2, 0.2), (0.5, 0.3, 0.3), roll=0.3, yaw=0.5),), slope=0.1)
     engine = make_engine(robot, scene, PHYSICS, threads=1)
-    simulation = engine._stage._crew.simulation  # type: ignore[attr-defined]
-    s, worlds, ode = simulation.skeleton, simulation._worlds, load()
+    simulation = engine._workers.simulation  # type: ignore[attr-defined]
+    s, worlds, ode = simulation.multibody, simulation._worlds, load()
     random, touched = np.random.default_rng(3), 0
     limits = robot.limits
     worlds.grow(1)
@@ -229,7 +232,7 @@ def test_every_pair_that_touches_is_found(robot: Robot) -> None:
         qpos[3:7] /= np.linalg.norm(qpos[3:7])
         qpos[s.hinges.qpos] = random.uniform(limits.lower, limits.upper)
         worlds.place([0], *link_motion(s, qpos, np.zeros(engine.model.nv)))
-        passed_on = set(Nearness(s)(worlds.read(1), 0.002)[0])
+        passed_on = set(BroadPhase(s)(worlds.read(1), 0.002)[0])
         for pair, (one, other, _, _) in enumerate(worlds._sides[0]):
             if ode.dCollide(one, other, 8, worlds._geom_at, worlds._skip):
                 touched += 1
@@ -255,18 +258,19 @@ def test_simulations_that_break_down_are_marked_and_leave_the_others_alone(
     unstable: Robot, wave: Callable[..., JointReference], capfd: pytest.CaptureFixture[str]
 ) -> None:
     engine = make_engine(unstable, Scene(), dataclasses.replace(PHYSICS, timestep=0.01), threads=1)
-    state = engine.start(Settled(time=0.0))
+    state = start_state(engine, unstable, Scene(), Settled(time=0.0))
     assert hold(engine, state, 40).diverged.all()
     with pytest.raises(LevadeError, match=r"start: the simulation broke down within 2.0 s; a smaller physics.timestep"):
-        engine.start(Settled(time=2.0))
-    good = make_engine(load_robot("hyq2max", actuation="ideal"), Scene(), PHYSICS, threads=1)
-    state = good.start(Settled(time=0.2))
+        start_state(engine, unstable, Scene(), Settled(time=2.0))
+    ideal = load_robot("hyq2max", actuation="ideal")
+    good = make_engine(ideal, Scene(), PHYSICS, threads=1)
+    state = start_state(good, ideal, Scene(), Settled(time=0.2))
     reference = wave(state.joint_reference, n=4, steps=60)
     expected = good.rollout(state, reference)
     broken = dataclasses.replace(reference, position=reference.position.copy(), velocity=reference.velocity.copy())
     broken.position[1, 30:] = np.nan
     broken.velocity[3] = np.nan
-    out = good.rollout(state, broken, feet=True)
+    out = good.rollout(state, broken, record=[FOOT_CONTACT_FORCE])
     np.testing.assert_array_equal(out.diverged, [False, True, False, True])
     for name in ARRAYS:
         value = getattr(out, name)
@@ -283,7 +287,7 @@ def test_a_run_that_was_interrupted_leaves_nothing_behind(
 ) -> None:
     """In the middle of a step: torques put on, contacts made, nothing integrated."""
     engine = make_engine(robot, Scene(), PHYSICS, threads=1)
-    worlds = engine._stage._crew.simulation._worlds  # type: ignore[attr-defined]
+    worlds = engine._workers.simulation._worlds  # type: ignore[attr-defined]
     reference = wave(standing.joint_reference, n=2, steps=20)
     expected, step, calls = engine.rollout(standing, reference), worlds._step, []
 

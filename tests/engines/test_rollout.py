@@ -12,7 +12,16 @@ import numpy as np
 import pytest
 
 import levade.robots
-from levade.engines import Fall, MujocoEngine, Physics, Settled, State
+from levade.engines import (
+    FOOT_CONTACT_FORCE,
+    Engine,
+    Fall,
+    Physics,
+    Settled,
+    State,
+    make_engine,
+    start_state,
+)
 from levade.errors import LevadeError
 from levade.robots import Robot, load_robot
 from levade.scenes import Scene
@@ -26,7 +35,7 @@ def copied(trajectories: Trajectories) -> dict[str, np.ndarray]:
     return {name: np.array(getattr(trajectories, name)) for name in ARRAYS}
 
 
-def plain_loop(engine: MujocoEngine, state: State, reference: JointReference) -> dict[str, np.ndarray]:
+def plain_loop(engine: Engine, state: State, reference: JointReference) -> dict[str, np.ndarray]:
     """The same by names, one trial and one step at a time."""
     model = mujoco.MjModel.from_xml_string(engine.xml, engine.assets)
     n, steps, joints = reference.position.shape
@@ -36,12 +45,12 @@ def plain_loop(engine: MujocoEngine, state: State, reference: JointReference) ->
         data = mujoco.MjData(model)
         data.qpos[:], data.qvel[:], data.act[:] = state.qpos, state.qvel, state.act
         for k in range(steps):
-            for j, name in enumerate(engine.robot.joint_names):
+            for j, name in enumerate(engine.embodiment.joint_names):
                 asked = (reference.position[i, k, j], reference.velocity[i, k, j])
                 address = model.actuator(name).ctrladr[0] if hasattr(model.actuator(name), "ctrladr") else 2 * j
                 data.ctrl[address : address + 2] = asked
             mujoco.mj_step(model, data)
-            for j, name in enumerate(engine.robot.joint_names):
+            for j, name in enumerate(engine.embodiment.joint_names):
                 out["joint_position"][i, k, j] = data.joint(name).qpos[0]
                 out["joint_velocity"][i, k, j] = data.joint(name).qvel[0]
                 out["joint_torque"][i, k, j] = data.actuator(name).force[0]
@@ -52,49 +61,48 @@ def plain_loop(engine: MujocoEngine, state: State, reference: JointReference) ->
 
 @pytest.mark.parametrize("actuation", ["hydraulic", "ideal"])
 def test_a_batch_equals_a_plain_loop_to_the_bit(actuation: str, wave: Callable[..., JointReference]) -> None:
-    engine = MujocoEngine(load_robot("hyq2max", actuation=actuation), Scene(), Physics(), threads=2)
-    state = engine.start(Settled(time=0.5))
+    robot = load_robot("hyq2max", actuation=actuation)
+    engine = make_engine(robot, Scene(), Physics(), threads=2)
+    state = start_state(engine, robot, Scene(), Settled(time=0.5))
     reference = wave(state.joint_reference, n=3, steps=120)
     expected = plain_loop(engine, state, reference)
-    for options in ({}, {"feet": True}, {"bodies": ("trunk",)}, {}):
-        out = engine.rollout(state, reference, **options)
+    for record in ((), (FOOT_CONTACT_FORCE,), ("trunk",), ()):
+        out = engine.rollout(state, reference, record=record)
         assert not out.diverged.any()
         for name in ARRAYS:
-            np.testing.assert_array_equal(getattr(out, name), expected[name], err_msg=f"{name} {options}")
+            np.testing.assert_array_equal(getattr(out, name), expected[name], err_msg=f"{name} {record}")
 
 
 def test_threads_order_and_size_of_the_batch_do_not_matter(
-    robot: Robot, engine: MujocoEngine, state: State, wave: Callable[..., JointReference]
+    robot: Robot, engine: Engine, state: State, wave: Callable[..., JointReference]
 ) -> None:
     reference = wave(state.joint_reference, n=7)
     expected = copied(engine.rollout(state, reference))
-    two = MujocoEngine(robot, Scene(), Physics(), threads=2)
+    two = make_engine(robot, Scene(), Physics(), threads=2)
     order = [6, 2, 4, 0, 1, 3, 5]
     for label, out, rows in (
         ("2 threads", two.rollout(state, reference), slice(None)),
         ("shuffled", two.rollout(state, reference[order]), order),
         ("one of them, after a larger batch", engine.rollout(state, reference[3:4]), slice(3, 4)),
-        ("some, with forces", engine.rollout(state, reference[2:5], feet=True, bodies=("trunk",)), slice(2, 5)),
+        ("some, with forces", engine.rollout(state, reference[2:5], record=(FOOT_CONTACT_FORCE, "trunk")), slice(2, 5)),
         ("again", engine.rollout(state, reference), slice(None)),
     ):
         for name in ARRAYS:
             np.testing.assert_array_equal(getattr(out, name), expected[name][rows], err_msg=f"{label}: {name}")
 
 
-def test_another_state_is_another_start(
-    engine: MujocoEngine, state: State, wave: Callable[..., JointReference]
-) -> None:
+def test_another_state_is_another_start(engine: Engine, state: State, wave: Callable[..., JointReference]) -> None:
     """An engine keeps what it made of the latest state."""
     reference = wave(state.joint_reference, n=2)
     expected = copied(engine.rollout(state, reference))
-    higher = dataclasses.replace(state, qpos=state.qpos + np.eye(state.qpos.size)[2])
+    higher = dataclasses.replace(state, qpos=state.qpos + np.eye(state.qpos.size)[[2]])
     off = engine.rollout(higher, reference).trunk_position[:, 0, 2] - expected["trunk_position"][:, 0, 2]
     np.testing.assert_allclose(off, 1.0, atol=1e-3)
     np.testing.assert_array_equal(engine.rollout(state, reference).trunk_position, expected["trunk_position"])
 
 
 def test_trunk_velocities_are_the_rates_of_its_pose(
-    engine: MujocoEngine, state: State, wave: Callable[..., JointReference]
+    engine: Engine, state: State, wave: Callable[..., JointReference]
 ) -> None:
     """The integrator moves by velocity * timestep: linear in world axes, angular in the trunk's own."""
     out = engine.rollout(state, wave(state.joint_reference, n=2, steps=150))
@@ -114,11 +122,12 @@ def test_trunk_velocities_are_the_rates_of_its_pose(
     )
 
 
-def test_the_reference_in_force_is_the_rows_own(robot: Robot) -> None:
+def test_the_reference_in_force_is_the_rows_own() -> None:
     """Far from the ground, a step in row 10 of the reference shows in the torque of row 10 and not before."""
-    engine = MujocoEngine(load_robot("hyq2max", actuation="ideal"), Scene(), Physics(), threads=1)
-    state = engine.start(Fall(height=3.0, time=0.0))
-    position = np.repeat(state.joint_position[None, None], 20, axis=1)
+    robot = load_robot("hyq2max", actuation="ideal")
+    engine = make_engine(robot, Scene(), Physics(), threads=1)
+    state = start_state(engine, robot, Scene(), Fall(height=3.0, time=0.0))
+    position = np.repeat(state.joint_position[None], 20, axis=1)
     position[:, 10:, 4] += 0.1
     still = np.zeros_like(position)
     torque = engine.rollout(state, JointReference(position, still, 0.002, 20)).joint_torque[0, :, 4]
@@ -126,13 +135,13 @@ def test_the_reference_in_force_is_the_rows_own(robot: Robot) -> None:
     assert torque[10] == pytest.approx(600 * 0.1, rel=0.05)  # kp * step
 
 
-def standing(engine: MujocoEngine, state: State, steps: int) -> Trajectories:
-    hold = np.repeat(state.joint_reference[None, None], steps, axis=1)
+def standing(engine: Engine, state: State, steps: int) -> Trajectories:
+    hold = np.repeat(state.joint_reference[None], steps, axis=1)
     reference = JointReference(hold, np.zeros_like(hold), engine.physics.timestep, steps)
-    return engine.rollout(state, reference, feet=True, bodies=engine.bodies)
+    return engine.rollout(state, reference, record=(FOOT_CONTACT_FORCE, *engine.bodies))
 
 
-def test_foot_forces_carry_the_weight(robot: Robot, engine: MujocoEngine, state: State) -> None:
+def test_foot_forces_carry_the_weight(robot: Robot, engine: Engine, state: State) -> None:
     out = standing(engine, state, 400)
     force = out.foot_contact_force
     assert force is not None
@@ -146,7 +155,7 @@ def test_foot_forces_carry_the_weight(robot: Robot, engine: MujocoEngine, state:
     np.testing.assert_allclose(mean[[0, 2]], mean[[1, 3]], rtol=0.1)
 
 
-def test_body_contact_forces_are_those_of_the_scene(robot: Robot, engine: MujocoEngine, state: State) -> None:
+def test_body_contact_forces_are_those_of_the_scene(robot: Robot, engine: Engine, state: State) -> None:
     out = standing(engine, state, 50)
     feet = out.foot_contact_force
     assert feet is not None
@@ -155,7 +164,10 @@ def test_body_contact_forces_are_those_of_the_scene(robot: Robot, engine: Mujoco
         np.testing.assert_allclose(out.body_contact_force[body], np.linalg.norm(feet[:, :, i], axis=-1), rtol=1e-9)
     for body in set(engine.bodies) - set(lower):
         np.testing.assert_array_equal(out.body_contact_force[body], 0)
-    assert standing(engine, engine.start(Fall(height=3.0, time=0.0)), 5).foot_contact_force.max() == 0  # type: ignore[union-attr]
+    assert (
+        standing(engine, start_state(engine, robot, Scene(), Fall(height=3.0, time=0.0)), 5).foot_contact_force.max()
+        == 0
+    )  # type: ignore[union-attr]
 
 
 def test_forces_are_those_of_the_contacts_whatever_was_rolled_out_before(
@@ -163,13 +175,15 @@ def test_forces_are_those_of_the_contacts_whatever_was_rolled_out_before(
 ) -> None:
     """Each contact's force from mj_contactForce, summed by foot; the sensors lag the state by a step, as in mj_step."""
     reference = wave(state.joint_reference, n=6, steps=30)
-    engine = MujocoEngine(robot, Scene(), Physics(), threads=2)
+    engine = make_engine(robot, Scene(), Physics(), threads=2)
     engine.rollout(state, reference[:1])
     engine.rollout(state, reference)
-    out = engine.rollout(state, reference[2:3], feet=True, bodies=engine.bodies)
-    alone = MujocoEngine(robot, Scene(), Physics(), threads=1).rollout(state, reference[2:3], feet=True)
+    out = engine.rollout(state, reference[2:3], record=(FOOT_CONTACT_FORCE, *engine.bodies))
+    alone = make_engine(robot, Scene(), Physics(), threads=1).rollout(
+        state, reference[2:3], record=[FOOT_CONTACT_FORCE]
+    )
     engine.rollout(state, reference)
-    together = engine.rollout(state, reference, feet=True)
+    together = engine.rollout(state, reference, record=[FOOT_CONTACT_FORCE])
     assert out.foot_contact_force is not None
     assert alone.foot_contact_force is not None
     assert together.foot_contact_force is not None
@@ -200,24 +214,24 @@ def test_forces_are_those_of_the_contacts_whatever_was_rolled_out_before(
     assert np.abs(out.foot_contact_force).max() > 100
 
 
-def test_a_robot_on_its_belly_rests_on_its_trunk(engine: MujocoEngine) -> None:
+def test_a_robot_on_its_belly_rests_on_its_trunk(robot: Robot, engine: Engine) -> None:
     folded = {"?f_hfe": 1.5, "?f_kfe": -2.8, "?h_hfe": -1.5, "?h_kfe": 2.8}
-    state = engine.start(Fall(height=0.45, posture=folded, gain=0.02, time=1.5))
+    state = start_state(engine, robot, Scene(), Fall(height=0.45, posture=folded, gain=0.02, time=1.5))
     first = standing(engine, state, 1)
     assert first.body_contact_force["trunk"][0, 0] > 50
     assert np.linalg.norm(first.foot_contact_force[0, 0], axis=-1).max() < first.body_contact_force["trunk"][0, 0]  # type: ignore[index]
 
 
 def test_trials_that_break_down_are_marked_and_leave_the_others_alone(
-    engine: MujocoEngine, state: State, wave: Callable[..., JointReference], capfd: pytest.CaptureFixture[str]
+    engine: Engine, state: State, wave: Callable[..., JointReference], capfd: pytest.CaptureFixture[str]
 ) -> None:
     reference = wave(state.joint_reference, n=6, steps=80)
     expected = copied(engine.rollout(state, reference))
     broken = dataclasses.replace(reference, position=reference.position.copy())
     broken.position[1, 30:] = 1e30  # from the middle on
     broken.position[4] = 1e30
-    for options in ({}, {"feet": True, "bodies": ("trunk",)}):
-        out = engine.rollout(state, broken, **options)
+    for record in ((), (FOOT_CONTACT_FORCE, "trunk")):
+        out = engine.rollout(state, broken, record=record)
         np.testing.assert_array_equal(out.diverged, [False, True, False, False, True, False])
         ok = ~out.diverged
         for name in ARRAYS:
@@ -252,19 +266,19 @@ def test_absurd_gains_diverge_quietly(
     monkeypatch.chdir(tmp_path)
     assert np.isinf(unstable.limits.torque).all()
     assert unstable.actuation.kp[0] == 1e9
-    engine = MujocoEngine(unstable, Scene(), Physics(timestep=0.02, integrator="Euler"), threads=2)
-    state = engine.start(Settled(time=0.0))
+    engine = make_engine(unstable, Scene(), Physics(timestep=0.02, integrator="Euler"), threads=2)
+    state = start_state(engine, unstable, Scene(), Settled(time=0.0))
     out = standing(engine, state, 30)
     assert out.diverged.all()
     for name in ARRAYS:
         assert np.isfinite(getattr(out, name)).all(), name
     with pytest.raises(LevadeError, match=r"start: the simulation broke down within 2.0 s; a smaller physics.timestep"):
-        engine.start(Settled(time=2.0))
+        start_state(engine, unstable, Scene(), Settled(time=2.0))
     assert capfd.readouterr() == ("", "")
     assert not (tmp_path / "MUJOCO_LOG.TXT").exists()
 
 
-def test_a_model_that_says_so_is_the_one_that_is_simulated(engine: MujocoEngine) -> None:
+def test_a_model_that_says_so_is_the_one_that_is_simulated(engine: Engine) -> None:
     """What a motion file keeps gives the engine's model back, number by number."""
     again = mujoco.MjModel.from_xml_string(engine.xml, engine.assets)
     for name in (

@@ -6,45 +6,46 @@ import mujoco
 import numpy as np
 import pytest
 
-from levade.engines import Fall, MujocoEngine, Physics, Settled
+from levade.engines import Engine, Fall, Physics, Settled, make_engine, start_state
 from levade.engines.start import Start
 from levade.errors import LevadeError
 from levade.robots import Robot
+from levade.rotations import roll_pitch_yaw
 from levade.scenes import Box, Scene
 from levade.tasks import builtin_tasks, load_task
-from levade.trajectory import roll_pitch_yaw
 
 
 @pytest.mark.parametrize("posture", ["neutral", "h2m", {"*_haa": 0.1}])
-def test_settled_is_at_rest_in_its_posture(engine: MujocoEngine, robot: Robot, posture: str | dict[str, float]) -> None:
-    state = engine.start(Settled(posture))
+def test_settled_is_at_rest_in_its_posture(engine: Engine, robot: Robot, posture: str | dict[str, float]) -> None:
+    state = start_state(engine, robot, Scene(), Settled(posture))
     assert np.abs(state.qvel).max() < 0.01
-    np.testing.assert_array_equal(state.joint_reference, robot.posture(posture))
+    np.testing.assert_array_equal(state.joint_reference, [robot.posture(posture)])
     np.testing.assert_allclose(state.joint_position, state.joint_reference, atol=0.15)  # it sags under its weight
-    assert abs(state.qpos[2] - robot.standing_height(posture)) < 0.06
-    np.testing.assert_allclose(roll_pitch_yaw(state.qpos[3:7]), 0, atol=0.05)
+    assert abs(state.qpos[0, 2] - robot.standing_height(posture)) < 0.06
+    np.testing.assert_allclose(roll_pitch_yaw(state.qpos[0, 3:7]), 0, atol=0.05)
 
 
-def test_a_start_is_the_same_every_time_and_where_it_is_asked_for(engine: MujocoEngine, robot: Robot) -> None:
-    here, again = engine.start(Settled()), MujocoEngine(robot, Scene(), Physics(), threads=2).start(Settled())
+def test_a_start_is_the_same_every_time_and_where_it_is_asked_for(engine: Engine, robot: Robot) -> None:
+    other = make_engine(robot, Scene(), Physics(), threads=2)
+    here, again = (start_state(e, robot, Scene(), Settled()) for e in (engine, other))
     np.testing.assert_array_equal(here.qpos, again.qpos)
     np.testing.assert_array_equal(here.qvel, again.qvel)
-    there = engine.start(Settled(x=1.0, y=-2.0))
-    np.testing.assert_allclose(there.qpos[:3] - here.qpos[:3], [1, -2, 0], atol=1e-3)
+    there = start_state(engine, robot, Scene(), Settled(x=1.0, y=-2.0))
+    np.testing.assert_allclose(there.qpos[0, :3] - here.qpos[0, :3], [1, -2, 0], atol=1e-3)
 
 
-def test_without_time_it_is_as_put_down(engine: MujocoEngine, robot: Robot) -> None:
-    state = engine.start(Settled(time=0.0))
-    assert state.qpos[2] == robot.standing_height("neutral")
-    np.testing.assert_array_equal(state.joint_position, robot.posture("neutral"))
+def test_without_time_it_is_as_put_down(engine: Engine, robot: Robot) -> None:
+    state = start_state(engine, robot, Scene(), Settled(time=0.0))
+    assert state.qpos[0, 2] == robot.standing_height("neutral")
+    np.testing.assert_array_equal(state.joint_position, [robot.posture("neutral")])
     np.testing.assert_array_equal(state.qvel, 0)
-    fall = engine.start(Fall(height=2.0, x=0.5, yaw=np.pi / 2, time=0.0))
-    np.testing.assert_allclose(fall.qpos[:7], [0.5, 0, 2, np.sqrt(0.5), 0, 0, np.sqrt(0.5)])
+    fall = start_state(engine, robot, Scene(), Fall(height=2.0, x=0.5, yaw=np.pi / 2, time=0.0))
+    np.testing.assert_allclose(fall.qpos[0, :7], [0.5, 0, 2, np.sqrt(0.5), 0, 0, np.sqrt(0.5)])
 
 
-def test_a_fall_is_free_until_it_lands(engine: MujocoEngine) -> None:
+def test_a_fall_is_free_until_it_lands(robot: Robot, engine: Engine) -> None:
     """0.2 s from 3 m: the speed of the centre of mass is g t, by conservation of momentum, whatever the joints do."""
-    state = engine.start(Fall(height=3.0, time=0.2, roll=0.3))
+    state = start_state(engine, robot, Scene(), Fall(height=3.0, time=0.2, roll=0.3))
     data = mujoco.MjData(engine.model)
     data.qpos[:], data.qvel[:] = state.qpos, state.qvel
     mujoco.mj_forward(engine.model, data)
@@ -52,29 +53,31 @@ def test_a_fall_is_free_until_it_lands(engine: MujocoEngine) -> None:
     np.testing.assert_allclose(data.subtree_linvel[1], [0, 0, -9.81 * 0.2], atol=0.01)
 
 
-def test_falls_are_deterministic_and_spread_by_their_seed(engine: MujocoEngine) -> None:
+def test_falls_are_deterministic_and_spread_by_their_seed(robot: Robot, engine: Engine) -> None:
     fall = Fall(height=0.8, roll=0.5, time=0.3)
-    one, same = engine.start(fall), engine.start(fall)
+    one, same = start_state(engine, robot, Scene(), fall), start_state(engine, robot, Scene(), fall)
     np.testing.assert_array_equal(one.qpos, same.qpos)
-    np.testing.assert_array_equal(one.qpos, engine.start(Fall(height=0.8, roll=0.5, time=0.3, seed=5)).qpos)
+    np.testing.assert_array_equal(
+        one.qpos, start_state(engine, robot, Scene(), Fall(height=0.8, roll=0.5, time=0.3, seed=5)).qpos
+    )
 
     def spread(seed: int) -> np.ndarray:
-        return engine.start(Fall(height=0.8, roll=0.5, time=0.0, spread=0.1, seed=seed)).qpos
+        return start_state(engine, robot, Scene(), Fall(height=0.8, roll=0.5, time=0.0, spread=0.1, seed=seed)).qpos[0]
 
     np.testing.assert_array_equal(spread(1), spread(1))
     samples = np.array([spread(seed)[7:] for seed in range(200)])
     np.testing.assert_allclose(samples.std(axis=0), 0.1, rtol=0.2)  # 5 % would be one standard deviation
-    np.testing.assert_allclose(samples.mean(axis=0), one.joint_reference, atol=0.03)
+    np.testing.assert_allclose(samples.mean(axis=0), one.joint_reference[0], atol=0.03)
 
 
 @pytest.mark.parametrize("name", [name for name in builtin_tasks() if name.startswith("posture-recovery")])
 def test_recovery_starts_lying_partly_on_the_obstacle(robot: Robot, name: str) -> None:
     task = load_task(name)
-    engine = MujocoEngine(robot, task.scene, task.physics)
-    state = engine.start(task.start.choice)
-    roll = roll_pitch_yaw(state.qpos[3:7])[0]
+    engine = make_engine(robot, task.scene, task.physics)
+    state = start_state(engine, robot, task.scene, task.start.choice)
+    roll = roll_pitch_yaw(state.qpos[0, 3:7])[0]
     assert abs(roll) >= 0.35
-    assert state.qpos[2] < 0.35
+    assert state.qpos[0, 2] < 0.35
     data = mujoco.MjData(engine.model)
     data.qpos[:], data.qvel[:], data.act[:] = state.qpos, state.qvel, state.act
     mujoco.mj_forward(engine.model, data)
@@ -83,10 +86,11 @@ def test_recovery_starts_lying_partly_on_the_obstacle(robot: Robot, name: str) -
 
 
 def test_on_a_slope_it_stands_still(robot: Robot) -> None:
-    engine = MujocoEngine(robot, Scene(slope=0.15, friction=0.9), Physics(), threads=1)
-    state = engine.start(Settled(time=4.0))  # put down level, it sways a while
+    scene = Scene(slope=0.15, friction=0.9)
+    engine = make_engine(robot, scene, Physics(), threads=1)
+    state = start_state(engine, robot, scene, Settled(time=4.0))  # put down level, it sways a while
     assert np.abs(state.qvel).max() < 0.01
-    pitch = roll_pitch_yaw(state.qpos[3:7])[1]
+    pitch = roll_pitch_yaw(state.qpos[0, 3:7])[1]
     assert pitch == pytest.approx(-0.15, abs=0.06)  # uphill: nose up, which is negative
 
 
@@ -106,7 +110,7 @@ def test_a_robot_is_not_put_down_into_the_scene(robot: Robot, scene: Scene, star
     with pytest.raises(
         LevadeError, match=rf"start: .*\b{names}\b.* overlap by 0\.\d+ m where the robot is put down; move"
     ):
-        MujocoEngine(robot, scene, Physics(), threads=1).start(start)
+        start_state(make_engine(robot, scene, Physics(), threads=1), robot, scene, start)
 
 
 @pytest.mark.parametrize(
@@ -125,6 +129,6 @@ def test_a_robot_is_not_put_down_into_the_scene(robot: Robot, scene: Scene, star
         (lambda: Fall(1.0, spread=float("nan")), r"start.fall.spread: nan should be 0 or more"),
     ],
 )
-def test_wrong_starts(engine: MujocoEngine, start: object, message: str) -> None:
+def test_wrong_starts(robot: Robot, engine: Engine, start: object, message: str) -> None:
     with pytest.raises(LevadeError, match=message):
-        engine.start(start())  # type: ignore[operator]
+        start_state(engine, robot, Scene(), start())  # type: ignore[operator]

@@ -7,8 +7,9 @@ from pathlib import Path
 import mujoco
 import pytest
 
-from levade.motion import Motion, record
-from levade.solve import Objective, solve
+from levade.motions import Motion
+from levade.search import Objective, make_objective, solve
+from levade.search.recording import record
 from levade.tasks import load_task
 
 
@@ -16,7 +17,7 @@ from levade.tasks import load_task
 def objective() -> Objective:
     # motions of independent weights: the player's limit on tracking errors is set for these
     changes = ["search.optimizer=cma", "search.population=null", "search.modes=null", "search.smoothness=0.15"]
-    return Objective(load_task("rearing", changes=changes))
+    return make_objective(load_task("rearing", changes=changes))
 
 
 @pytest.fixture(scope="session")
@@ -34,7 +35,7 @@ def rearing_model(rearing: Motion) -> mujoco.MjModel:
 def held() -> Motion:
     """16 trials of the recovery with 0.1 s of hold, every leg on its own, joints driven without a lag."""
     changes = ["search.population=8", "search.trials=16", "hold=0.1", "robot.actuation=ideal"]
-    small = Objective(load_task("posture-recovery", changes=changes))
+    small = make_objective(load_task("posture-recovery", changes=changes))
     return record(small, solve(small, seed=0), seed=0)
 
 

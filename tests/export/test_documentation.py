@@ -18,7 +18,7 @@ from levade.export import FORMATS
 from levade.export.as_csv import columns
 from levade.export.content import describe
 from levade.export.samples import sample
-from levade.motion import Motion
+from levade.motions import Motion
 
 TEXT = (Path(__file__).parents[2] / "docs/export.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"```python\n(.*?)```", TEXT, re.DOTALL)

@@ -19,7 +19,12 @@ import pytest
 from levade.errors import LevadeError
 from levade.export import FORMATS, export
 from levade.export.export import Format
-from levade.motion import Motion
+from levade.export.player import Motion as Played
+from levade.motions import Motion
+from levade.rotations import rotate
+from levade.search import make_objective, solve
+from levade.search.recording import record
+from levade.tasks import load_task
 
 
 def test_csv_by_the_standard_library(rearing: Motion, tmp_path: Path) -> None:
@@ -44,7 +49,11 @@ def test_csv_by_the_standard_library(rearing: Motion, tmp_path: Path) -> None:
         column = [float(row[f"state/trunk/quaternion/{axis}"]) for row in rows]
         np.testing.assert_array_equal(column[1:], rearing["trunk_quaternion"][:, i])
     for i, axis in enumerate("xyz"):
-        for name in ("position", "com_position", "linear_velocity", "angular_velocity"):
+        turning = rotate(rearing["trunk_quaternion"], rearing["trunk_angular_velocity"])  # in world axes
+        np.testing.assert_array_equal(
+            [float(row[f"state/trunk/angular_velocity/{axis}"]) for row in rows[1:]], turning[:, i]
+        )
+        for name in ("position", "com_position", "linear_velocity"):
             column = [float(row[f"state/trunk/{name}/{axis}"]) for row in rows]
             np.testing.assert_array_equal(column[1:], rearing[f"trunk_{name}"][:, i])
         for foot, leg in enumerate(("lf", "rf", "lh", "rh")):
@@ -147,9 +156,7 @@ def test_mjlab_by_numpy_and_mujoco(rearing: Motion, rearing_model: mujoco.MjMode
         state.qpos[:] = np.concatenate(
             [rearing[name][row] for name in ("trunk_position", "trunk_quaternion", "joint_position")]
         )
-        turn = np.empty(9)
-        mujoco.mju_quat2Mat(turn, state.qpos[3:7])
-        spin = turn.reshape(3, 3).T @ rearing["trunk_angular_velocity"][row]
+        spin = rearing["trunk_angular_velocity"][row]
         state.qvel[:] = np.concatenate([rearing["trunk_linear_velocity"][row], spin, rearing["joint_velocity"][row]])
         mujoco.mj_forward(rearing_model, state)
         spin, flow = state.cvel[1:, :3], state.cvel[1:, 3:]
@@ -286,6 +293,62 @@ def test_notes_say_what_the_robot_would_find_out(held: Motion, tmp_path: Path) -
         around,
         "positions to send go beyond the range of rf_hfe, by up to 0.250 rad; player.py clamps them",
     )
+
+
+@pytest.fixture(scope="module")
+def arm_and_wheels() -> Motion:
+    """A quadruped that holds an arm and four wheels, whose order in the file is not that of the legs."""
+    robot = str(Path(__file__).parents[1] / "robots/cases/armwheel/robot.yaml")
+    changes = ["search.population=8", "search.trials=8"]
+    small = make_objective(load_task("squat-jump", robot=robot, changes=changes))
+    return record(small, solve(small, seed=0), seed=0)
+
+
+HELD = {"arm_yaw": 0.4, "arm_pitch": -0.5, "RR_wheelj": 0.0, "FL_wheelj": 0.0, "RL_wheelj": 0.0, "FR_wheelj": 0.0}
+
+
+@pytest.mark.parametrize("to", ["csv", "json", "mjlab", "unitree"])
+def test_joints_that_are_held_are_named(arm_and_wheels: Motion, tmp_path: Path, to: str) -> None:
+    notes = export(arm_and_wheels, to, tmp_path).notes
+    assert (
+        "the simulation holds arm_yaw 0.4, arm_pitch -0.5, RR_wheelj 0, FL_wheelj 0, RL_wheelj 0, FR_wheelj 0"
+        " [rad, slides m], and no command says so: hold them there (meta: held)"
+    ) in notes
+    name = "motion.json" if to == "json" else "meta.json"
+    meta = json.loads((tmp_path / name).read_text())
+    assert (meta["meta"] if to == "json" else meta)["held"] == HELD
+    played = Played.load(tmp_path / ("motion.json" if to == "json" else "motion.csv"))
+    assert played.held == HELD
+    assert not set(played.joints) & set(HELD)
+
+
+def test_mjlabs_reference_has_a_column_for_every_joint_of_its_mjcf(arm_and_wheels: Motion, tmp_path: Path) -> None:
+    export(arm_and_wheels, "mjlab", tmp_path)
+    theirs = mujoco.MjModel.from_xml_path(str(Path(__file__).parents[1] / "robots/cases/armwheel/pup.xml"))
+    data = np.load(tmp_path / "reference.npz")
+    names = [theirs.joint(i).name for i in range(1, theirs.njnt)]
+    assert data["joint_names"].tolist() == names
+    assert data["body_names"].tolist() == [theirs.body(i).name for i in range(1, theirs.nbody)]
+    assert data["joint_pos"].shape == data["joint_vel"].shape == (len(data["joint_pos"]), 18)
+    for joint, angle in HELD.items():
+        assert (data["joint_pos"][:, names.index(joint)] == np.float32(angle)).all()
+        assert (data["joint_vel"][:, names.index(joint)] == 0.0).all()
+    state = mujoco.MjData(theirs)
+    table = np.loadtxt(tmp_path / "reference.csv", delimiter=",")
+    for row in range(
+        0, len(table), 5
+    ):  # their model, put as the reference says, has its bodies where the reference has them
+        state.qpos[:3], state.qpos[3:7] = table[row, :3], table[row, [6, 3, 4, 5]]
+        state.qpos[7:] = table[row, 7:]
+        mujoco.mj_kinematics(theirs, state)
+        np.testing.assert_allclose(data["body_pos_w"][row], state.xpos[1:], atol=1e-5)
+
+
+def test_motions_of_before_hold_nothing_by_name(rearing: Motion, tmp_path: Path) -> None:
+    meta = {key: value for key, value in rearing.meta.items() if key not in ("held", "model_joints")}
+    export(replace(rearing, meta=meta), "mjlab", tmp_path)
+    assert json.loads((tmp_path / "meta.json").read_text())["held"] == {}
+    assert np.load(tmp_path / "reference.npz")["joint_pos"].shape[1] == 12
 
 
 def test_rates_too_slow_for_a_robot_are_said(rearing: Motion, tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ import pytest
 from levade.export.links import body_frames, frames_of, links_of
 from levade.export.samples import Joints, Samples, sample
 from levade.export.urdf import urdf
-from levade.motion import Motion
+from levade.motions import Motion
 
 ODD = """
 <mujoco><compiler angle="radian"/><worldbody><body name="trunk" pos="0 0 1"><freejoint/><geom type="box" size=".3 .1 .05"/>

@@ -17,8 +17,8 @@ import pytest
 from levade.export import export
 from levade.export.player import Motion as Played
 from levade.export.player import StandIn, Stopped, clock, main, play
-from levade.motion import Motion
-from levade.trajectory import roll_pitch_yaw
+from levade.motions import Motion
+from levade.rotations import roll_pitch_yaw
 
 
 def no_clock(instant: float) -> float:

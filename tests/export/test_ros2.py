@@ -13,7 +13,7 @@ import yaml
 
 from levade.errors import LevadeError
 from levade.export import export
-from levade.motion import Motion
+from levade.motions import Motion
 
 reason = "bags are written by mcap and read by rosbags: pip install levade[dev]"
 pytest.importorskip("mcap", reason=reason)

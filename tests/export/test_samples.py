@@ -8,14 +8,14 @@ import mujoco
 import numpy as np
 import pytest
 
-from levade.engines import MujocoEngine, Physics
+from levade.engines import Physics, make_engine
 from levade.errors import LevadeError
 from levade.export.model import gains, holding_torque
 from levade.export.samples import sample
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.robots import load_robot
 from levade.scenes import Scene
-from levade.solve import Objective
+from levade.search import Objective
 
 
 def test_at_the_rate_of_the_simulation_every_row_is_what_was_recorded(
@@ -62,7 +62,7 @@ def test_references_that_are_not_the_policy_of_the_weights_are_cubics(
     spread = np.ptp(rearing["weights"].reshape(6, 16), axis=1).max()
     bound = 0.002**4 / 384 * 10 * spread / 0.03**4
     assert np.abs(found.command_position - exact.command_position).max() < bound < 1e-4
-    without = replace(rearing, meta={**rearing.meta, "task": {"name": "mine"}})
+    without = replace(rearing, meta={**rearing.meta, "policy": None, "task": {"name": "mine"}})
     assert not sample(without, rearing_model, rate=700.0).analytic
 
 
@@ -121,7 +121,7 @@ def test_resampling_keeps_impulses_and_ends_where_it_should(held: Motion) -> Non
 def test_gains_are_the_robots(actuation: str) -> None:
     kp = {"hydraulic": None, "ideal": 451.0}[actuation]
     robot = load_robot("hyq2max", actuation=actuation, kp=kp)
-    model = MujocoEngine(robot, Scene(), Physics()).model
+    model = make_engine(robot, Scene(), Physics()).model
     found = gains(model, robot.joint_names)
     np.testing.assert_allclose(found, [robot.actuation.kp, robot.actuation.kd])
     # and MuJoCo's own torque is that much: at once by a pid, at the end of its lag by a dcmotor

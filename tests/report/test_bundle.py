@@ -13,9 +13,21 @@ import pytest
 WEB = Path(__file__).parents[2] / "web"
 
 
-@pytest.fixture(scope="module", params=["report.js", "live.js"])
-def bundle(request: pytest.FixtureRequest) -> str:
-    return (files("levade.report") / "web" / request.param).read_text(encoding="utf-8")
+@pytest.fixture(scope="module")
+def bundle() -> str:
+    return (files("levade.report") / "web" / "levade.js").read_text(encoding="utf-8")
+
+
+def test_three_is_in_the_package_once(bundle: str) -> None:
+    scripts = [path.name for path in (Path(str(files("levade"))).rglob("*.js"))]
+    assert scripts == ["levade.js"]
+    assert bundle.count("three.js authors") == 1
+
+
+def test_the_lock_names_no_host() -> None:
+    lock = (WEB / "package-lock.json").read_text()
+    assert "resolved" not in lock
+    assert "http" not in re.sub(r'"url": "https://[^"]*"', "", lock)  # of funding
 
 
 def test_it_was_made_from_the_sources_that_are_here(bundle: str) -> None:

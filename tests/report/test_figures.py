@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from levade.errors import LevadeError
-from levade.motion import Motion
-from levade.run import run
+from levade.motions import Motion
+from levade.search.run import run
 from levade.tasks import load_task
 
 pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install levade[figures]")

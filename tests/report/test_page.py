@@ -14,12 +14,12 @@ import numpy as np
 import pytest
 
 from levade.errors import LevadeError
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.report.packing import unpack
 from levade.report.page import page, write_page
 from levade.report.series import series_data
 from levade.report.summary import provenance_data, summary_data
-from levade.run import run
+from levade.search.run import run
 from levade.tasks import load_task, task_to_dict
 
 MINUS = "\N{MINUS SIGN}"

@@ -11,17 +11,18 @@ import mujoco
 import numpy as np
 import pytest
 
-from levade.motion import Motion, record
+from levade.motions import Motion
 from levade.report.packing import UNIT, pack, pack_unit, unpack
 from levade.report.rendering import replay
 from levade.report.scene import FRAMES, configurations, force_scale, frame_rows, scene_data
 from levade.report.shapes import TRIANGLES, shapes_of, simplify
-from levade.solve import Objective, solve
+from levade.search import make_objective, solve
+from levade.search.recording import record
 from levade.tasks import load_task
 
 
 def solved(name: str, *changes: str) -> Motion:
-    objective = Objective(load_task(name, changes=["search.population=8", "search.trials=16", *changes]))
+    objective = make_objective(load_task(name, changes=["search.population=8", "search.trials=16", *changes]))
     return record(objective, solve(objective, seed=0), seed=0)
 
 

@@ -12,11 +12,12 @@ import numpy as np
 import pytest
 
 from levade.errors import LevadeError
-from levade.motion import Motion, record
+from levade.motions import Motion
 from levade.report import rendering
 from levade.report.rendering import Camera, Renderer, View, outline, replay
 from levade.report.video import frame_times, strip, strip_times, video
-from levade.solve import Objective, solve
+from levade.search import make_objective, solve
+from levade.search.recording import record
 from levade.tasks import load_task
 
 Image: Any = pytest.importorskip("PIL.Image", reason="pictures need pillow: pip install levade[video]")
@@ -26,7 +27,7 @@ SMALL = (96, 72)
 
 @pytest.fixture(scope="module")
 def motion() -> Motion:
-    objective = Objective(load_task("rearing", changes=["search.population=8", "search.trials=24", "hold=0.05"]))
+    objective = make_objective(load_task("rearing", changes=["search.population=8", "search.trials=24", "hold=0.05"]))
     return record(objective, solve(objective, seed=0), seed=0)
 
 

@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from levade.engines import Fall, MujocoEngine, Physics
+from levade.engines import Fall, Physics, make_engine, start_state
 from levade.errors import LevadeError
 from levade.robots import Robot, load_robot
 from levade.scenes import GROUND, Box, Scene, compose
@@ -50,9 +50,9 @@ def sledge(tmp_path_factory: pytest.TempPathFactory) -> Robot:
 
 def slide(sledge: Robot, scene: Scene, steps: int, *, yaw: float = 0.0) -> Trajectories:
     """Put the sledge flat on the slope and let it go."""
-    engine = MujocoEngine(sledge, scene, Physics(timestep=0.001), threads=1)
+    engine = make_engine(sledge, scene, Physics(timestep=0.001), threads=1)
     height = 0.02 / math.cos(scene.slope)
-    state = engine.start(Fall(height=height, pitch=-scene.slope, yaw=yaw, time=0.0))
+    state = start_state(engine, sledge, scene, Fall(height=height, pitch=-scene.slope, yaw=yaw, time=0.0))
     still = np.zeros((1, steps, 1))
     return engine.rollout(state, JointReference(still, still, 0.001, steps))
 
@@ -84,8 +84,10 @@ def test_the_scenes_friction_is_that_of_every_contact() -> None:
     robot = load_robot("hyq2max")
 
     def contacts(scene: Scene) -> list[tuple[float, tuple[float, ...], tuple[float, ...]]]:
-        engine = MujocoEngine(robot, scene, Physics(), threads=1)
-        state = engine.start(Fall(height=robot.standing_height("neutral") + 0.002, time=0.3, gain=1.0))
+        engine = make_engine(robot, scene, Physics(), threads=1)
+        state = start_state(
+            engine, robot, scene, Fall(height=robot.standing_height("neutral") + 0.002, time=0.3, gain=1.0)
+        )
         data = mujoco.MjData(engine.model)
         data.qpos[:] = state.qpos
         mujoco.mj_forward(engine.model, data)

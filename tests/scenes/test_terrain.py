@@ -9,12 +9,16 @@ import mujoco
 import numpy as np
 import pytest
 
-from levade.engines import Fall, MujocoEngine, Physics, Settled
+from levade.engines import Fall, Physics, Settled, Start, State, make_engine, start_state
 from levade.errors import LevadeError
 from levade.robots import Robot, load_robot
 from levade.scenes import Gap, Scene, Terrain, compose, read_heights
 
 HILLS = ((0.0, 0.1, 0.3), (0.05, 0.2, 0.1), (0.1, 0.0, 0.0), (0.0, 0.15, 0.05))
+
+
+def put(robot: Robot, scene: Scene, start: Start) -> State:
+    return start_state(make_engine(robot, scene, Physics()), robot, scene, start)
 
 
 @pytest.fixture(scope="module")
@@ -56,9 +60,9 @@ def test_nothing_of_the_terrain_is_above_the_height_that_starts_count_on(robot: 
 
 def test_the_robot_is_put_down_on_the_terrain_and_stands(robot: Robot) -> None:
     flat = tuple(tuple(0.25 + 0.001 * ((i + j) % 2) for j in range(10)) for i in range(10))
-    state = MujocoEngine(robot, Scene(terrain=Terrain(flat, size=(3.0, 3.0))), Physics()).start(Settled())
-    level = MujocoEngine(robot, Scene(), Physics()).start(Settled())
-    assert state.qpos[2] - level.qpos[2] == pytest.approx(0.25, abs=0.005)
+    state = put(robot, Scene(terrain=Terrain(flat, size=(3.0, 3.0))), Settled())
+    level = put(robot, Scene(), Settled())
+    assert state.qpos[0, 2] - level.qpos[0, 2] == pytest.approx(0.25, abs=0.005)
 
 
 @pytest.mark.parametrize("slope", [0.0, 0.3, -0.2])
@@ -74,9 +78,9 @@ def test_a_gap_is_where_it_should_be_and_as_deep(robot: Robot, slope: float) -> 
 
 def test_a_robot_over_a_gap_falls_to_its_bottom(robot: Robot) -> None:
     scene = Scene(gaps=(Gap(-2.0, 4.0, depth=0.5),))
-    state = MujocoEngine(robot, scene, Physics()).start(Fall(height=0.6, gain=1.0, time=1.5))
-    level = MujocoEngine(robot, Scene(), Physics()).start(Settled())
-    assert state.qpos[2] == pytest.approx(level.qpos[2] - 0.5, abs=0.01)
+    state = put(robot, scene, Fall(height=0.6, gain=1.0, time=1.5))
+    level = put(robot, Scene(), Settled())
+    assert state.qpos[0, 2] == pytest.approx(level.qpos[0, 2] - 0.5, abs=0.01)
 
 
 def test_heights_from_files(tmp_path: Path) -> None:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import pytest
 
 from levade.engines import Perturbation
-from levade.motion import Motion, record
-from levade.solve import Objective, solve
+from levade.motions import Motion
+from levade.search import make_objective, solve
+from levade.search.recording import record
 from levade.stabilise import Stabilised, stabilise
 from levade.tasks import load_task
 
@@ -17,7 +18,7 @@ PUSHED = Perturbation(start_rate=(-0.6, 0.6), start_velocity=(-0.2, 0.2))
 
 @pytest.fixture(scope="session")
 def rearing() -> Motion:
-    objective = Objective(load_task("rearing", changes=RELAXED), threads=1)
+    objective = make_objective(load_task("rearing", changes=RELAXED), threads=1)
     motion = record(objective, solve(objective, seed=0), seed=0)
     assert motion.meta["success"], motion.meta["errors"]
     return motion

@@ -9,13 +9,13 @@ import mujoco
 import numpy as np
 import pytest
 
-from levade.check import Subject, perturbed
-from levade.engines import Perturbation
+from levade.check import perturbed
+from levade.engines import Perturbation, perturbed_models
 from levade.errors import LevadeError
 from levade.export import export
 from levade.export.player import Motion as Played
 from levade.export.player import Stopped, play
-from levade.motion import Motion
+from levade.motions import Motion, RecordedSimulation
 from levade.stabilise import Stabilised, linearise, stabilise
 from levade.stabilise.linear import state_of
 
@@ -63,9 +63,9 @@ def loop(motion: Motion, push: np.ndarray, *, clamp: bool = False) -> tuple[np.n
 def test_it_holds_what_open_loop_does_not(found: Stabilised) -> None:
     """Of 200 other runs that are pushed hard at the start."""
     assert found.design is not None
-    subject = Subject(found.motion)
-    without = perturbed(subject, PUSHED, runs=200, seed=0)
-    within = perturbed(subject, PUSHED, runs=200, seed=0, feedback=found.motion.feedback)
+    simulation = RecordedSimulation(found.motion)
+    without = perturbed(simulation, PUSHED, runs=200, seed=0)
+    within = perturbed(simulation, PUSHED, runs=200, seed=0, feedback=found.motion.feedback)
     assert without.high < within.low
     assert within.share > without.share + 0.15
 
@@ -81,18 +81,18 @@ def test_undisturbed_it_does_nothing_at_all(found: Stabilised, rearing: Motion) 
 
 def test_the_batch_is_the_loop(found: Stabilised) -> None:
     """Three pushed runs, one of them late by nothing; within rounding, which the robot's falling makes larger."""
-    motion, subject = found.motion, Subject(found.motion)
-    ensemble = subject.ensemble()
+    motion, simulation = found.motion, RecordedSimulation(found.motion)
+    engine = simulation.engine
     start = Perturbation(**{**NONE, "start_rate": (-0.2, 0.2)})  # type: ignore[arg-type]
-    sample = start.draw(ensemble.model, ensemble.joints, n=3, seed=5)
-    variations = ensemble.vary(subject.start, sample)
-    batch = ensemble.rollout(variations, subject.reference, feedback=motion.feedback)
+    sample = start.draw(engine.model, simulation.joints, n=3, seed=5)
+    starts, models = perturbed_models(engine.model, engine.layout, sample, simulation.start)
+    batch = engine.rollout(starts, simulation.reference, models=models, feedback=motion.feedback)
     for run in range(3):
-        qpos, corrections = loop(motion, variations.qvel[run] - motion["qvel0"])
+        qpos, corrections = loop(motion, starts.qvel[run] - motion["qvel0"])
         assert np.abs(corrections).max() > 0.01
         assert np.allclose(batch.joint_position[run], qpos[:, 7:], rtol=0, atol=1e-5)
         assert np.allclose(batch.trunk_position[run], qpos[:, :3], rtol=0, atol=1e-5)
-    alone = ensemble.rollout(variations[1:2], subject.reference, feedback=motion.feedback)
+    alone = engine.rollout(starts[1], simulation.reference, models=models[1], feedback=motion.feedback)
     assert np.array_equal(alone.joint_position[0], batch.joint_position[1])
 
 
@@ -100,31 +100,32 @@ def test_threads_and_calls_do_not_change_it(rearing: Motion, found: Stabilised) 
     again = stabilise(rearing, runs=32, seed=0, perturbation=PUSHED, threads=2)
     assert again.design == found.design
     assert again.motion["feedback_gain"].tobytes() == found.motion["feedback_gain"].tobytes()
-    subject = [Subject(found.motion, threads=threads) for threads in (1, 2)]
+    simulation = [RecordedSimulation(found.motion, threads=threads) for threads in (1, 2)]
     one, two = (
-        perturbed(s, Perturbation(), runs=70, seed=3, feedback=found.motion.feedback).to_json() for s in subject
+        perturbed(s, Perturbation(), runs=70, seed=3, feedback=found.motion.feedback).to_json() for s in simulation
     )
     assert one == two
 
 
 def test_the_linear_model_foretells_small_deviations(rearing: Motion) -> None:
     """Of everything at once, in the air, from the first tick to the next; to 5 %."""
-    subject = Subject(rearing)
-    qpos, qvel, act = (part.copy() for part in subject.start)
+    simulation = RecordedSimulation(rearing)
+    qpos, qvel, act = (part[0].copy() for part in (simulation.start.qpos, simulation.start.qvel, simulation.start.act))
     qpos[2] += 1.0
-    linear = linearise(subject.model, subject.layout, (qpos, qvel, act), subject.reference, period=2)
+    start = simulation.layout.state(qpos, qvel, act)
+    linear = linearise(simulation.model, simulation.layout, start, simulation.reference, period=2)
     generator = np.random.default_rng(2)
     before, after = [], []
     for size in (0.0, 1.0):
-        data = mujoco.MjData(subject.model)
+        data = mujoco.MjData(simulation.model)
         data.qpos[:], data.qvel[:], data.act[:] = qpos, qvel + size * 0.1 * generator.standard_normal(18), act
         data.qpos[7:] += size * 0.01 * generator.standard_normal(12)
-        before.append(state_of(subject.layout, data.qpos, data.qvel, data.act))
+        before.append(state_of(simulation.layout, data.qpos, data.qvel, data.act))
         for k in range(2):
             data.ctrl[:] = rearing["ctrl"][k]
             data.ctrl[0::2] += size * 0.005
-            mujoco.mj_step(subject.model, data)
-        after.append(state_of(subject.layout, data.qpos, data.qvel, data.act))
+            mujoco.mj_step(simulation.model, data)
+        after.append(state_of(simulation.layout, data.qpos, data.qvel, data.act))
     change = after[1] - after[0]
     expected = linear.a[0] @ (before[1] - before[0]) + linear.b[0] @ np.full(12, 0.005)
     for part in (slice(0, 3), slice(3, 6), slice(6, 18), slice(18, 30), slice(30, 34), slice(34, None)):

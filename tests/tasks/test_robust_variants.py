@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from levade.check import Subject, numerics, other_engines, perturbed
+from levade.check import numerics, other_engines, perturbed
 from levade.costs import Margins
 from levade.engines import Perturbation
-from levade.motion import record
-from levade.solve import Objective, solve
+from levade.motions import RecordedSimulation
+from levade.search import make_objective, solve
+from levade.search.recording import record
 from levade.tasks import builtin_tasks, load_task, looks_at_hold
 
 VARIANTS = [name for name in builtin_tasks() if name.endswith("-robust")]
@@ -98,12 +99,12 @@ def test_self_righting_within_the_limits_is_the_robust_one_that_keeps_them() -> 
 @pytest.mark.slow
 def test_a_robust_search_finds_a_motion_that_holds_on_robots_it_has_not_seen() -> None:
     task = load_task("rearing-robust")
-    solution = solve(objective := Objective(task, threads=0), seed=0)
+    solution = solve(objective := make_objective(task, threads=0), seed=0)
     assert solution.success
     assert solution.trials <= 15_000
-    subject = Subject(record(objective, solution, seed=0))
-    found = perturbed(subject, Perturbation(), runs=500, seed=0)
+    simulation = RecordedSimulation(record(objective, solution, seed=0))
+    found = perturbed(simulation, Perturbation(), runs=500, seed=0)
     assert found.share >= 0.95, found.errors
-    assert numerics(subject)["half time step"].success
-    ode = other_engines(subject)["ode"]
+    assert numerics(simulation)["half time step"].success
+    ode = other_engines(simulation)["ode"]
     assert ode.success or ode.reason

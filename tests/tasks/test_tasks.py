@@ -15,7 +15,8 @@ from levade.costs import Effort, JointLimitExcess, Orientation, Position
 from levade.engines import Fall, Settled
 from levade.errors import LevadeError
 from levade.robots import dimensions, load_robot
-from levade.solve import Objective, make_optimizer
+from levade.search import make_objective
+from levade.search.optimizing import make_attempt
 from levade.tasks import Cost, Search, Task, builtin_tasks, load_task, task_from_dict, task_to_dict, task_to_yaml
 from levade.tasks.units import UNITS, to_si
 
@@ -39,7 +40,8 @@ def test_a_task_survives_the_way_through_its_file(name: str, tmp_path: Path) -> 
 def papers_population(name: str) -> int:
     """Of CMA-ES over all the weights, which the paper's budgets are multiples of."""
     plain = ["search.optimizer=cma", "search.population=null", "search.modes=null"]
-    return make_optimizer(Objective(load_task(name, changes=plain), threads=1), 0).population
+    objective = make_objective(load_task(name, changes=plain), threads=1)
+    return make_attempt(objective.task, objective.space, seed=0).population
 
 
 def test_rearing_has_the_papers_numbers() -> None:
@@ -62,7 +64,7 @@ def test_rearing_has_the_papers_numbers() -> None:
     assert (pitch.tolerance, height.tolerance, height.target) == (0.006, 0.02, 0.9)
     assert pitch.target == orientation.pitch
     assert set(task.success) == {"pitch", "height"}
-    objective = Objective(task, threads=1)
+    objective = make_objective(task, threads=1)
     assert objective.policy.size == 96
     assert papers_population("rearing") == 17
 
@@ -93,7 +95,7 @@ def test_recovery_has_the_papers_numbers() -> None:
         "pitch": (0, 0.1),
         "height": (0.61, 0.05),
     }
-    objective = Objective(task, threads=1)
+    objective = make_objective(task, threads=1)
     assert objective.policy.size == 192
     assert papers_population("posture-recovery") == 19
 
@@ -273,7 +275,7 @@ def test_every_unit_has_its_size(unit: str) -> None:
             "costs.margins: looks at the hold, which no stage simulates, and so counts nowhere; let it look at the horizon",
         ),
         ({"search": {"optimizer": "cmaes"}}, "search.optimizer: no optimizer 'cmaes'; did you mean cma?"),
-        ({"search": {"settings": {"aim": 6}}}, "search.settings: no 'aim' for levade; did you mean aimed?"),
+        ({"search": {"settings": {"aim": 6}}}, "search.settings: no 'aim' for cma-aimed; did you mean aimed?"),
         (
             {"search": {"optimizer": "cma", "settings": {"aimed": 6}}},
             "search.settings: no 'aimed' for cma; it takes none",
@@ -317,7 +319,7 @@ def test_each_mistake_is_one_line_that_names_the_key(changes: dict[str, object],
         ("stages.7.step=1", "--set stages.7.step: no '7' in stages; valid names: 0, 1"),
         ("horizon.ms=300", "--set horizon.ms: horizon is a single value, 0.3; set it as a whole"),
         ("scene.boxes.0=1", "--set scene.boxes.0: scene.boxes is empty; set it as a whole"),
-        ("search.settings.aimd=3", "--set search.settings: no 'aimd' for levade; did you mean aimed?"),
+        ("search.settings.aimd=3", "--set search.settings: no 'aimd' for cma-aimed; did you mean aimed?"),
         ("horizon", "--set horizon: should be path=value, such as horizon=0.4"),
         ("=3", "--set : no '' in the task"),
         ("horizon=[1", "--set horizon: not YAML"),
@@ -385,15 +387,15 @@ def test_tasks_that_are_not_there(name: str, message: str) -> None:
 )
 def test_what_does_not_fit_the_robot(changes: list[str], message: str) -> None:
     with pytest.raises(LevadeError, match=message) as caught:
-        Objective(load_task("rearing", changes=changes), threads=1)
+        make_objective(load_task("rearing", changes=changes), threads=1)
     assert "\n" not in str(caught.value)
 
 
 def test_a_python_function_is_a_cost_that_no_file_holds() -> None:
     task = load_task("rearing")
     mine = dataclasses.replace(task, costs={**task.costs, "mine": Cost(lambda t: t.joint_torque.max(axis=(1, 2)), 1.0)})
-    objective = Objective(mine, threads=1)
-    assert objective.evaluate(objective.initial_weights[None]).terms["mine"][0] > 10
+    objective = make_objective(mine, threads=1)
+    assert objective.evaluate(objective.space.mean[None]).terms["mine"][0] > 10
     with pytest.raises(LevadeError, match=r"costs.mine: a Python function cannot be written to a task file"):
         task_to_yaml(mine)
 

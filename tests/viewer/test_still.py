@@ -14,7 +14,7 @@ import pytest
 from levade.report.packing import UNIT, unpack
 from levade.robots import Robot, load_robot
 from levade.scenes import Scene, compose
-from levade.solve import Objective
+from levade.search import make_objective
 from levade.tasks import load_task
 from levade.viewer.pages import view_page
 from levade.viewer.still import robot_data, task_data
@@ -113,11 +113,11 @@ def test_sliders_move_joints_within_their_limits(hyq: Robot, tab: Any, tmp_path:
 
 @pytest.mark.parametrize("name", ["rearing", "posture-recovery"])
 def test_a_task_shows_its_start_and_its_goal(name: str, tab: Any, tmp_path: Path) -> None:
-    objective = Objective(load_task(name), threads=1)
+    objective = make_objective(load_task(name), threads=1)
     robot, data = objective.robot, task_data(objective)
     moving, model = data["scene"]["motion"], objective.engine.model
     start = mujoco.MjData(model)
-    start.qpos[:] = objective.state.qpos
+    start.qpos[:] = objective.state.qpos[0]
     mujoco.mj_kinematics(model, start)
     bodies = [start.body(body).id for body in data["scene"]["model"]["bodies"]]
     np.testing.assert_allclose(unpack(moving["position"])[0], start.xpos[bodies], atol=1e-6)
@@ -151,7 +151,7 @@ def test_a_task_shows_its_start_and_its_goal(name: str, tab: Any, tmp_path: Path
 
 
 def test_a_task_that_says_nothing_about_the_trunk_has_no_ghost() -> None:
-    objective = Objective(load_task("rearing", changes=["success={}", "stages.0.promote={}"]), threads=1)
+    objective = make_objective(load_task("rearing", changes=["success={}", "stages.0.promote={}"]), threads=1)
     moving = task_data(objective)["scene"]["motion"]
     assert (moving["reference"], moving["goal"]) == (None, None)
 
@@ -159,7 +159,7 @@ def test_a_task_that_says_nothing_about_the_trunk_has_no_ghost() -> None:
 @pytest.mark.parametrize("width", [1280, 390])
 @pytest.mark.parametrize("what", ["robot", "task"])
 def test_nothing_overflows(hyq: Robot, tab: Any, tmp_path: Path, what: str, width: int) -> None:
-    data = robot_data(hyq) if what == "robot" else task_data(Objective(load_task("posture-recovery"), threads=1))
+    data = robot_data(hyq) if what == "robot" else task_data(make_objective(load_task("posture-recovery"), threads=1))
     tab.set_viewport_size({"width": width, "height": 800})
     open_page(tab, tmp_path / "page.html", "page", data)
     tab.evaluate("() => document.querySelectorAll('details').forEach((each) => { each.open = true; })")

@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from levade.motion import ARRAYS, Motion
-from levade.run import run
+from levade.motions import ARRAYS, Motion
+from levade.search.run import run
 from levade.tasks import load_task
 
 # small, and never done: a solve that goes on until someone stops it

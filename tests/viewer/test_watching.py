@@ -12,9 +12,9 @@ from typing import Any
 import pytest
 
 from levade.errors import LevadeError
-from levade.motion import ARRAYS, Motion
-from levade.run import CHECKPOINT, MOTION, PROGRESS, TASK, Outcome, resume, run
-from levade.solve import Generation, Objective
+from levade.motions import ARRAYS, Motion
+from levade.search import Generation, Objective, make_objective
+from levade.search.run import CHECKPOINT, MOTION, PROGRESS, TASK, Outcome, resume, run
 from levade.tasks import load_task
 from levade.viewer.watching import Watch
 
@@ -29,7 +29,7 @@ CHANGES = [
 
 @pytest.fixture(scope="module")
 def objective() -> Objective:
-    return Objective(load_task("rearing", changes=CHANGES), threads=1)
+    return make_objective(load_task("rearing", changes=CHANGES), threads=1)
 
 
 @pytest.fixture(scope="module")
@@ -370,7 +370,7 @@ def test_commands_that_are_wrong(objective: Objective, tmp_path: Path, message: 
 def test_numbers_that_json_has_not(objective: Objective, tmp_path: Path) -> None:
     """Terms of a hold that is not simulated yet are not a number."""
     changes = [*CHANGES, "search.trials=24", "hold=0.05", "stages.0.hold=false", "costs.orientation.at=end"]
-    other = Objective(load_task("rearing", changes=changes), threads=1)
+    other = make_objective(load_task("rearing", changes=changes), threads=1)
     watched = Watched(other, tmp_path)
     page = Page(watched.watch)
     watched.run()

@@ -1,6 +1,5 @@
-// report.html: reads its data from the page, builds the page, and ties player, plots and keyboard to one time.
+// report.html: createReport(element, data) builds the page, and ties player, plots and keyboard to one time.
 
-import "./style.css";
 import { createControls } from "./controls.js";
 import { el, significant, svg } from "./dom.js";
 import { createPlayer } from "./player.js";
@@ -9,12 +8,7 @@ import { createProvenance } from "./provenance.js";
 import { createSummary, verdict } from "./summary.js";
 import { createThemeButton } from "./theme.js";
 
-const data = JSON.parse(document.getElementById("levade-data").textContent);
-const { summary, series, scene, provenance } = data;
-
-document.body.replaceChildren(...build());
-
-function build() {
+export function createReport(element, data) {
   const stage = el("div", { class: "stage" });
   const controls = el("div", { class: "controls" });
   const side = el("div", { class: "side" });
@@ -23,11 +17,11 @@ function build() {
   const theme = createThemeButton();
   const player = el("div", { class: "player panel" }, stage, controls);
   const main = el("main", {}, el("div", { class: "top" }, el("div", { class: "place" }, player), el("div", { class: "panel" }, side)), plots, foot);
-  requestAnimationFrame(() => start({ stage, controls, side, plots, foot, theme, player }));
-  return [head(theme.element), main];
+  element.replaceChildren(head(data, theme.element), main);
+  requestAnimationFrame(() => start(data, { stage, controls, side, plots, foot, theme, player }));
 }
 
-function head(themeButton) {
+function head({ summary, provenance }, themeButton) {
   const { task, robot, seed, horizon, hold, trials, trials_to_success: first, description } = provenance;
   const facts = [
     ["Horizon", `${significant(horizon)} s${hold > 1e-9 ? `, then ${significant(hold)} s of hold` : ""}`],
@@ -42,7 +36,7 @@ function head(themeButton) {
     el("div", { class: "line facts" }, verdict(summary), el("dl", {}, facts.map(([name, value]) => el("div", {}, el("dt", {}, name), el("dd", {}, value))))));
 }
 
-function start({ stage, controls, side, plots, foot, theme, player: box }) {
+function start({ summary, series, scene, provenance }, { stage, controls, side, plots, foot, theme, player: box }) {
   createSummary(side, summary);
   createProvenance(foot, provenance);
   const drawn = createPlots(plots, series);

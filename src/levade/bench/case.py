@@ -7,8 +7,8 @@ import time
 
 from levade.bench.plan import Case
 from levade.bench.results import Result
-from levade.motion import versions
-from levade.solve import Generation, Objective, solve
+from levade.motions import versions
+from levade.search import Generation, Objective, Stopped, make_objective, solve
 from levade.tasks import Task
 
 
@@ -19,13 +19,14 @@ def run_case(case: Case) -> Result:
     at_success: tuple[int, float, float] | None = None
     exhausted = False
 
-    def watch(generation: Generation) -> None:
+    def watch(generation: Generation) -> Stopped | None:
         nonlocal at_success, exhausted
         if at_success is None and generation.trials_to_success is not None:
             at_success = engine.steps - before, time.process_time() - began, generation.best.cost
         if case.budget_steps is not None and engine.steps - before >= case.budget_steps:
             exhausted = True
-            raise KeyboardInterrupt  # how an observer ends a search
+            return Stopped.INTERRUPTED
+        return None
 
     before, began = engine.steps, time.process_time()
     solution = solve(objective, seed=case.seed, observe=watch)
@@ -49,7 +50,7 @@ def run_case(case: Case) -> Result:
         cost=solution.best.cost,
         cost_to_success=cost_to_success,
         diverged=solution.diverged,
-        stopped="steps" if exhausted else solution.stopped,
+        stopped="steps" if exhausted else str(solution.stopped),
         checksum=case.checksum,
         versions=made_with(),
     )
@@ -68,5 +69,5 @@ def _objective(case: Case) -> Objective:
     """The latest one again, where the seed is all that has changed."""
     global _latest
     if _latest is None or _latest[0] != case.task:
-        _latest = case.task, Objective(case.task, threads=1)
+        _latest = case.task, make_objective(case.task, threads=1)
     return _latest[1]

@@ -14,8 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from levade.arrays import Array
 from levade.bench.results import Result
-from levade.trajectory import Array
+from levade.optimizers import canonical
 
 BUDGETS = {"trials": "trials", "steps": "physics steps", "core_seconds": "core-seconds"}
 """What is spent -> in words."""
@@ -88,10 +89,15 @@ def success_curve(results: Sequence[Result], what: str) -> tuple[Array, Array]:
 
 
 def grouped(results: Iterable[Result]) -> dict[tuple[str, str], dict[str, list[Result]]]:
-    """Task and robot -> optimizer -> its runs, all in the order in which they come."""
+    """Task and robot -> optimizer -> its runs, all in the order in which they come.
+
+    Runs of an optimizer and of its alias are in one group, by the name that comes first.
+    """
+    names: dict[str, str] = {}
     groups: dict[tuple[str, str], dict[str, list[Result]]] = {}
     for result in results:
-        groups.setdefault((result.task, result.robot), {}).setdefault(result.optimizer, []).append(result)
+        name = names.setdefault(canonical(result.optimizer), result.optimizer)
+        groups.setdefault((result.task, result.robot), {}).setdefault(name, []).append(result)
     return groups
 
 

@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import dataclasses
 import json
-import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -21,9 +20,9 @@ from typing import Any, Literal, get_args
 
 from levade.document import build, read_yaml
 from levade.errors import LevadeError, did_you_mean
-from levade.optimizers import OPTIMIZERS
-from levade.solve import Objective
-from levade.tasks import Task, load_task, task_to_yaml
+from levade.optimizers import OPTIMIZERS, canonical
+from levade.search import make_objective
+from levade.tasks import Task, load_task, task_checksum
 
 Until = Literal["success", "budget"]
 
@@ -54,7 +53,8 @@ class Plan:
         if not self.tasks:
             raise LevadeError("tasks: there are none; name at least one, such as tasks: [rearing]")
         for name, values in (("tasks", self.tasks), ("robots", self.robots), ("optimizers", tuple(self.optimizers))):
-            twice = {value for value in values if values.count(value) > 1}
+            known = [canonical(value) if name == "optimizers" else value for value in values]
+            twice = {value for value in known if known.count(value) > 1}
             if twice:
                 raise LevadeError(f"{name}: {min(twice)} is there twice")
         if not self.seed_list or min(self.seed_list) < 0 or len(set(self.seed_list)) < len(self.seed_list):
@@ -83,13 +83,13 @@ class Case:
 
     @property
     def key(self) -> tuple[str, str, str, int]:
-        """What a result is found by: names of task, robot and optimizer, and the seed."""
-        return self.task.name, self.robot, self.optimizer, self.seed
+        """What identifies a result: names of task, robot and optimizer (not an alias of it), and the seed."""
+        return self.task.name, self.robot, canonical(self.optimizer), self.seed
 
     @property
     def checksum(self) -> int:
         """Of everything that decides the result but the seed and the versions."""
-        return zlib.crc32(f"{task_to_yaml(self.task)}{self.budget_steps}".encode())
+        return task_checksum(self.task, self.budget_steps)
 
     def __str__(self) -> str:
         return f"{self.task.name} on {self.robot}, {self.optimizer}, seed {self.seed}"
@@ -142,7 +142,7 @@ def _variants(plan: Plan, task: str, robot: str | None) -> Iterator[tuple[str, T
         changes = plan.optimizers[name] if isinstance(plan.optimizers, Mapping) else None
         if changes:
             yield name, _load(task, robot, [*_changes(changes), *common], f"optimizers.{name}")
-        elif name in OPTIMIZERS:
+        elif canonical(name) in OPTIMIZERS:
             yield name, _load(task, robot, [f"search.optimizer={name}", *common], f"optimizers.{name}")
         else:
             raise LevadeError(f"optimizers: no optimizer {name!r}; {did_you_mean(name, OPTIMIZERS)}")
@@ -163,6 +163,6 @@ def _changes(changes: Mapping[str, Any]) -> list[str]:
 def _fits(task: Task) -> str:
     """Name of the robot, once the task has been put together with it."""
     try:
-        return Objective(task, threads=1).robot.name
+        return make_objective(task, threads=1).robot.name
     except LevadeError as error:
         raise LevadeError(f"{task.name} on {task.robot.name}: {error}") from None

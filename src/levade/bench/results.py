@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from levade.errors import LevadeError
+from levade.optimizers import canonical
 
 
 @dataclass(frozen=True)
@@ -54,7 +55,7 @@ class Result:
     @property
     def key(self) -> tuple[str, str, str, int]:
         """As `levade.bench.plan.Case.key`."""
-        return self.task, self.robot, self.optimizer, self.seed
+        return self.task, self.robot, canonical(self.optimizer), self.seed
 
 
 COLUMNS = tuple(field.name for field in dataclasses.fields(Result))

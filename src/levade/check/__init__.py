@@ -19,11 +19,10 @@ from levade.check.engines import Replayed, other_engines
 from levade.check.margins import Margin, margins
 from levade.check.numerics import Numeric, numerics
 from levade.check.perturbed import Perturbed, Sensitivity, perturbed
-from levade.check.subject import Subject
 from levade.engines import Perturbation
 from levade.errors import LevadeError
 from levade.feedback import Feedback
-from levade.motion import Motion
+from levade.motions import Motion, RecordedSimulation
 from levade.tasks import Task
 
 __all__ = [
@@ -34,7 +33,6 @@ __all__ = [
     "Perturbed",
     "Replayed",
     "Sensitivity",
-    "Subject",
     "Verdict",
     "check",
     "margins",
@@ -63,10 +61,10 @@ def check(
     stopping: asked on the way; once it says so, the certificate is of what was done by then, and says that it is interrupted.
     Raises LevadeError if there is nothing to judge by, or no runs.
     """
-    subject = Subject(motion, criteria=None if criteria is None else criteria.success, threads=threads)
-    if not subject.criteria:
+    simulation = RecordedSimulation(motion, criteria=None if criteria is None else criteria.success, threads=threads)
+    if not simulation.criteria:
         raise LevadeError(
-            f"check: the task {subject.task.name} has no success criteria to judge by; give a task that has: --criteria TASK"
+            f"check: the task {simulation.task.name} has no success criteria to judge by; give a task that has: --criteria TASK"
         )
     if not 1 <= runs <= 1_000_000:
         raise LevadeError(f"check: {runs} runs; 1 to 1000000, 500 is usual")
@@ -77,20 +75,20 @@ def check(
     stop = stopping or (lambda: False)
 
     def tried(by: Feedback | None) -> Perturbed:
-        return perturbed(subject, ranges, runs=runs, seed=seed, divide=divide, feedback=by, stopping=stop)
+        return perturbed(simulation, ranges, runs=runs, seed=seed, divide=divide, feedback=by, stopping=stop)
 
     without = tried(None)
     found = without if feedback is None else tried(feedback)
     cut = stop()
     return Certificate(
-        task=subject.task.name,
-        robot=str(motion.meta["robot"]),
-        criteria=subject.task.name if criteria is None else criteria.name,
+        task=simulation.task.name,
+        robot=motion.robot,
+        criteria=simulation.task.name if criteria is None else criteria.name,
         demands=demands,
         perturbed=found,
         open_loop=None if feedback is None else without,
-        numerics={} if cut else numerics(subject),
-        engines={} if cut else other_engines(subject),
-        margins={} if cut else margins(subject, demands),
+        numerics={} if cut else numerics(simulation),
+        engines={} if cut else other_engines(simulation),
+        margins={} if cut else margins(simulation, demands),
         interrupted=cut,
     )

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from levade.check.subject import Subject
-from levade.trajectory import Array
+from levade.arrays import Array
+from levade.motions import RecordedSimulation
 
 
 @dataclass(frozen=True)
@@ -30,13 +30,13 @@ class Landing:
     speed: float
 
 
-def poses(subject: Subject) -> tuple[Array, list[Collision], Array]:
+def poses(simulation: RecordedSimulation) -> tuple[Array, list[Collision], Array]:
     """The motion's poses in the model.
 
     Returns (steps, feet, 3) [m], centres of the feet; what collides with what; and (steps, feet, 3), unit normals of the
     contacts on the feet, out of the scene, NaN where there is none. A row at a time: a motion is checked once.
     """
-    motion, model, names = subject.motion, subject.model, subject.names
+    motion, model, names = simulation.motion, simulation.model, simulation.embodiment
     data = mujoco.MjData(model)
     feet = [model.geom(foot).id for foot in names.feet]
     steps = len(motion["time"])
@@ -44,7 +44,7 @@ def poses(subject: Subject) -> tuple[Array, list[Collision], Array]:
     normals = np.full((steps, len(feet), 3), np.nan)
     found: dict[tuple[str, str], list[tuple[float, int]]] = {}
     data.qpos[:] = motion["qpos0"]
-    layout, root = subject.layout, subject.layout.root_qpos
+    layout, root = simulation.layout, simulation.layout.root_qpos
     for row in range(steps):
         data.qpos[root : root + 3] = motion["trunk_position"][row]
         data.qpos[root + 3 : root + 7] = motion["trunk_quaternion"][row]
@@ -71,7 +71,7 @@ def poses(subject: Subject) -> tuple[Array, list[Collision], Array]:
     return centres, sorted(collisions, key=lambda one: -one.depth), normals
 
 
-def scene_forces(subject: Subject, normals: Array) -> Array:
+def scene_forces(simulation: RecordedSimulation, normals: Array) -> Array:
     """(steps, feet) [N]: the file's forces on the feet where they touch the scene, else 0.
 
     The file has those of the robot's own parts, too; a foot that touches both at once keeps both.
@@ -79,12 +79,12 @@ def scene_forces(subject: Subject, normals: Array) -> Array:
     known = np.asarray(np.isfinite(normals).all(axis=-1))
     touches = known.copy()
     touches[1:] |= known[:-1]  # forces of a row act during its step, contacts are those at its end
-    return np.where(touches, np.linalg.norm(subject.motion["foot_contact_force"], axis=-1), 0.0)
+    return np.where(touches, np.linalg.norm(simulation.motion["foot_contact_force"], axis=-1), 0.0)
 
 
-def landings(subject: Subject, centres: Array, normals: Array, force: Array) -> list[Landing]:
+def landings(simulation: RecordedSimulation, centres: Array, normals: Array, force: Array) -> list[Landing]:
     """Every time that a foot without force (steps, feet) comes to bear some; nothing at the start."""
-    motion, step, loaded = subject.motion, subject.timestep, force > 0
+    motion, step, loaded = simulation.motion, simulation.timestep, force > 0
     first = loaded[1:] & ~loaded[:-1]
     found = []
     for row, foot in zip(*np.nonzero(first), strict=True):
@@ -96,7 +96,7 @@ def landings(subject: Subject, centres: Array, normals: Array, force: Array) -> 
         out = normals[before : before + 2, foot]
         normal = out[np.isfinite(out).all(axis=-1)][-1]
         speed = max(0.0, -float(velocity @ normal))
-        found.append(Landing(subject.names.feet[foot], float(motion["time"][row]), speed))
+        found.append(Landing(simulation.embodiment.feet[foot], float(motion["time"][row]), speed))
     return found
 
 

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from levade.check.numerics import apart
-from levade.check.subject import Subject
 from levade.costs import errors, success
 from levade.costs.orientation import geodesic
+from levade.engines import ENGINES
 from levade.errors import LevadeError
-from levade.replay import ENGINES, replay_in
+from levade.motions import RecordedSimulation, replay_in
 from levade.trajectory import Trajectories
 
 _ROWS = 20
@@ -35,32 +35,32 @@ class Replayed:
         return dict(vars(self))
 
 
-def other_engines(subject: Subject) -> dict[str, Replayed]:
+def other_engines(simulation: RecordedSimulation) -> dict[str, Replayed]:
     """Every engine but the motion's own -> what it makes of the motion."""
-    return {name: _replay(subject, name) for name in ENGINES if name != subject.motion.meta["engine"]}
+    return {name: _replay(simulation, name) for name in ENGINES if name != simulation.motion.provenance.engine}
 
 
-def _replay(subject: Subject, engine: str) -> Replayed:
+def _replay(simulation: RecordedSimulation, engine: str) -> Replayed:
     try:
-        trajectories = replay_in(engine, subject.motion).trajectories
+        trajectories = replay_in(engine, simulation.motion).trajectories
     except LevadeError as error:
         return Replayed(reason=str(error))
-    off = errors(subject.criteria, trajectories)
+    off = errors(simulation.criteria, trajectories)
     return Replayed(
-        success=bool(success(subject.criteria, trajectories)[0]),
+        success=bool(success(simulation.criteria, trajectories)[0]),
         errors={name: float(error[0]) for name, error in off.items()},
-        apart=apart(subject, trajectories),
-        over_time=_over_time(subject, trajectories),
+        apart=apart(simulation, trajectories),
+        over_time=_over_time(simulation, trajectories),
     )
 
 
-def _over_time(subject: Subject, trajectories: Trajectories) -> dict[str, list[float]]:
+def _over_time(simulation: RecordedSimulation, trajectories: Trajectories) -> dict[str, list[float]]:
     steps = trajectories.steps
     rows = sorted(
-        {round((i + 1) * steps / _ROWS) - 1 for i in range(_ROWS)} - {-1} | {subject.motion.horizon_steps - 1}
+        {round((i + 1) * steps / _ROWS) - 1 for i in range(_ROWS)} - {-1} | {simulation.motion.horizon_steps - 1}
     )
-    moved = trajectories.trunk_com_position()[0, rows] - subject.motion["trunk_com_position"][rows]
-    turned = geodesic(trajectories.trunk_quaternion[0, rows], subject.motion["trunk_quaternion"][rows])
+    moved = trajectories.trunk_com_position()[0, rows] - simulation.motion["trunk_com_position"][rows]
+    turned = geodesic(trajectories.trunk_quaternion[0, rows], simulation.motion["trunk_quaternion"][rows])
     return {
         "time": trajectories.time[rows].tolist(),
         "position": ((moved**2).sum(axis=-1) ** 0.5).tolist(),

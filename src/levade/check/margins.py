@@ -8,12 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.check.contacts import landings, poses, scene_forces
 from levade.check.demands import Demands
-from levade.check.subject import Subject
+from levade.embodiment import TorqueCurve
 from levade.errors import LevadeError
+from levade.motions import RecordedSimulation
 from levade.robots import load_robot
-from levade.trajectory import Array, TorqueCurve
 
 _ROUNDING = 1e-6
 """Of a limit: a torque that the engine holds at its limit is at it, not beyond."""
@@ -47,10 +48,10 @@ class Margin:
         return {**content, "failed": list(self.failed), **more}
 
 
-def margins(subject: Subject, demands: Demands) -> dict[str, Margin]:
+def margins(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margin]:
     """Every kind of limit -> what the motion leaves of it."""
-    motion, limits = subject.motion, subject.names.limits
-    joints = subject.names.joint_names
+    motion, limits = simulation.motion, simulation.embodiment.limits
+    joints = simulation.embodiment.joint_names
     angle, speed, torque = (motion[f"joint_{name}"] for name in ("position", "velocity", "torque"))
     power = np.abs(torque * speed)
     at_limit = (np.abs(torque) >= limits.torque * (1 - 1e-9)).mean(axis=0)
@@ -64,19 +65,19 @@ def margins(subject: Subject, demands: Demands) -> dict[str, Margin]:
             demands.torque,
             more={"time_at_limit": dict(zip(joints, at_limit.tolist(), strict=True))},
         ),
-        "torque_speed": _torque_speed(subject, demands.torque_speed),
-        "linkage": _linkage(subject, demands.linkage),
+        "torque_speed": _torque_speed(simulation, demands.torque_speed),
+        "linkage": _linkage(simulation, demands.linkage),
         "power": _most(
             "W",
             dict(zip(joints, power.max(axis=0).tolist(), strict=True)),
             demands.power,
-            more=_energy(torque * speed, subject.timestep),
+            more=_energy(torque * speed, simulation.timestep),
         ),
         "flow_or_current": Margin(
             "", reason="the robot's description has neither cylinders nor motor constants to compute it from"
         ),
     }
-    return found | _contacts(subject, demands)
+    return found | _contacts(simulation, demands)
 
 
 def _left(most: Array, limit: Array) -> Array:
@@ -126,10 +127,10 @@ def _most(
     return Margin(unit, dict(values), most, values[most], allowed, failed, passed, reason, more or {})
 
 
-def _torque_speed(subject: Subject, required: float | None) -> Margin:
+def _torque_speed(simulation: RecordedSimulation, required: float | None) -> Margin:
     """What is left of the line from stall torque to no-load speed, while driving; braking has the constant limit alone."""
-    limits, joints = subject.names.limits, subject.names.joint_names
-    torque, speed = subject.motion["joint_torque"], subject.motion["joint_velocity"]
+    limits, joints = simulation.embodiment.limits, simulation.embodiment.joint_names
+    torque, speed = simulation.motion["joint_torque"], simulation.motion["joint_velocity"]
     left = np.full(len(joints), np.nan)
     if limits.stall_torque is not None:
         # as a share of the stall torque: near the no-load speed a share of what the line leaves there would mean nothing
@@ -143,10 +144,10 @@ def _no_line(left: Array) -> str:
     return "" if np.isfinite(left).any() else "the actuators have no torque-speed line"
 
 
-def _linkage(subject: Subject, required: float | None) -> Margin:
+def _linkage(simulation: RecordedSimulation, required: float | None) -> Margin:
     """What is left of the torque that linkages transmit at their angle."""
-    motion, joints = subject.motion, subject.names.joint_names
-    curves = _curves(subject)
+    motion, joints = simulation.motion, simulation.embodiment.joint_names
+    curves = _curves(simulation)
     if isinstance(curves, str):
         return Margin("share of limit", required=required, reason=curves)
     left = np.full(len(joints), np.inf)
@@ -155,7 +156,7 @@ def _linkage(subject: Subject, required: float | None) -> Margin:
         share = np.abs(motion["joint_torque"][:, joint]) / np.maximum(allowed, 1e-9 * curve.peak)
         left[joint] = 1 - share.max()
     margin = _least("share of limit", joints, left, required)
-    if subject.task.robot.linkage:
+    if simulation.task.robot.linkage:
         return margin
     return Margin(
         margin.unit,
@@ -169,15 +170,15 @@ def _linkage(subject: Subject, required: float | None) -> Margin:
     )
 
 
-def _curves(subject: Subject) -> Mapping[int, TorqueCurve] | str:
+def _curves(simulation: RecordedSimulation) -> Mapping[int, TorqueCurve] | str:
     """The linkage's curves from the robot's description, or why there are none."""
-    choice: dict[str, Any] = asdict(subject.task.robot) | {"linkage": True}
+    choice: dict[str, Any] = asdict(simulation.task.robot) | {"linkage": True}
     try:
         robot = load_robot(choice.pop("name"), **choice)
     except LevadeError as error:
         text = str(error)
         return "the robot has no linkage" if "linkage" in text else f"the robot's description cannot be read: {text}"
-    if robot.joint_names != subject.names.joint_names:
+    if robot.joint_names != simulation.embodiment.joint_names:
         return "the robot's description has other joints than the motion"
     return robot.limits.torque_curves
 
@@ -192,12 +193,12 @@ def _energy(power: Array, timestep: float) -> dict[str, float]:
     }
 
 
-def _contacts(subject: Subject, demands: Demands) -> dict[str, Margin]:
+def _contacts(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margin]:
     """Forces on the feet, their impacts, and what of the robot touches itself."""
-    feet = subject.names.feet
-    weight = float(subject.model.body_mass.sum()) * GRAVITY
-    centres, collisions, normals = poses(subject)
-    force = scene_forces(subject, normals)
+    feet = simulation.embodiment.feet
+    weight = float(simulation.model.body_mass.sum()) * GRAVITY
+    centres, collisions, normals = poses(simulation)
+    force = scene_forces(simulation, normals)
     bearing = force > 0
     mean = force.sum(axis=0) / np.maximum(bearing.sum(axis=0), 1)
     foot_force = _most(
@@ -210,7 +211,7 @@ def _contacts(subject: Subject, demands: Demands) -> dict[str, Margin]:
             "robot_weight_N": weight,
         },
     )
-    landed = landings(subject, centres, normals, force)
+    landed = landings(simulation, centres, normals, force)
     hardest = {foot: max((one.speed for one in landed if one.foot == foot), default=None) for foot in feet}
     impact = _most(
         "m/s",

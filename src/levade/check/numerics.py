@@ -8,10 +8,9 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from levade.check.subject import Subject
 from levade.costs import errors, success
 from levade.costs.orientation import geodesic
-from levade.engines import Perturbation
+from levade.motions import RecordedSimulation
 from levade.trajectory import Trajectories
 
 
@@ -66,18 +65,16 @@ class Numeric:
         return dict(vars(self))
 
 
-def numerics(subject: Subject) -> dict[str, Numeric]:
+def numerics(simulation: RecordedSimulation) -> dict[str, Numeric]:
     """Every variant's name -> what came of it."""
-    return {name: _try(subject, variant) for name, variant in VARIANTS.items()}
+    return {name: _try(simulation, variant) for name, variant in VARIANTS.items()}
 
 
-def simulate_at(subject: Subject, variant: Variant) -> tuple[Trajectories, str]:
+def simulate_at(simulation: RecordedSimulation, variant: Variant) -> tuple[Trajectories, str]:
     """The motion, computed another way; and where its references come from."""
-    reference, source = subject.reference_at(variant.parts)
-    ensemble = subject.ensemble(varied(subject.model_copy(), variant))
-    nominal = Perturbation().nominal(ensemble.model, ensemble.joints)
-    variations = ensemble.vary(subject.start, nominal)
-    return ensemble.rollout(variations, reference, feedback=subject.motion.feedback), source
+    other = simulation.with_model(varied(simulation.model_copy(), variant))
+    source = other.curve.source if variant.parts > 1 else "policy"
+    return other.rollout(feedback=simulation.motion.feedback), source
 
 
 def varied(model: mujoco.MjModel, variant: Variant) -> mujoco.MjModel:
@@ -98,22 +95,22 @@ def varied(model: mujoco.MjModel, variant: Variant) -> mujoco.MjModel:
     return model
 
 
-def _try(subject: Subject, variant: Variant) -> Numeric:
-    trajectories, source = simulate_at(subject, variant)
-    off = errors(subject.criteria, trajectories)
+def _try(simulation: RecordedSimulation, variant: Variant) -> Numeric:
+    trajectories, source = simulate_at(simulation, variant)
+    off = errors(simulation.criteria, trajectories)
     return Numeric(
-        success=bool(success(subject.criteria, trajectories)[0]),
+        success=bool(success(simulation.criteria, trajectories)[0]),
         diverged=bool(trajectories.diverged[0]),
         timestep=trajectories.timestep,
         errors={name: float(error[0]) for name, error in off.items()},
         reference=source,
-        apart=apart(subject, trajectories, variant.parts),
+        apart=apart(simulation, trajectories, variant.parts),
     )
 
 
-def apart(subject: Subject, trajectories: Trajectories, parts: int = 1) -> dict[str, float]:
+def apart(simulation: RecordedSimulation, trajectories: Trajectories, parts: int = 1) -> dict[str, float]:
     """How far the trunk is from where the file has it, at rows of the file: position [m] and attitude [rad]."""
-    motion, rows = subject.motion, slice(parts - 1, None, parts)
+    motion, rows = simulation.motion, slice(parts - 1, None, parts)
     position = trajectories.trunk_com_position()[0, rows] - motion["trunk_com_position"]
     distance = np.linalg.norm(position, axis=-1)
     angle = geodesic(trajectories.trunk_quaternion[0, rows], motion["trunk_quaternion"])

@@ -10,17 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from levade.check.statistics import rank_correlation, wilson
-from levade.check.subject import Subject
-from levade.costs import DIVERGED, errors, success
-from levade.engines import Ensemble, Perturbation, Sample
+from levade.costs import DIVERGED
+from levade.engines import Perturbation, Sample
 from levade.engines.perturbation import PARAMETERS, joined, labels
-from levade.feedback import Feedback, SensorErrors
-from levade.trajectory import Array, JointReference
+from levade.feedback import Feedback
+from levade.motions import RecordedSimulation, Trials, run_trials
 
-_AT_ONCE = 64
-"""Runs simulated together: what they record has to fit into memory."""
-_SENSING = 7933
-"""Keeps the sensors' errors apart from what is drawn with the same seed."""
 _CORNERS = 8
 """Runs with one parameter alone at the ends of its range."""
 
@@ -92,7 +87,7 @@ class Perturbed:
 
 
 def perturbed(
-    subject: Subject,
+    simulation: RecordedSimulation,
     perturbation: Perturbation,
     *,
     runs: int,
@@ -106,22 +101,19 @@ def perturbed(
     divide: the motion's time step by so much. feedback: the stabiliser, whose sensors err (`levade.feedback.SensorErrors`).
     stopping: asked on the way; once it says so, what there is by then is the result, some runs at least.
     """
-    model = subject.model_copy()
-    model.opt.timestep /= divide
-    ensemble, reference = subject.ensemble(model), subject.reference_at(divide)[0]
-    sample = perturbation.draw(ensemble.model, ensemble.joints, n=runs, seed=seed)
+    simulation = simulation.divided(divide)
+    model, joints = simulation.model, simulation.joints
+    sample = perturbation.draw(model, joints, n=runs, seed=seed)
     names = [
         name
         for name, values in sample.values.items()
         if values.shape[1] and getattr(perturbation, name) not in (None, (PARAMETERS[name].nominal,) * 2)
     ]
-    corners = {
-        name: perturbation.corners(ensemble.model, ensemble.joints, name, n=_CORNERS, seed=seed) for name in names
-    }
+    corners = {name: perturbation.corners(model, joints, name, n=_CORNERS, seed=seed) for name in names}
     every = joined([sample, *corners.values()])
-    whole = judge(subject, ensemble, reference, every, feedback=feedback, seed=seed, stopping=stopping)
+    whole = run_trials(simulation, every, feedback=feedback, seed=seed, stopping=stopping)
     drawn, alone, first = whole.part(0, runs), {}, runs
-    runs = len(drawn.success)
+    runs = len(drawn)
     sample = Sample({name: values[:runs] for name, values in sample.values.items()})
     for name, corner in corners.items():
         alone[name] = whole.part(first, first + len(corner)).success
@@ -136,14 +128,14 @@ def perturbed(
         low=low,
         high=high,
         seed=seed,
-        timestep=reference.timestep,
+        timestep=simulation.reference.timestep,
         diverged=int(drawn.diverged.sum()),
         errors={
             name: {
                 "lowest": float(values[sound].min(initial=np.inf)) if sound.any() else DIVERGED,
                 "mean": float(values[sound].mean()) if sound.any() else DIVERGED,
                 "highest": float(values[sound].max(initial=-np.inf)) if sound.any() else DIVERGED,
-                "missed": int((~subject.criteria[name].met(values)).sum()),
+                "missed": int((~simulation.criteria[name].met(values)).sum()),
             }
             for name, values in drawn.errors.items()
         },
@@ -154,71 +146,19 @@ def perturbed(
             "errors": {name: float(values[worst]) for name, values in drawn.errors.items()},
             "values": {name: sample.values[name][worst].tolist() for name in names},
         },
-        sensitivity=_sensitivities(subject, ensemble, perturbation, sample, drawn, alone, names),
+        sensitivity=_sensitivities(simulation, perturbation, sample, drawn, alone, names),
     )
 
 
-@dataclass(frozen=True, eq=False)
-class Judged:
-    """n runs. miss: (n,) the largest error, in tolerances; of a criterion with a bound, as a share of that."""
-
-    errors: Mapping[str, Array]
-    success: NDArray[np.bool_]
-    diverged: NDArray[np.bool_]
-    miss: Array
-
-    def part(self, first: int, last: int) -> Judged:
-        at = slice(first, last)
-        off = {name: values[at] for name, values in self.errors.items()}
-        return Judged(off, self.success[at], self.diverged[at], self.miss[at])
-
-
-def judge(
-    subject: Subject,
-    ensemble: Ensemble,
-    reference: JointReference,
-    sample: Sample,
-    *,
-    feedback: Feedback | None = None,
-    seed: int = 0,
-    stopping: Callable[[], bool] | None = None,
-) -> Judged:
-    """Simulate a motion on all models of a sample. seed: of the sensors' errors, which only feedback notices.
-
-    stopping: as in `perturbed`.
-    """
-    criteria, parts = subject.criteria, []
-    for first in range(0, len(sample), _AT_ONCE):
-        if parts and stopping is not None and stopping():
-            break
-        part = Sample({name: values[first : first + _AT_ONCE] for name, values in sample.values.items()})
-        wrong = None
-        if feedback is not None:
-            ticks = -(-reference.steps // feedback.steps(reference.timestep))
-            wrong = SensorErrors().draw(_AT_ONCE, ticks, ensemble.joints, seed=(seed, first, _SENSING))[: len(part)]
-        variations = ensemble.vary(subject.start, part)
-        trajectories = ensemble.rollout(variations, reference, feedback=feedback, sensor_errors=wrong)
-        parts.append((errors(criteria, trajectories), success(criteria, trajectories), trajectories.diverged))
-    off = {name: np.concatenate([part[0][name] for part in parts]) for name in criteria}
-    met, diverged = (np.concatenate([part[i] for part in parts]) for i in (1, 2))
-    miss = np.zeros(len(met))
-    for name, criterion in criteria.items():
-        bound = next((abs(end) for end in (criterion.minimum, criterion.maximum) if end), 1.0)
-        np.maximum(miss, np.abs(off[name]) / (criterion.tolerance or bound), out=miss)
-    miss[diverged] = DIVERGED
-    return Judged(off, met, diverged, miss)
-
-
 def _sensitivities(
-    subject: Subject,
-    ensemble: Ensemble,
+    simulation: RecordedSimulation,
     perturbation: Perturbation,
     sample: Sample,
-    drawn: Judged,
+    drawn: Trials,
     alone: Mapping[str, NDArray[np.bool_]],
     names: list[str],
 ) -> tuple[Sensitivity, ...]:
-    missed = {name: 1 + int((~subject.criteria[name].met(off)).sum()) for name, off in drawn.errors.items()}
+    missed = {name: 1 + int((~simulation.criteria[name].met(off)).sum()) for name, off in drawn.errors.items()}
     weights = {name: count / sum(missed.values()) for name, count in missed.items()}
     found = []
     for name in names:
@@ -237,7 +177,7 @@ def _sensitivities(
                 parameter=name,
                 unit=PARAMETERS[name].unit,
                 explains=float(np.clip(squared.sum() - by_chance, 0.0, 1.0)),
-                number=labels(ensemble.model, subject.names.joint_names, name)[which],
+                number=labels(simulation.model, simulation.embodiment.joint_names, name)[which],
                 failed=float(failed.mean()) if failed.size else None,
                 succeeded=float(succeeded.mean()) if succeeded.size else None,
                 alone=(int(alone[name].sum()), len(alone[name])),

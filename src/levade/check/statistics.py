@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from levade.trajectory import Array
+from levade.arrays import Array
 
 Z = 1.959963984540054
 """Standard deviations of the normal distribution that hold 95 % of it."""

@@ -96,7 +96,7 @@ def solve(
     ] = None,
     trials: Annotated[int | None, typer.Option(help="Budget, instead of the task's.")] = None,
     optimizer: Annotated[
-        str | None, typer.Option(help="levade, cma, pi2, pi2-cma, mppi, cem or random, instead of the task's.")
+        str | None, typer.Option(help="cma-aimed, cma, pi2, pi2-cma, mppi, cem or random, instead of the task's.")
     ] = None,
     engine: Annotated[str | None, typer.Option(help="mujoco or ode, instead of the task's.")] = None,
     change: Annotated[

@@ -21,7 +21,7 @@ from levade.cli.tables import make_console
 from levade.document import build, parse_yaml, read_yaml
 from levade.engines import Perturbation
 from levade.errors import LevadeError, did_you_mean
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.report.files import writing
 from levade.tasks import load_task
 from levade.tasks.units import to_si
@@ -49,7 +49,7 @@ def check_motion(
     motion = Motion.load(path)
     perturbation = changed(Perturbation(), perturb, option="--perturb")
     demands = changed(Demands(), demand, option="--demand")
-    task = None if criteria is None else load_task(criteria, robot=motion.meta["task"]["robot"]["name"])
+    task = None if criteria is None else load_task(criteria, robot=motion.task.robot.name)
     place = nullcontext(None) if out is None else writing(out, instead="give a path that can: --out FILE")
     with place as file:  # whatever cannot be written is said before the work
         with stop_between() as stopping:

@@ -9,8 +9,9 @@ import numpy as np
 from rich.table import Table
 from rich.text import Text
 
+from levade.arrays import Array
 from levade.cli.tables import quantity_unit, signed
-from levade.motion import Motion, cost_weights, meets
+from levade.motions import Motion
 
 
 def comparison_table(motions: Mapping[str, Motion]) -> Table:
@@ -19,24 +20,24 @@ def comparison_table(motions: Mapping[str, Motion]) -> Table:
     table.add_column("")
     for name in motions:
         table.add_column(Text(name), justify="right")
-    metas = [motion.meta for motion in motions.values()]
+    shown = list(motions.values())
 
-    def row(name: str, value: Callable[[Mapping[str, Any]], Text | str]) -> None:
-        table.add_row(Text(name), *(value(meta) for meta in metas))
+    def row(name: str, value: Callable[[Motion], Text | str]) -> None:
+        table.add_row(Text(name), *(value(motion) for motion in shown))
 
-    row("task", lambda meta: Text(meta["task"]["name"]))
-    row("robot", lambda meta: Text(meta["robot"]))
-    row("seed", lambda meta: str(meta["seed"]))
-    row("success", lambda meta: Text("yes", style="green") if meta["success"] else Text("no", style="red"))
-    for name in _union(meta["errors"] for meta in metas):
-        row(f"error of {name}", lambda meta, name=name: _error(meta, name))
-    row("cost", lambda meta: f"{meta['cost']:.4g}")
-    for name in _union(meta["cost_terms"] for meta in metas):
-        row(f"  {name}", lambda meta, name=name: _weighted(meta, name))
-    row("trials", lambda meta: str(meta["trials"]))
-    row("trials to success", lambda meta: _count(meta["trials_to_success"]))
+    row("task", lambda motion: Text(motion.task_name))
+    row("robot", lambda motion: Text(motion.robot))
+    row("seed", lambda motion: str(motion.provenance.seed))
+    row("success", lambda motion: _yes_or_no(motion.result.success))
+    for name in _union(motion.result.errors for motion in shown):
+        row(f"error of {name}", lambda motion, name=name: _error(motion, name))
+    row("cost", lambda motion: f"{motion.result.cost:.4g}")
+    for name in _union(motion.result.cost_terms for motion in shown):
+        row(f"  {name}", lambda motion, name=name: _weighted(motion, name))
+    row("trials", lambda motion: str(motion.result.trials))
+    row("trials to success", lambda motion: _count(motion.result.trials_to_success))
     for name, array, limit in (("torque", "joint_torque", "torque"), ("speed", "joint_velocity", "velocity")):
-        shares = [_peak_share(motion[array], motion.meta["limits"][limit]) for motion in motions.values()]
+        shares = [_peak_share(motion[array], getattr(motion.embodiment.limits, limit)) for motion in shown]
         table.add_row(Text(f"peak {name}, share of limit"), *shares)
     return table
 
@@ -46,26 +47,30 @@ def _union(mappings: Any) -> list[str]:
     return list(dict.fromkeys(key for mapping in mappings for key in mapping))
 
 
-def _error(meta: Mapping[str, Any], name: str) -> Text | str:
-    if name not in meta["errors"]:
-        return ""
-    criterion, error = meta["task"]["success"][name], meta["errors"][name]
-    style = "green" if meets(meta, name) else "red"
-    return Text(f"{signed(error)} {quantity_unit(criterion['quantity'])}", style=style)
+def _yes_or_no(success: bool) -> Text:
+    return Text("yes", style="green") if success else Text("no", style="red")
 
 
-def _weighted(meta: Mapping[str, Any], name: str) -> str:
-    if name not in meta["cost_terms"]:
+def _error(motion: Motion, name: str) -> Text | str:
+    if name not in motion.result.errors:
         return ""
-    return f"{cost_weights(meta)[name] * meta['cost_terms'][name]:.4g}"
+    style = "green" if motion.meets(name) else "red"
+    unit = quantity_unit(motion.task.success[name].quantity)
+    return Text(f"{signed(motion.result.errors[name])} {unit}", style=style)
+
+
+def _weighted(motion: Motion, name: str) -> str:
+    result = motion.result
+    if name not in result.cost_terms:
+        return ""
+    return f"{result.cost_weights[name] * result.cost_terms[name]:.4g}"
 
 
 def _count(trials: int | None) -> str:
     return "-" if trials is None else str(trials)
 
 
-def _peak_share(values: Any, limits: list[float | None]) -> Text | str:
-    bounds = np.array([np.inf if limit is None else limit for limit in limits])
+def _peak_share(values: Array, bounds: Array) -> Text | str:
     if not np.isfinite(bounds).any():
         return "no limit"
     share = float((np.abs(values).max(axis=0) / bounds).max())

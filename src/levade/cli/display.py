@@ -15,7 +15,7 @@ from rich.table import Table
 from rich.text import Text
 
 from levade.cli.tables import quantity_unit, signed
-from levade.solve import Generation
+from levade.search import Generation
 from levade.tasks import Task
 
 _PLAIN_EVERY = 10.0
@@ -124,7 +124,7 @@ def _terms(task: Task, g: Generation) -> Table:
     table = Table(box=None, padding=(0, 2), header_style="dim")
     for heading, justify in (("cost", "left"), ("weighted", "right"), ("share", "right")):
         table.add_column(heading, justify=justify)  # type: ignore[arg-type]
-    weighted = {name: g.weights[name] * g.best.terms[name] for name in task.costs}
+    weighted = {name: g.cost_weights[name] * g.best.terms[name] for name in task.costs}
     whole = sum(value for value in weighted.values() if value == value) or 1.0
     for name, value in weighted.items():
         table.add_row(name, "" if value != value else f"{value:.4g}", "" if value != value else f"{value / whole:.0%}")

@@ -11,7 +11,7 @@ from rich.markup import escape
 from levade.cli.tables import make_console
 from levade.errors import LevadeError
 from levade.export import FORMATS, Exported, export
-from levade.motion import Motion
+from levade.motions import Motion
 
 _FILES = (".csv", ".json", ".npz", ".mcap", ".yaml", ".py")
 
@@ -53,7 +53,7 @@ def export_motion(
     samples = done.samples
     joints = len(samples.joints.names)
     console.print(
-        f"[bold]{escape(motion.meta['task']['name'])}[/] on {escape(motion.meta['robot'])}: {len(samples.time)} rows at"
+        f"[bold]{escape(motion.task_name)}[/] on {escape(motion.robot)}: {len(samples.time)} rows at"
         f" {samples.rate:g} Hz, {samples.time[-1]:g} s, {joints} joints, {samples.reference} references"
     )
     for note in done.notes:

@@ -12,7 +12,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from levade.cli.tables import make_console
 from levade.errors import LevadeError
-from levade.motion import Motion
+from levade.motions import Motion
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,7 @@ def progress_beside(path: Path, motion: Motion) -> Path | None:
     progress = path.parent / "progress.csv"
     try:
         last = progress.read_text(encoding="utf-8").splitlines()[-1].split(",")
-        return progress if int(last[1]) == motion.meta["trials"] else None
+        return progress if int(last[1]) == motion.result.trials else None
     except (OSError, ValueError, LookupError):
         return None
 

@@ -12,7 +12,7 @@ from rich.markup import escape
 from levade.cli.comparing import comparison_table
 from levade.cli.picturing import Pictures, draw, labels, progress_beside
 from levade.cli.tables import make_console, motion_summary
-from levade.motion import Motion
+from levade.motions import Motion
 
 
 def show_motions(paths: Sequence[Path], pictures: Pictures, *, report: bool, as_json: bool) -> int:
@@ -35,7 +35,7 @@ def show_motions(paths: Sequence[Path], pictures: Pictures, *, report: bool, as_
             console.print(f"Written: {_listed(written)}")
         if report:
             console.print(f"To open in a browser: {_listed(_reports(motions))}")
-    return 0 if all(motion.meta["success"] for motion in motions.values()) else 1
+    return 0 if all(motion.result.success for motion in motions.values()) else 1
 
 
 def _listed(paths: Sequence[Path]) -> str:
@@ -57,15 +57,13 @@ def _reports(motions: Mapping[Path, Motion]) -> list[Path]:
 
 
 def _show(console: Console, motion: Motion) -> None:
-    meta = motion.meta
-    steps, horizon = len(motion["time"]), meta["horizon"]
-    hold = motion["time"][-1] - horizon
+    origin, hold = motion.provenance, motion.hold
     console.print(
-        f"[bold]{escape(meta['task']['name'])}[/] on {escape(meta['robot'])}, seed {meta['seed']}: {horizon:g} s"
+        f"[bold]{escape(motion.task_name)}[/] on {escape(motion.robot)}, seed {origin.seed}: {motion.horizon:g} s"
         + (f" and {hold:g} s of hold" if hold > 1e-9 else "")
-        + f", {steps} steps of {meta['timestep'] * 1e3:g} ms"
+        + f", {motion.steps} steps of {motion.timestep * 1e3:g} ms"
     )
     for part in motion_summary(motion):
         console.print(part)
-    made = ", ".join(f"{name} {version}" for name, version in meta["versions"].items())
-    console.print(f"{meta['trials']} trials, cost {meta['cost']:.4g}; made with {made}")
+    made = ", ".join(f"{name} {version}" for name, version in origin.versions.items())
+    console.print(f"{motion.result.trials} trials, cost {motion.result.cost:.4g}; made with {made}")

@@ -15,9 +15,8 @@ from levade.cli.inspecting import tell_warnings
 from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console, motion_summary
 from levade.cli.watching import Watching, watched
-from levade.motion import met_on_the_model_only
-from levade.run import Outcome, damage, read_run, resume, run, unfinished
-from levade.solve import Generation, Objective
+from levade.search import Generation, Stopped, make_objective
+from levade.search.run import Outcome, check_replaceable, read_run, resume, run
 from levade.tasks import load_task
 
 
@@ -40,19 +39,19 @@ def solve_and_report(
     quiet = as_json and not console.is_terminal
     # whatever is wrong with the input is said before the display opens
     if resume_from is not None:
-        chosen, header, _ = read_run(resume_from)
-        seed, out = int(header["seed"]), resume_from
-        objective = Objective(chosen, threads=threads)
+        chosen, checkpoint = read_run(resume_from)
+        seed, out = checkpoint.header.seed, resume_from
+        objective = make_objective(chosen, threads=threads)
         go = functools.partial(resume, out, objective=objective)
-        if (harm := damage(out)) is not None:
-            console.print(f"[yellow]warning:[/] {escape(harm)}", soft_wrap=True)
+        if checkpoint.damage is not None:
+            console.print(f"[yellow]warning:[/] {escape(checkpoint.damage)}", soft_wrap=True)
     else:
         assert task is not None
         chosen = load_task(task, robot=robot, changes=changes)
         out = directory or Path(chosen.name)
         if not force:
-            unfinished(out)
-        objective = Objective(chosen, threads=threads)
+            check_replaceable(out)
+        objective = make_objective(chosen, threads=threads)
         go = functools.partial(run, objective, seed=seed, directory=out)
     tell_warnings(console, objective.robot, objective.task.robot.name)
     with ExitStack() as stack:
@@ -64,12 +63,11 @@ def solve_and_report(
         note = (lambda: "") if watch is None else (lambda: watch.note)
         with Display(console, chosen, quiet=quiet, note=note) as display:
 
-            def observe(generation: Generation) -> None:
+            def observe(generation: Generation) -> Stopped | None:
                 display.update(generation)
                 if watch is not None:
                     watch.observe(generation)
-                if stopping():
-                    raise KeyboardInterrupt
+                return Stopped.INTERRUPTED if stopping() else None
 
             outcome = go(observe=observe, steer=None if watch is None else watch.steer)
         if watch is not None:
@@ -78,24 +76,24 @@ def solve_and_report(
             print(json.dumps(summary(outcome), ensure_ascii=False), flush=True)
         else:
             _tell(console, outcome)
-    return 0 if outcome.motion.meta["success"] else 1
+    return 0 if outcome.motion.result.success else 1
 
 
 def summary(outcome: Outcome) -> dict[str, object]:
     """The object that ``solve --json`` prints."""
-    solution, meta = outcome.solution, outcome.motion.meta
+    solution, motion, result = outcome.solution, outcome.motion, outcome.motion.result
     return {
-        "task": meta["task"]["name"],
-        "robot": meta["robot"],
+        "task": motion.task_name,
+        "robot": motion.robot,
         "seed": outcome.seed,
-        "success": meta["success"],
+        "success": result.success,
         "trials": solution.trials,
         "trials_to_success": solution.trials_to_success,
         "wall_s": round(outcome.wall, 3),
-        "cost": meta["cost"],
-        "cost_terms": meta["cost_terms"],
-        "errors": meta["errors"],
-        "stopped": solution.stopped,
+        "cost": result.cost,
+        "cost_terms": result.cost_terms,
+        "errors": result.errors,
+        "stopped": str(solution.stopped),
         "diverged": solution.diverged,
         "out": str(outcome.directory),
     }
@@ -107,11 +105,11 @@ def _tell(console: Console, outcome: Outcome) -> None:
         console.print(part)
     first = solution.trials_to_success
     spent = f"{solution.trials} trials in {outcome.wall:.1f} s"
-    if met_on_the_model_only(outcome.motion.meta):
+    if outcome.motion.met_on_the_model_only:
         console.print("All of this is met on the model, but not on enough of the robots that differ from it.")
-    if solution.stopped == "interrupted":
+    if solution.stopped is Stopped.INTERRUPTED:
         console.print(f"[yellow]Interrupted[/] after {spent}. To go on: levade solve --resume {directory}")
-    elif outcome.motion.meta["success"]:
+    elif outcome.motion.result.success:
         console.print(f"[green]Success[/] at trial {first}; {spent}.")
     else:
         console.print(

@@ -15,7 +15,7 @@ from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console
 from levade.engines import Perturbation
 from levade.errors import LevadeError
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.stabilise import stabilise
 
 
@@ -72,7 +72,7 @@ def stabilise_motion(
             "share": None if math.isnan(found.share) else found.share,
             "design": None if found.design is None else vars(found.design),
             "interrupted": found.interrupted,
-            "feedback": None if found.design is None else found.motion.meta["feedback"],
+            "feedback": None if found.design is None else found.motion.stabiliser,
         }
         print(json.dumps(content, ensure_ascii=False))
         return 0 if found.design is not None else 1

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Iterator
 
 import numpy as np
 from rich.console import Console, RenderableType
@@ -11,7 +10,7 @@ from rich.table import Table
 from rich.text import Text
 
 from levade.costs.success import QUANTITIES
-from levade.motion import Motion, meets
+from levade.motions import Motion
 
 _WIDE = 200
 """Columns, where the output is no terminal: nothing is wrapped there."""
@@ -35,32 +34,33 @@ def signed(value: float) -> str:
 
 def motion_summary(motion: Motion) -> Iterator[RenderableType]:
     """Goal against result, and peaks against the limits."""
-    yield goal_table(motion.meta)
+    yield goal_table(motion)
     yield peak_table(motion)
 
 
-def goal_table(meta: Mapping[str, Any]) -> Table:
+def goal_table(motion: Motion) -> Table:
     """A row per success criterion."""
     table = Table(box=None, padding=(0, 2, 0, 0), header_style="bold")
     for heading in ("criterion", "goal", "result", "error", "allowed", ""):
         justify = "left" if heading in ("criterion", "") else "right"
         table.add_column(heading, justify=justify)
     when = {"horizon": "", "end": " at the end", "max": ", largest", "min": ", smallest", "hold": " in the hold"}
-    for name, criterion in meta["task"]["success"].items():
-        unit, error = quantity_unit(criterion["quantity"]), meta["errors"][name]
-        target = criterion["target"]
-        tolerance = criterion["tolerance"] or 0.0
+    for name, criterion in motion.task.success.items():
+        unit, error = quantity_unit(criterion.quantity), motion.result.errors[name]
+        target = criterion.target
+        tolerance = criterion.tolerance or 0.0
         if target is not None:
             goal, result = f"{target:.4f} {unit}", f"{target + error:.4f} {unit}"
         else:
-            low, high = criterion["minimum"], criterion["maximum"]
+            low, high = criterion.minimum, criterion.maximum
             ends = [f"{bound:.4f}" for bound in (low, high) if bound is not None]
             side = "" if len(ends) == 2 else "at least " if high is None else "at most "
             goal = f"{side}{' to '.join(ends)} {unit}"
-            result = "within" if error == 0 else f"{(low if error < 0 else high) + error:.4f} {unit}"
-        met = meets(meta, name)
+            bound = low if error < 0 else high
+            result = "within" if error == 0 or bound is None else f"{bound + error:.4f} {unit}"
+        met = motion.meets(name)
         table.add_row(
-            name + when[criterion["at"]] if name == criterion["quantity"] else name,
+            name + when[criterion.at] if name == criterion.quantity else name,
             goal,
             result,
             f"{signed(error)} {unit}",
@@ -72,18 +72,16 @@ def goal_table(meta: Mapping[str, Any]) -> Table:
 
 def peak_table(motion: Motion) -> Table:
     """The joint that comes nearest to its limit, or goes furthest beyond, in torque, speed and range."""
-    limits = motion.meta["limits"]
-    names = [str(name) for name in motion["joint_names"]]
+    limits, names = motion.embodiment.limits, motion.joint_names
     table = Table(box=None, padding=(0, 2, 0, 0), header_style="bold")
     for heading in ("peak", "joint", "value", "limit", "share"):
         justify = "left" if heading in ("peak", "joint") else "right"
         table.add_column(heading, justify=justify)
-    for what, unit, array, limit in (
-        ("torque", "Nm", "joint_torque", limits["torque"]),
-        ("speed", "rad/s", "joint_velocity", limits["velocity"]),
+    for what, unit, array, bounds in (
+        ("torque", "Nm", "joint_torque", limits.torque),
+        ("speed", "rad/s", "joint_velocity", limits.velocity),
     ):
         peak = np.abs(motion[array]).max(axis=0)
-        bounds = np.array([np.inf if value is None else value for value in limit])
         joint = int(np.argmax(peak / bounds)) if np.isfinite(bounds).any() else int(np.argmax(peak))
         share = peak[joint] / bounds[joint]
         table.add_row(
@@ -93,9 +91,7 @@ def peak_table(motion: Motion) -> Table:
             f"{bounds[joint]:.1f} {unit}" if np.isfinite(bounds[joint]) else "none",
             _share(share),
         )
-    lower = np.array([-np.inf if value is None else value for value in limits["lower"]])
-    upper = np.array([np.inf if value is None else value for value in limits["upper"]])
-    position = motion["joint_position"]
+    lower, upper, position = limits.lower, limits.upper, motion["joint_position"]
     beyond = np.maximum(lower - position, position - upper).max(axis=0)
     joint = int(np.argmax(beyond))
     angle = position[np.argmax(np.maximum(lower - position, position - upper)[:, joint]), joint]

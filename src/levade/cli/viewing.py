@@ -12,10 +12,10 @@ from levade.cli.picturing import progress_beside
 from levade.cli.tables import make_console
 from levade.cli.watching import tell_where
 from levade.errors import LevadeError
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.report.page import page as motion_page
 from levade.report.page import save_page
-from levade.solve import Objective
+from levade.search import make_objective
 from levade.tasks import builtin_tasks
 from levade.viewer.pages import view_page
 from levade.viewer.server import LOOPBACK, Server
@@ -57,5 +57,5 @@ def _page(found: Found) -> str:
     if found.robot is not None:
         return view_page(found.robot.name, robot_data(found.robot))
     assert found.task is not None
-    objective = Objective(found.task)
+    objective = make_objective(found.task)
     return view_page(f"{found.task.name} on {objective.robot.name}", task_data(objective))

@@ -14,7 +14,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from levade.errors import LevadeError
-from levade.solve import Objective
+from levade.search import Objective
 
 if TYPE_CHECKING:
     from levade.viewer.server import Server

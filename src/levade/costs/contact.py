@@ -7,9 +7,10 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.costs.rows import Over, integral, rows_over
 from levade.errors import LevadeError, did_you_mean
-from levade.trajectory import Array, Trajectories
+from levade.trajectory import Trajectories
 
 # Below this [N] a contact exists in the solver's rounding only.
 CONTACT_FORCE = 1e-9

@@ -6,8 +6,9 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError, did_you_mean
-from levade.trajectory import Array, Trajectories
+from levade.trajectory import Trajectories
 
 Term = Callable[[Trajectories], Array]
 """Trajectories to (n,), unweighted: the dataclasses of this package, or any function."""

@@ -10,9 +10,11 @@ from typing import ClassVar
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.costs.rows import Over, integral, rows_over
+from levade.embodiment import JointLimits
 from levade.errors import LevadeError
-from levade.trajectory import Array, JointLimits, Trajectories
+from levade.trajectory import Trajectories
 
 # A linkage may transmit nothing at the end of its range. An excess is then counted against this share of its best.
 LEAST_TORQUE_SHARE = 0.01

@@ -8,9 +8,10 @@ from typing import ClassVar
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.costs.rows import Over, rows_over
 from levade.errors import LevadeError
-from levade.trajectory import Array, Trajectories
+from levade.trajectory import Trajectories
 
 
 @dataclass(frozen=True)

@@ -9,10 +9,11 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.costs.rows import mean_over_rows
 from levade.costs.success import Criterion, Legs, Quantity
 from levade.errors import LevadeError
-from levade.trajectory import Array, Trajectories
+from levade.trajectory import Trajectories
 
 
 @dataclass(frozen=True)

@@ -15,8 +15,10 @@ from typing import ClassVar
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.costs.rows import At, beyond, check_target, check_tolerance, mean_over_rows, rows_at
-from levade.trajectory import Array, Trajectories, components, roll_pitch_yaw
+from levade.rotations import components, roll_pitch_yaw
+from levade.trajectory import Trajectories
 
 
 @dataclass(frozen=True)

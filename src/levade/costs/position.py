@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+from levade.arrays import Array
 from levade.costs.rows import At, check_target, check_tolerance, rows_at, squared_distance
-from levade.trajectory import Array, Trajectories
+from levade.trajectory import Trajectories
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+from levade.arrays import Array
 from levade.costs.rows import At, check_target, rows_at, squared_distance
 from levade.errors import LevadeError
-from levade.trajectory import Array, Trajectories
+from levade.trajectory import Trajectories
 
 
 @dataclass(frozen=True)

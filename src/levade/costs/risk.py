@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from levade.trajectory import Array
+from levade.arrays import Array
 
 Measure = Literal["mean", "cvar", "worst"]
 

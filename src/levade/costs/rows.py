@@ -7,8 +7,9 @@ from typing import Literal
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
-from levade.trajectory import Array, Trajectories
+from levade.trajectory import Trajectories
 
 At = Literal["horizon", "end", "hold"]
 """When a terminal term looks: at the horizon T, in the last row (the end of the hold), or over the whole hold."""

@@ -11,11 +11,14 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from levade.arrays import Array
 from levade.costs.evaluate import DIVERGED, within
 from levade.costs.orientation import angle_between, pitch_past_vertical, world_up, wrap
 from levade.costs.rows import rows_at
+from levade.embodiment import LegGeometry
 from levade.errors import LevadeError, did_you_mean
-from levade.trajectory import Array, LegGeometry, Trajectories, roll_pitch_yaw
+from levade.rotations import roll_pitch_yaw
+from levade.trajectory import Trajectories
 
 Quantity = Literal[
     "roll", "pitch", "yaw", "tilt", "x", "y", "height", "speed", "vertical_speed", "angular_speed", "lowest_foot",

@@ -7,8 +7,9 @@ from typing import ClassVar
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.costs.rows import At, check_target, mean_over_rows, rows_at, squared_distance
-from levade.trajectory import Array, Trajectories
+from levade.trajectory import Trajectories
 
 
 @dataclass(frozen=True)

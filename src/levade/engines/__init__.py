@@ -1,23 +1,29 @@
-"""Engines: physics behind two methods, `start` and `rollout`. MuJoCo is the default; ODE is the other.
+"""Engines: physics behind one method, `Engine.rollout`. MuJoCo is the default; ODE is the other.
 
 engine = make_engine(load_robot("hyq2max"), Scene(), Physics())
-state = engine.start(Settled("neutral"))
-trajectories = engine.rollout(state, policy.reference(weights))
+start = start_state(engine, robot, Scene(), Settled("neutral"))
+trajectories = engine.rollout(start, policy.reference(weights))
 """
 
 from levade.engines.engine import Engine
-from levade.engines.ensemble import Ensemble, Variations
+from levade.engines.layout import FOOT_CONTACT_FORCE, Layout
+from levade.engines.models import Models, perturbed_models
 from levade.engines.mujoco import MujocoEngine
 from levade.engines.perturbation import Perturbation, Sample
 from levade.engines.physics import Ode, Physics
-from levade.engines.start import Fall, Settled, Start, State
-from levade.robots import Robot
-from levade.scenes import Scene
+from levade.engines.placing import make_engine, model_xml, start_state
+from levade.engines.start import Fall, Settled, Start
+from levade.engines.state import State
+from levade.engines.table import ENGINES, EngineKind, engine_kind
 
 __all__ = [
+    "ENGINES",
+    "FOOT_CONTACT_FORCE",
     "Engine",
-    "Ensemble",
+    "EngineKind",
     "Fall",
+    "Layout",
+    "Models",
     "MujocoEngine",
     "Ode",
     "Perturbation",
@@ -26,15 +32,9 @@ __all__ = [
     "Settled",
     "Start",
     "State",
-    "Variations",
+    "engine_kind",
     "make_engine",
+    "model_xml",
+    "perturbed_models",
+    "start_state",
 ]
-
-
-def make_engine(robot: Robot, scene: Scene, physics: Physics, *, threads: int = 0) -> Engine:
-    """The engine that ``physics.engine`` names. Raises LevadeError if it needs what is not installed."""
-    if physics.engine == "ode":
-        from levade.engines.ode.engine import OdeEngine
-
-        return OdeEngine(robot, scene, physics, threads=threads)
-    return MujocoEngine(robot, scene, physics, threads=threads)

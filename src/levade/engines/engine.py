@@ -1,261 +1,239 @@
-"""What the engines have in common: the model, how a robot is put into it, and what goes to its actuators.
+"""What every engine is: a model, a robot in it, and one roll-out. No engine's own code is here.
 
-The model is always the one compiled from `Engine.xml`, the text that a motion file keeps, so that whoever replays a
-motion from its file simulates the same model to the last bit.
+    engine = make_engine(robot, Scene(), Physics())                 # see `levade.engines.placing`
+    engine = ENGINES["mujoco"].make(motion.model_xml, motion.assets, embodiment, physics)
+    trajectories = engine.rollout(starts, reference, record=[FOOT_CONTACT_FORCE])
+
+The model is always the one compiled from `Engine.xml`, the text that a motion file keeps. Replaying a motion from its file
+therefore simulates the same model to the last bit.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Protocol
+from typing import ClassVar
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
+from levade.arrays import Array
+from levade.embodiment import Embodiment
+from levade.engines.layout import FOOT_CONTACT_FORCE, Layout
+from levade.engines.models import FIELDS, Models, delayed
 from levade.engines.physics import Physics
-from levade.engines.start import Settled, Start, State
-from levade.errors import LevadeError
-from levade.robots import Robot
-from levade.scenes import Scene, compose
-from levade.trajectory import Array, JointLimits, JointReference, LegGeometry, Trajectories
+from levade.engines.state import State
+from levade.engines.table import ENGINES
+from levade.errors import LevadeError, did_you_mean
+from levade.feedback import Correcting, Feedback
+from levade.trajectory import JointReference, Trajectories
 
-if TYPE_CHECKING:
-    from levade.engines.ensemble import Ensemble
 
-_OVERLAP = 0.003
-"""[m]: what may overlap before the start; contacts at rest sink in by less."""
+@dataclass(frozen=True, eq=False)
+class Trials:
+    """n trials that an engine is to simulate.
+
+    Attributes:
+        n: Number of trials.
+        starts: Where they start, 1 or n rows.
+        reference: What they are to follow, n rows.
+        commanded: What reaches their servos when, without feedback, 1 or n rows.
+        models: Versions of the model, 1 or n rows; the nominal model if None.
+        correcting: Feedback on them; none if None.
+    """
+
+    n: int
+    starts: State
+    reference: JointReference
+    commanded: JointReference
+    models: Models | None
+    correcting: Correcting | None
 
 
 class Engine(ABC):
-    """Rolls out joint references of one robot in one scene: `start`, then `rollout`.
+    """Rolls out joint references of one robot in one scene. Not to be used from several Python threads at once.
 
-    An engine adds `rollout`, and `_settle`, which lets the robot go. model: MuJoCo's, compiled from ``xml`` and
-    ``assets``; for every engine the one description of robot, scene and actuators. steps: physics steps of all roll-outs
-    so far; a trial that breaks down counts in full. Not to be used from several Python threads at once.
+    An engine adds `_prepare`, `_simulate`, `hold` and `versions`, and a row in `levade.engines.table.ENGINES`.
+
+    Attributes:
+        name: The engine's name in the table.
+        xml: MJCF text of robot, scene, actuators and contact sensors.
+        assets: File name in ``xml`` -> content.
+        embodiment: The robot in it.
+        physics: Numerical settings.
+        threads: Number of threads or processes, 0 for one per core. Results do not depend on it.
+        model: MuJoCo's model of ``xml``: for every engine the one description of what it simulates.
+        layout: Where the robot is in the model.
+        steps: Physics steps of all roll-outs so far, over all trials. A trial that breaks down counts in full.
     """
 
-    def __init__(self, robot: Robot, scene: Scene, physics: Physics, *, threads: int = 0) -> None:
-        self.robot = robot
-        self.scene = scene
-        self.physics = physics
-        self.threads = threads
+    name: ClassVar[str]
+
+    def __init__(
+        self,
+        xml: str,
+        assets: Mapping[str, bytes],
+        embodiment: Embodiment,
+        physics: Physics,
+        *,
+        threads: int = 0,
+        model: mujoco.MjModel | None = None,
+    ) -> None:
+        """Make an engine.
+
+        Args:
+            xml: MJCF text.
+            assets: File name in ``xml`` -> content.
+            embodiment: The robot in it.
+            physics: Numerical settings. ``xml`` has those of MuJoCo already.
+            threads: Number of threads or processes, 0 for one per core.
+            model: The compiled model, if there is one already; compiled from ``xml`` if None.
+
+        Raises:
+            LevadeError: If a library is missing, or the engine cannot simulate the model.
+        """
+        self.xml, self.assets, self.embodiment = xml, dict(assets), embodiment
+        self.physics, self.threads = physics, threads
         self.steps = 0
-        self.xml = self._compose(gain_scale=1.0)
-        self.assets = dict(robot.assets)
-        self.model = _compile(self.xml, self.assets)
-        self.layout = Layout(robot, self.model)
+        self.model = mujoco.MjModel.from_xml_string(xml, self.assets) if model is None else model
+        self.layout = Layout.of_model(self.model, embodiment)
         self._ctrl: Array | None = None
+        self._prepare()
+
+    @abstractmethod
+    def _prepare(self) -> None:
+        """Make what the engine needs besides. Called once, at the end of ``__init__``; raises as that does."""
+
+    @classmethod
+    @abstractmethod
+    def versions(cls) -> dict[str, str]:
+        """Versions of the libraries that decide the bits of a simulation.
+
+        Raises:
+            LevadeError: If a library is missing.
+        """
 
     @cached_property
     def bodies(self) -> tuple[str, ...]:
-        """Names of the robot's bodies, whose contact forces with the scene `rollout` can record."""
+        """Names of the robot's bodies, whose contact forces with the scene can be recorded."""
         return tuple(self.model.body(i).name for i in range(1, self.model.nbody))
 
-    def start(self, start: Start) -> State:
-        """The state at the start of a motion.
-
-        Raises LevadeError if the robot overlaps the scene, or itself, before it is let go, or the simulation diverges.
-        """
-        if isinstance(start, Settled):
-            posture = self._posture("start.settled.posture", start)
-            feet = self.robot.foot_positions(posture)
-            ground = self.scene.ground_height(start.x + feet[:, 0], start.y + feet[:, 1])
-            height = self.robot.standing_height(start.posture) + float(ground.max())
-            data = self._release((start.x, start.y, height), (0.0, 0.0, 0.0), posture, self.model)
-            return self._settle(self.model, data, posture, start.time)
-        generator = np.random.default_rng(start.seed)
-        attitude = np.array([start.roll, start.pitch, start.yaw]) + start.spread * generator.standard_normal(3)
-        posture = self._posture("start.fall.posture", start)
-        posture += start.spread * generator.standard_normal(posture.size)
-        limits = self.robot.limits
-        posture = np.clip(posture, limits.lower, limits.upper)
-        model = _compile(self._compose(gain_scale=start.gain), self.assets)
-        data = self._release((start.x, start.y, start.height), tuple(attitude), posture, model)
-        return self._settle(model, data, posture, start.time)
-
-    @abstractmethod
     def rollout(
-        self, state: State, reference: JointReference, *, feet: bool = False, bodies: Sequence[str] = ()
+        self,
+        starts: State,
+        reference: JointReference,
+        *,
+        models: Models | None = None,
+        feedback: Feedback | None = None,
+        sensor_errors: Array | None = None,
+        record: Sequence[str] = (),
     ) -> Trajectories:
-        """Simulate n trials that start in one state and follow their references.
+        """Simulate n trials. ``starts``, ``reference`` and ``models`` have n rows each, or one row for all trials.
 
-        feet: record the contact force on each foot. bodies: record the contact force with the scene of these.
-        Simulations that break down are marked in ``diverged``; their later rows repeat the last one.
+        A trial has the same bits alone and in any batch.
+
+        Args:
+            starts: Where the trials start.
+            reference: What they are to follow.
+            models: Versions of the model; the nominal model if None. A version that differs in nothing agrees with the
+                nominal model to rounding, not to the bit.
+            feedback: Stabiliser that corrects the reference from what each trial senses.
+            sensor_errors: What is added to what is sensed, shape (n, ticks, sensed); see `levade.feedback.SensorErrors`.
+            record: Forces to record: `FOOT_CONTACT_FORCE`, and names of `bodies` for their contact force with the scene.
+
+        Returns:
+            What the trials did. Trials whose simulation breaks down are marked in ``diverged``; their later rows repeat
+            the last sound one.
+
+        Raises:
+            LevadeError: If the rows do not fit together, a name in ``record`` is unknown, or the engine has no feedback.
         """
+        for name in record:
+            if name != FOOT_CONTACT_FORCE and name not in self.bodies:
+                hint = did_you_mean(name, (FOOT_CONTACT_FORCE, *self.bodies))
+                raise LevadeError(f"record: no body {name!r} in the model; {hint}")
+        return self._simulate(self._trials(starts, reference, models, feedback, sensor_errors), record)
 
     @abstractmethod
-    def ensemble(self) -> Ensemble:
-        """For simulating versions of the model: robots that differ from the nominal one."""
+    def _simulate(self, trials: Trials, record: Sequence[str]) -> Trajectories:
+        """Simulate; see `rollout`."""
 
     @abstractmethod
-    def _settle(self, model: mujoco.MjModel, data: mujoco.MjData, posture: Array, time: float) -> State:
-        """The state after the robot has held a posture for a time [s], from ``data`` on. Raises LevadeError if the
-        simulation breaks down.
+    def hold(self, model: mujoco.MjModel, data: mujoco.MjData, posture: Array, time: float) -> State:
+        """Let a robot go, with its joints holding a posture.
+
+        Args:
+            model: `model`, or the same with other gains.
+            data: Where the robot is let go; it may be changed.
+            posture: Joint angles to hold [rad], shape (joints,).
+            time: How long [s].
+
+        Returns:
+            Where the robot is then, one row.
+
+        Raises:
+            LevadeError: If the simulation breaks down.
         """
 
-    def ctrl(self, reference: JointReference) -> Array:
-        """What is sent to the actuators, (n, steps, nu): position and velocity of each joint. Reused by the next
-        call.
+    def ctrl(self, reference: JointReference, n: int | None = None) -> Array:
+        """What is sent to the actuators: position and velocity of each joint.
+
+        Args:
+            reference: Of one trial or of n.
+            n: Number of trials. Defaults to the rows of ``reference``.
+
+        Returns:
+            Controls of the model, shape (n, steps, nu). The next call uses the same memory if its shape is the same.
         """
-        shape = (*reference.position.shape[:2], self.model.nu)
+        shape = (len(reference.position) if n is None else n, reference.steps, self.model.nu)
         if self._ctrl is None or self._ctrl.shape != shape:
             self._ctrl = np.zeros(shape)
         self._ctrl[..., self.layout.ctrl_position] = reference.position
         self._ctrl[..., self.layout.ctrl_velocity] = reference.velocity
         return self._ctrl
 
-    def _compose(self, *, gain_scale: float) -> str:
-        spec = compose(self.robot, self.scene, gain_scale=gain_scale)
-        option = spec.option
-        option.timestep = self.physics.timestep
-        option.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{self.physics.integrator.upper()}")
-        option.cone = getattr(mujoco.mjtCone, f"mjCONE_{self.physics.cone.upper()}")
-        option.impratio = self.physics.impratio
-        option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
-        _add_contact_sensors(spec, self.robot)
-        return spec.to_xml()
-
-    def _posture(self, where: str, start: Start) -> Array:
-        try:
-            return self.robot.posture(start.posture)
-        except LevadeError as error:
-            raise LevadeError(f"{where}: {error}") from None
-
-    def _release(
+    def _trials(
         self,
-        position: tuple[float, float, float],
-        attitude: tuple[float, float, float],
-        posture: Array,
-        model: mujoco.MjModel,
-    ) -> mujoco.MjData:
-        data = mujoco.MjData(model)
-        root = self.layout.root_qpos
-        data.qpos[root : root + 3] = position
-        roll, pitch, yaw = attitude
-        mujoco.mju_euler2Quat(data.qpos[root + 3 : root + 7], np.array([yaw, pitch, roll]), "zyx")
-        data.qpos[self.layout.joint_qpos] = posture
-        mujoco.mj_forward(model, data)
-        for contact in data.contact:
-            if contact.dist < -_OVERLAP and not contact.exclude:
-                one, other = (_geom_name(model, int(geom)) for geom in contact.geom)
-                raise LevadeError(
-                    f"start: {one} and {other} overlap by {-contact.dist:.3f} m where the robot is put down;"
-                    " move the robot (start) or the obstacle (scene)"
-                )
-        return data
-
-
-class Named(Protocol):
-    """What a `Layout` needs of a robot."""
-
-    @property
-    def joint_names(self) -> tuple[str, ...]: ...
-    @property
-    def trunk(self) -> str: ...
-    @property
-    def feet(self) -> tuple[str, ...]: ...
-
-
-class Layout:
-    """Where the robot's quantities are in the vectors of the model."""
-
-    def __init__(self, robot: Named, model: mujoco.MjModel) -> None:
-        joints = [model.joint(name) for name in robot.joint_names]
-        actuators = [model.actuator(name).id for name in robot.joint_names]
-        root = model.joint(int(model.body(robot.trunk).jntadr[0]))
-        self.root_qpos, self.root_qvel = int(root.qposadr[0]), int(root.dofadr[0])
-        # slices where the model's order is the robot's: views instead of copies of what is recorded
-        self.joint_qpos = _compact([int(joint.qposadr[0]) for joint in joints])
-        self.joint_qvel = _compact([int(joint.dofadr[0]) for joint in joints])
-        self.actuators = _compact([int(model.actuator_outadr[i]) for i in actuators])
-        first = [int(model.actuator_ctrladr[i]) for i in actuators]
-        self.ctrl_position = _compact(first)
-        self.ctrl_velocity = _compact([address + 1 for address in first])
-        self._feet = [int(model.sensor(_foot_sensor(foot)).adr[0]) for foot in robot.feet]
-        self._model = model
-
-    def trajectories(
-        self,
-        out: Mapping[str, Array],
+        starts: State,
         reference: JointReference,
-        *,
-        limits: JointLimits,
-        trunk_com_offset: Array,
-        diverged: NDArray[np.bool_],
-        legs: tuple[LegGeometry, ...] = (),
-        feet: bool = False,
-        bodies: Sequence[str] = (),
-    ) -> Trajectories:
-        """Of what MuJoCo recorded, (n, steps, ...): qpos, qvel, actuator_force, and sensordata for forces."""
-        root, velocity = self.root_qpos, self.root_qvel
-        return Trajectories(
-            joint_position=out["qpos"][..., self.joint_qpos],
-            joint_velocity=out["qvel"][..., self.joint_qvel],
-            joint_torque=out["actuator_force"][..., self.actuators],
-            trunk_position=out["qpos"][..., root : root + 3],
-            trunk_quaternion=out["qpos"][..., root + 3 : root + 7],
-            trunk_linear_velocity=out["qvel"][..., velocity : velocity + 3],
-            trunk_angular_velocity=out["qvel"][..., velocity + 3 : velocity + 6],
-            trunk_com_offset=trunk_com_offset,
-            reference=reference,
-            limits=limits,
-            legs=legs,
-            timestep=reference.timestep,
-            horizon_steps=reference.horizon_steps,
-            diverged=diverged,
-            foot_contact_force=self.foot_forces(out["sensordata"]) if feet else None,
-            body_contact_force={body: self.force_on(body, out["sensordata"]) for body in bodies},
-        )
-
-    def foot_forces(self, sensordata: Array) -> Array:
-        """(n, steps, feet, 3) [N], on the feet."""
-        return np.stack([-sensordata[..., a : a + 3] for a in self._feet], axis=2)
-
-    def force_on(self, body: str, sensordata: Array) -> Array:
-        """(n, steps) [N]."""
-        address = int(self._model.sensor(_body_sensor(body)).adr[0])
-        return np.linalg.norm(sensordata[..., address : address + 3], axis=-1)
+        models: Models | None,
+        feedback: Feedback | None = None,
+        sensor_errors: Array | None = None,
+    ) -> Trials:
+        """Put a roll-out together. Every simulation of trials passes here, and their steps are counted here alone."""
+        rows = {"starts": len(starts), "reference": len(reference.position)}
+        if models is not None:
+            rows["models"] = len(models)
+            for name in models.fields:
+                if not hasattr(self.model, name):
+                    raise LevadeError(f"models: no field {name!r} in mujoco.MjModel; {did_you_mean(name, FIELDS)}")
+        n = max(rows.values())
+        if not set(rows.values()) <= {1, n}:
+            each = ", ".join(f"{name} {count}" for name, count in rows.items())
+            raise LevadeError(f"rollout: rows do not fit together ({each}); each should have 1 or the same number")
+        delay = np.zeros(n) if models is None else np.broadcast_to(models.delay, n)
+        correcting = None
+        if feedback is not None:
+            if not ENGINES[self.name].feedback:
+                able = " or ".join(kind.name for kind in ENGINES.values() if kind.feedback)
+                raise LevadeError(f"feedback: the engine {self.name} does not simulate it yet; use the engine {able}")
+            correcting = Correcting(
+                feedback,
+                steps=reference.steps,
+                timestep=reference.timestep,
+                delay=delay,
+                lower=self.embodiment.limits.lower,
+                upper=self.embodiment.limits.upper,
+                errors=sensor_errors,
+            )
+        self.steps += n * reference.steps
+        return Trials(n, starts, reference.repeated(n), delayed(reference, delay), models, correcting)
 
 
-def _foot_sensor(foot: str) -> str:
-    return f"{foot}_contact_force"
-
-
-def _body_sensor(body: str) -> str:
-    return f"{body}_scene_force"
-
-
-def _add_contact_sensors(spec: mujoco.MjSpec, robot: Robot) -> None:
-    """Net force of each foot's contacts, and of each body's contacts with the scene, in world axes."""
-    data_force = 1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE)
-    netforce = 3
-
-    def add(name: str, **match) -> None:
-        sensor = spec.add_sensor(name=name, type=mujoco.mjtSensor.mjSENS_CONTACT, **match)
-        sensor.intprm[:3] = [data_force, netforce, 1]
-
-    geom, body = mujoco.mjtObj.mjOBJ_GEOM, mujoco.mjtObj.mjOBJ_BODY
-    for foot in robot.feet:
-        add(_foot_sensor(foot), objtype=geom, objname=foot)
-    for element in spec.bodies[1:]:
-        add(_body_sensor(element.name), objtype=body, objname=element.name, reftype=body, refname="world")
-
-
-def _compact(indices: list[int]) -> slice | list[int]:
-    if len(indices) > 1:
-        stride = indices[1] - indices[0]
-        if stride > 0 and indices == list(range(indices[0], indices[-1] + 1, stride)):
-            return slice(indices[0], indices[-1] + 1, stride)
-    return indices
-
-
-def _compile(xml: str, assets: dict[str, bytes]) -> mujoco.MjModel:
-    return mujoco.MjModel.from_xml_string(xml, assets)
-
-
-def _geom_name(model: mujoco.MjModel, geom: int) -> str:
-    name = model.geom(geom).name
-    return name or f"a part of {model.body(int(model.geom_bodyid[geom])).name}"
+def broke_down(time: float) -> LevadeError:
+    """The error of a robot that breaks down while it settles for a time [s]."""
+    return LevadeError(
+        f"start: the simulation broke down within {time} s; a smaller physics.timestep or lower gains may help"
+    )

@@ -3,107 +3,174 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from functools import cached_property
+from importlib.metadata import version
+from typing import ClassVar
 
 import mujoco
 import numpy as np
 from mujoco.batch import Batch
+from numpy.typing import NDArray
 
-from levade.engines.engine import Engine
-from levade.engines.ensemble import Ensemble
-from levade.engines.physics import Physics
-from levade.engines.simulating import RESET_OFF, SENSORS_OFF, STATE, quiet, simulate
-from levade.engines.start import State
-from levade.errors import LevadeError
-from levade.robots import Robot
-from levade.scenes import Scene
-from levade.trajectory import Array, JointReference, Trajectories
+from levade.arrays import Array
+from levade.engines.batches import RESET_OFF, SENSORS_OFF, STATE, quiet, simulate
+from levade.engines.engine import Engine, Trials, broke_down
+from levade.engines.models import Models, with_free_frames
+from levade.engines.state import State
+from levade.feedback import Correcting, Feedback, sensed
+from levade.trajectory import JointReference, Trajectories
+
+_RECORDED = ("qpos", "qvel", "actuator_force")
 
 
 class MujocoEngine(Engine):
-    """MuJoCo. threads: of the batch; 0 for one per core. Results do not depend on it."""
+    """MuJoCo."""
 
-    def __init__(self, robot: Robot, scene: Scene, physics: Physics, *, threads: int = 0) -> None:
-        super().__init__(robot, scene, physics, threads=threads)
-        self._batches: dict[bool, Batch] = {}
+    name: ClassVar[str] = "mujoco"
+
+    def _prepare(self) -> None:
+        self._batches: dict[tuple[bool, bool], Batch] = {}
+        self._varied: set[str] = set()
         self._latest: tuple[State, Array] | None = None
 
-    def rollout(
-        self, state: State, reference: JointReference, *, feet: bool = False, bodies: Sequence[str] = ()
-    ) -> Trajectories:
-        n = reference.position.shape[0]
-        self.steps += n * reference.steps
-        recorded = ["qpos", "qvel", "actuator_force"]
-        if feet or bodies:
-            recorded.append("sensordata")
-        batch = self._batch_for(n, sensors=feet or bool(bodies))
-        out, diverged = simulate(batch, self._row(state), self.ctrl(reference), recorded)
-        return self.layout.trajectories(
-            out,
-            reference,
-            limits=self.robot.limits,
-            trunk_com_offset=self.robot.trunk_com_offset,
-            diverged=diverged,
-            legs=self.robot.leg_geometry,
-            feet=feet,
-            bodies=bodies,
-        )
+    @classmethod
+    def versions(cls) -> dict[str, str]:
+        return {name: version(name) for name in ("mujoco", "numpy")}
 
-    def ensemble(self, *, threads: int | None = None) -> Ensemble:
-        """For simulating versions of the model: robots that differ from the nominal one."""
-        return Ensemble(
-            self.model,
-            self.layout,
-            trunk=self.robot.trunk,
-            joint_names=self.robot.joint_names,
-            limits=self.robot.limits,
-            trunk_com_offset=self.robot.trunk_com_offset,
-            legs=self.robot.leg_geometry,
-            threads=self.threads if threads is None else threads,
-        )
+    def with_model(self, model: mujoco.MjModel) -> MujocoEngine:
+        """Make an engine of a model that was changed after it was compiled: other options, other contacts.
 
-    def _batch_for(self, n: int, *, sensors: bool) -> Batch:
-        """A batch of at least n simulations. A batch takes its options when it is made, so there are two.
-
-        Sensors are read only: the motion is the same with and without them.
+        Args:
+            model: The changed model. Names, joints and actuators are those of `model`. ``xml`` does not describe it.
         """
-        batch = self._batches.get(sensors)
-        if batch is None or batch.nsim < n:
-            model = copy.deepcopy(self.model)
-            model.opt.disableflags |= RESET_OFF | (0 if sensors else SENSORS_OFF)
-            batch = self._batches[sensors] = Batch(model, n, self.threads)
-        return batch
+        physics = replace(self.physics, timestep=float(model.opt.timestep))
+        return MujocoEngine(self.xml, self.assets, self.embodiment, physics, threads=self.threads, model=model)
 
-    def _row(self, state: State) -> Array:
-        """The state as a batch takes it: as after ``mj_resetData`` and setting qpos, qvel and act.
+    def states(
+        self,
+        starts: State,
+        reference: JointReference,
+        fields: Sequence[str],
+        *,
+        models: Models | None = None,
+        feedback: Feedback | None = None,
+        sensor_errors: Array | None = None,
+    ) -> tuple[dict[str, Array], NDArray[np.bool_]]:
+        """Simulate as `rollout` does, and record MuJoCo's own arrays.
 
-        Made anew for another state only: a search starts every trial from one.
+        Args:
+            starts: Where the trials start.
+            reference: What they are to follow.
+            fields: Names of arrays of `mujoco.MjData`.
+            models: As in `rollout`.
+            feedback: As in `rollout`.
+            sensor_errors: As in `rollout`.
+
+        Returns:
+            Field -> values after each step, shape (n, steps, ...); and which trials broke down, shape (n,).
+
+        Raises:
+            LevadeError: If the rows do not fit together.
         """
-        if self._latest is not None and self._latest[0] is state:
-            return self._latest[1]
-        data = mujoco.MjData(self.model)
-        data.qpos[:], data.qvel[:], data.act[:] = state.qpos, state.qvel, state.act
-        row = np.empty(mujoco.mj_stateSize(self.model, STATE))
-        mujoco.mj_getState(self.model, data, row, STATE)
-        self._latest = state, row
-        return row
+        return self._recorded(self._trials(starts, reference, models, feedback, sensor_errors), fields)
 
-    def _settle(self, model: mujoco.MjModel, data: mujoco.MjData, posture: Array, time: float) -> State:
+    def hold(self, model: mujoco.MjModel, data: mujoco.MjData, posture: Array, time: float) -> State:
         steps = round(time / self.physics.timestep)
-        ctrl = np.zeros(model.nu)
-        ctrl[self.layout.ctrl_position] = posture
-        data.ctrl[:] = ctrl
+        data.ctrl[:] = 0.0
+        data.ctrl[self.layout.ctrl_position] = posture
         if steps:
             with quiet():
                 mujoco.mj_step(model, data, nstep=steps)
         if any(warning.number for warning in data.warning):
-            raise LevadeError(
-                f"start: the simulation broke down within {time} s; a smaller physics.timestep or lower gains may help"
+            raise broke_down(time)
+        return self.layout.state(data.qpos, data.qvel, data.act, joint_reference=posture)
+
+    def _simulate(self, trials: Trials, record: Sequence[str]) -> Trajectories:
+        out, diverged = self._recorded(trials, (*_RECORDED, "sensordata") if record else _RECORDED)
+        return self.layout.trajectories(out, trials.reference, diverged=diverged, record=record)
+
+    def _recorded(self, trials: Trials, fields: Sequence[str]) -> tuple[dict[str, Array], NDArray[np.bool_]]:
+        n, models = trials.n, trials.models
+        batch = self._batch_for(n, sensors="sensordata" in fields, versions=models is not None)
+        if models is not None:
+            self._set_fields(batch, models.fields, n)
+        rows, ctrl = self._rows(trials.starts), self.ctrl(trials.commanded, n)
+        if trials.correcting is None:
+            return simulate(batch, rows, ctrl, fields)
+        return self._corrected(batch, rows, ctrl, fields, trials.correcting)
+
+    def _corrected(
+        self, batch: Batch, rows: Array, ctrl: Array, fields: Sequence[str], correcting: Correcting
+    ) -> tuple[dict[str, Array], NDArray[np.bool_]]:
+        """As `simulate`, tick by tick, under feedback. ctrl: without it; changed to what is sent."""
+        n, layout = len(ctrl), self.layout
+        qpos, qvel = batch.bind("qpos"), batch.bind("qvel")
+        batch.state[:n] = rows
+        rows = batch.state[:n].copy()
+        diverged = np.zeros(n, dtype=bool)
+        out: dict[str, Array] = {}
+        for tick, part in correcting:
+            seen = sensed(
+                qpos[:n, layout.trunk_quaternion],
+                qvel[:n, layout.trunk_angular_velocity],
+                qpos[:n, layout.joint_qpos],
+                qvel[:n, layout.joint_qvel],
             )
-        return State(
-            qpos=data.qpos.copy(),
-            qvel=data.qvel.copy(),
-            act=data.act.copy(),
-            joint_position=data.qpos[self.layout.joint_qpos].copy(),
-            joint_reference=posture.copy(),
-        )
+            commanded = ctrl[:, part, layout.ctrl_position]
+            ctrl[:, part, layout.ctrl_position] = correcting.corrected(tick, part, seen, commanded)
+            now, broken = simulate(batch, batch.state[:n].copy(), ctrl[:, part], fields)
+            for name, values in now.items():
+                whole = out.setdefault(name, np.zeros((n, ctrl.shape[1], *values.shape[2:]), values.dtype))
+                whole[:, part] = values
+                whole[diverged, part] = whole[diverged, part.start - 1][:, None]
+            batch.state[:n][broken | diverged] = rows[broken | diverged]  # nothing to see there any more
+            diverged |= broken
+        return out, diverged
+
+    @cached_property
+    def _free(self) -> mujoco.MjModel:
+        """The model that versions are made of."""
+        return with_free_frames(self.model, self.layout)
+
+    def _batch_for(self, n: int, *, sensors: bool, versions: bool) -> Batch:
+        """A batch of at least n simulations. A batch takes its options when it is made: with sensors or without.
+
+        Sensors are read only, so the motion is the same with and without them. A batch of versions of the model has
+        fields of its own in each simulation.
+        """
+        batch = self._batches.get((sensors, versions))
+        if batch is None or batch.nsim < n:
+            model = copy.deepcopy(self._free if versions else self.model)
+            model.opt.disableflags |= RESET_OFF | (0 if sensors else SENSORS_OFF)
+            batch = self._batches[sensors, versions] = Batch(model, n, self.threads)
+        return batch
+
+    def _set_fields(self, batch: Batch, fields: Mapping[str, Array], n: int) -> None:
+        """Give the first n simulations their versions' fields, and what follows from them."""
+        self._varied |= set(fields)
+        for name in self._varied:  # a version has the nominal values of what an earlier one differed in
+            batch.expand(name)[:n] = fields.get(name, getattr(self._free, name))
+        with quiet():
+            batch.set_const(np.arange(n))
+
+    def _rows(self, starts: State) -> Array:
+        """The states as a batch takes them: as after ``mj_resetData`` and setting qpos, qvel and act.
+
+        Made again only for another object: a search starts every trial from one.
+        """
+        if self._latest is None or self._latest[0] is not starts:
+            rows = np.repeat(self._reset[None], len(starts), axis=0)
+            column = mujoco.mj_stateSize(self.model, mujoco.mjtState.mjSTATE_TIME)
+            for values in (starts.qpos, starts.qvel, starts.act):  # in this order, after the time
+                rows[:, column : column + values.shape[1]] = values
+                column += values.shape[1]
+            self._latest = starts, rows
+        return self._latest[1]
+
+    @cached_property
+    def _reset(self) -> Array:
+        row = np.empty(mujoco.mj_stateSize(self.model, STATE))
+        mujoco.mj_getState(self.model, mujoco.MjData(self.model), row, STATE)
+        return row

@@ -3,7 +3,7 @@
     perturbation = Perturbation(friction=(0.5, 1.5), latency=None)      # others as by default
     sample = perturbation.draw(model, joints, n=500, seed=0)        # joints: how many
     sample.values["kp"]                                                 # (500, joints), factors
-    variations = ensemble.vary(start, sample)                       # see `levade.engines.ensemble`
+    starts, models = perturbed_models(model, layout, sample, start)     # see `levade.engines.models`
 
 Every number is drawn uniformly within its range, independently of all others. Run i of a sample does not depend on how many
 runs there are, nor on which other parameters are switched off.
@@ -19,9 +19,9 @@ from typing import Literal
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.scenes import GROUND, PLATFORM
-from levade.trajectory import Array
 
 Range = tuple[float, float] | None
 """Lowest and highest value; None keeps the model's own."""

@@ -6,7 +6,8 @@ import math
 from dataclasses import dataclass, fields
 from typing import Literal
 
-from levade.errors import LevadeError
+from levade.engines.table import engine_kind
+from levade.errors import LevadeError, located
 
 
 @dataclass(frozen=True)
@@ -45,13 +46,13 @@ class Ode:
 class Physics:
     """Which engine simulates, and how time and contact are resolved.
 
-    engine: "mujoco", or "ode", which needs a library: see docs/engines.md.
+    engine: name of the engine; docs/engines.md says what each needs.
     timestep: [s]. integrator, cone, impratio: as in MuJoCo's ``option``, of no effect in ODE. The elliptic cone with a
     friction constraint that is stiffer than the normal one (impratio > 1) keeps feet from creeping: with MuJoCo's own
     defaults HyQ2Max, standing still, sinks by 1 cm in 5 s as its feet slide apart. ode: see `Ode`.
     """
 
-    engine: Literal["mujoco", "ode"] = "mujoco"
+    engine: str = "mujoco"
     timestep: float = 0.002
     integrator: Literal["implicitfast", "implicit", "Euler", "RK4"] = "implicitfast"
     cone: Literal["elliptic", "pyramidal"] = "elliptic"
@@ -59,6 +60,8 @@ class Physics:
     ode: Ode = Ode()
 
     def __post_init__(self) -> None:
+        with located("physics.engine: "):
+            engine_kind(self.engine)
         if not (math.isfinite(self.timestep) and 0 < self.timestep <= 0.02):
             raise LevadeError(
                 f"physics.timestep: {self.timestep} s is out of range; 0.001 to 0.004 is usual, at most 0.02"

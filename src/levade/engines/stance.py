@@ -1,22 +1,23 @@
 """How the robot touches the scene when a motion starts, and how it does when it starts a little differently.
 
-A joint that is off by 0.03 rad moves a foot by 2 cm. A robot that stands on its feet does not hang in the air by that, nor is
-it in the ground: it stands differently. So the trunk moves along (in height, roll and pitch) such that what touched the scene
+A joint that is off by 0.03 rad moves a foot by 2 cm. A robot that stands on its feet is then neither floating nor penetrating
+the ground: its trunk has another pose. So the trunk moves along (in height, roll and pitch) such that what touched the scene
 touches it again as well as a rigid robot can, before anything else is perturbed.
 """
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Mapping
 
 import mujoco
 import numpy as np
 from mujoco.batch import Batch
 
-from levade.engines.engine import Layout
+from levade.arrays import Array
+from levade.engines.layout import Layout
 from levade.engines.perturbation import ground, obstacles
-from levade.trajectory import Array, rotate
+from levade.engines.state import State
+from levade.rotations import exponential, multiply, rotate
 
 _TOUCHING = 0.003
 """[m], gap up to which a part counts as touching."""
@@ -27,14 +28,12 @@ _STEEP = 0.3
 
 
 class Stance:
-    """The contacts of a model with its scene in one state. start: qpos, qvel, act."""
+    """The contacts of a model with its scene in one state, of one row."""
 
-    def __init__(
-        self, model: mujoco.MjModel, layout: Layout, start: tuple[Array, Array, Array], *, threads: int = 0
-    ) -> None:
-        self._model, self._layout, self._threads = model, layout, threads
+    def __init__(self, model: mujoco.MjModel, layout: Layout, start: State) -> None:
+        self._model, self._layout = model, layout
         data = mujoco.MjData(model)
-        data.qpos[:] = start[0]
+        data.qpos[:] = start.qpos[0]
         mujoco.mj_kinematics(model, data)
         mujoco.mj_comPos(model, data)
         mujoco.mj_collision(model, data)
@@ -58,7 +57,6 @@ class Stance:
         )
         self._points = self._points.reshape(-1, 3)
         self._geoms = np.array(geoms, dtype=int)
-        self._batch: Batch | None = None
 
     def perturb(self, qpos: Array, qvel: Array, values: Mapping[str, Array]) -> None:
         """Change states (n, nq) and (n, nv), all of them those of the start, by a sample's values; in place."""
@@ -100,9 +98,7 @@ class Stance:
     def _where(self, qpos: Array) -> Array:
         """(n, contacts, 3) [m], where the robot's touching points are."""
         n = len(qpos)
-        if self._batch is None or self._batch.nsim < n:
-            self._batch = Batch(copy.deepcopy(self._model), n, self._threads)
-        batch: Batch = self._batch
+        batch = Batch(self._model, n, 1)
         position, matrix = batch.bind("xpos"), batch.bind("xmat")
         batch.bind("qpos")[:n] = qpos
         batch.forward(np.arange(n), stage=mujoco.mjtStage.mjSTAGE_POS)
@@ -125,26 +121,13 @@ class Stance:
         return lift, np.stack([change[:, 1], change[:, 2], zero], axis=-1)
 
 
-def quaternion(turn: Array) -> Array:
-    """(n, 3) rotation vectors [rad] to (n, 4) unit quaternions, w-x-y-z."""
-    angle = np.linalg.norm(turn, axis=-1, keepdims=True)
-    return np.concatenate([np.cos(angle / 2), 0.5 * np.sinc(angle / (2 * np.pi)) * turn], axis=-1)
-
-
-def product(first: Array, second: Array) -> Array:
-    """Products of quaternions (..., 4), w-x-y-z: the rotation ``second``, then ``first``."""
-    w1, v1, w2, v2 = first[..., :1], first[..., 1:], second[..., :1], second[..., 1:]
-    w = w1 * w2 - (v1 * v2).sum(axis=-1, keepdims=True)
-    return np.concatenate([w, w1 * v2 + w2 * v1 + np.cross(v1, v2)], axis=-1)
-
-
 def _move(qpos: Array, position: slice, attitude: slice, lift: Array, turn: Array) -> None:
     """Lift the trunk, and turn it about its frame's origin, in world axes."""
     qpos[:, position] += lift
-    qpos[:, attitude] = product(quaternion(turn), qpos[:, attitude])
+    qpos[:, attitude] = multiply(exponential(turn), qpos[:, attitude])
 
 
 def _moved(points: Array, origin: Array, lift: Array, turn: Array) -> Array:
     """The points (n, contacts, 3) after `_move` of a trunk whose origin (n, 3) was there before."""
-    lever = rotate(quaternion(turn)[:, None], points - origin[:, None])
+    lever = rotate(exponential(turn)[:, None], points - origin[:, None])
     return (origin + lift)[:, None] + lever

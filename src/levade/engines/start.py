@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from levade.errors import LevadeError
-from levade.trajectory import Array
 
 
 @dataclass(frozen=True)
@@ -65,22 +64,6 @@ class Fall:
 
 
 Start = Settled | Fall
-
-
-@dataclass(frozen=True, eq=False)
-class State:
-    """Where a rollout starts.
-
-    qpos, qvel, act: MuJoCo's state vectors, in the model's own order.
-    joint_position: (joints,) [rad], the robot's joint order. joint_reference: (joints,) [rad], what the joints were
-    told last, so that a motion may start from there without a jump.
-    """
-
-    qpos: Array
-    qvel: Array
-    act: Array
-    joint_position: Array
-    joint_reference: Array
 
 
 def _check_finite(where: str, **values: float) -> None:

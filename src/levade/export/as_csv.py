@@ -11,10 +11,11 @@ from pathlib import Path
 
 import numpy as np
 
-from levade.export.content import Content, describe
+from levade.arrays import Array
+from levade.export.content import Content, describe, held
+from levade.export.player import checksum
 from levade.export.samples import Samples
 from levade.feedback import Feedback
-from levade.trajectory import Array
 
 META, FEEDBACK = "meta.json", "feedback.npz"
 XYZ, WXYZ = ("x", "y", "z"), ("w", "x", "y", "z")
@@ -51,10 +52,14 @@ def write_table(path: Path, table: dict[str, Array]) -> None:
 
 def write(content: Content, directory: Path) -> list[str]:
     """motion.csv, and beside it meta.json and player.py."""
-    write_table(directory / "motion.csv", columns(content.playing))
-    write_json(directory / META, describe(content.playing, content.provenance, content.feedback), indent=2)
+    table, feedback = directory / "motion.csv", directory / FEEDBACK
+    write_table(table, columns(content.playing))
+    belongs = [table.read_bytes()]
     if content.feedback is not None:
-        write_feedback(directory / FEEDBACK, content.feedback)
+        write_feedback(feedback, content.feedback)
+        belongs.append(feedback.read_bytes())
+    meta = describe(content.playing, content.provenance, content.feedback, held(content.motion))
+    write_json(directory / META, meta | {"checksum": checksum(meta, *belongs)}, indent=2)
     write_player(directory)
     return []
 

@@ -5,14 +5,15 @@ from __future__ import annotations
 from pathlib import Path
 
 from levade.export.as_csv import write_json, write_player
-from levade.export.content import Content, describe
+from levade.export.content import Content, describe, held
+from levade.export.player import canonical, checksum
 
 
 def write(content: Content, directory: Path) -> list[str]:
     """motion.json, and player.py, which reads it."""
     samples = content.samples
+    meta = describe(samples, content.provenance, content.feedback, held(content.motion))
     document = {
-        "meta": describe(samples, content.provenance, content.feedback),
         "time": samples.time.tolist(),
         "command": {name: getattr(samples, f"command_{name}").tolist() for name in ("position", "velocity", "torque")},
         "state": {
@@ -29,6 +30,7 @@ def write(content: Content, directory: Path) -> list[str]:
             "gain": content.feedback.gain.tolist(),
             "reference": content.feedback.reference.tolist(),
         }
-    write_json(directory / "motion.json", document)
+    meta |= {"checksum": checksum(meta, canonical(document))}
+    write_json(directory / "motion.json", {"meta": meta, **document})
     write_player(directory)
     return []

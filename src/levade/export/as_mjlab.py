@@ -14,8 +14,9 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.export import as_csv
-from levade.export.content import Content
+from levade.export.content import Content, held
 from levade.export.links import body_frames, frames_of, links_of
 
 RATE = 50.0
@@ -25,15 +26,14 @@ RATE = 50.0
 def write(content: Content, directory: Path) -> list[str]:
     """reference.npz and reference.csv, and the files for playing."""
     samples, model = content.samples, content.model
-    names = [model.joint(i).name for i in range(model.njnt) if model.jnt_type[i] == mujoco.mjtJoint.mjJNT_HINGE]
-    order = [samples.joints.names.index(name) for name in names]
+    names, position, velocity = _all_joints(content)
     links = links_of(model)
     bodies = body_frames(links, frames_of(links, samples))
     rate = samples.rate
     arrays = {
         "fps": np.array([int(rate) if rate == int(rate) else rate]),
-        "joint_pos": samples.joint_position[:, order],
-        "joint_vel": samples.joint_velocity[:, order],
+        "joint_pos": position,
+        "joint_vel": velocity,
         "body_pos_w": bodies.position,
         "body_quat_w": bodies.quaternion,
         "body_lin_vel_w": bodies.linear_velocity,
@@ -47,7 +47,23 @@ def write(content: Content, directory: Path) -> list[str]:
         provenance=np.array(as_csv.to_json(content.provenance)),
     )
     trunk = np.concatenate([samples.trunk_position, samples.trunk_quaternion[:, [1, 2, 3, 0]]], axis=1)
-    rows = np.concatenate([trunk, samples.joint_position[:, order]], axis=1)
+    rows = np.concatenate([trunk, position], axis=1)
     np.savetxt(directory / "reference.csv", rows, fmt="%.9g", delimiter=",")
     as_csv.write(content, directory)
     return []
+
+
+def _all_joints(content: Content) -> tuple[list[str], Array, Array]:
+    """Names of the joints of the robot's own MJCF, in its order, their positions and velocities, (rows, joints).
+
+    Joints that the simulation holds are in mjlab's model, too; there they stay where they are held.
+    """
+    samples, model, still = content.samples, content.model, held(content.motion)
+    free = [model.joint(i).name for i in range(model.njnt) if model.jnt_type[i] == mujoco.mjtJoint.mjJNT_HINGE]
+    names = list(content.motion.model_joints or free)
+    columns = {name: i for i, name in enumerate(samples.joints.names)}
+    position, velocity = np.empty((2, len(samples.time), len(names)))
+    for k, name in enumerate(names):
+        position[:, k] = still[name] if name in still else samples.joint_position[:, columns[name]]
+        velocity[:, k] = 0.0 if name in still else samples.joint_velocity[:, columns[name]]
+    return names, position, velocity

@@ -18,12 +18,12 @@ import yaml
 
 from levade.errors import LevadeError
 from levade.export import as_csv, rosmsgs
-from levade.export.content import Content
+from levade.export.content import Content, held
 from levade.export.links import frames_of, links_of
 from levade.export.rosmsgs import NANO
 from levade.export.samples import Samples
 from levade.export.urdf import urdf
-from levade.motion import Motion
+from levade.motions import Motion
 
 WORLD = "world"
 """The frame that the trunk's pose is in."""
@@ -56,8 +56,9 @@ def write(content: Content, directory: Path) -> list[str]:
     counts = _write_bag(content, bag / "bag_0.mcap")
     times = nanoseconds(content.samples)
     (bag / "metadata.yaml").write_text(_yaml(_metadata(counts, times)), encoding="utf-8")
-    head = "".join(f"# {key}: {_in_a_line(value)}\n" for key, value in content.provenance.items())
-    (directory / "joint_trajectory.yaml").write_text(head + _yaml(_trajectory(content.samples)), encoding="utf-8")
+    head = content.provenance | {"held": held(content.motion)}
+    comments = "".join(f"# {key}: {_in_a_line(value)}\n" for key, value in head.items())
+    (directory / "joint_trajectory.yaml").write_text(comments + _yaml(_trajectory(content.samples)), encoding="utf-8")
     as_csv.write(content, directory)
     return []
 
@@ -83,7 +84,7 @@ def _messages(content: Content) -> Iterator[tuple[int, str, bytes]]:
     yield (
         _START,
         "/robot_description",
-        rosmsgs.string(urdf(content.model, samples.joints, content.motion.meta["robot"])),
+        rosmsgs.string(urdf(content.model, samples.joints, content.motion.robot)),
     )
     yield (
         _START,
@@ -128,7 +129,8 @@ def _write_bag(content: Content, path: Path) -> dict[str, int]:
             key: value if isinstance(value, str) else as_csv.to_json(value) for key, value in content.provenance.items()
         }
         gains = {name: as_csv.to_json(getattr(content.samples.joints, name).tolist()) for name in ("kp", "kd")}
-        writer.add_metadata("levade", record | gains | {"joints": as_csv.to_json(content.samples.joints.names)})
+        joints = {"joints": as_csv.to_json(content.samples.joints.names), "held": as_csv.to_json(held(content.motion))}
+        writer.add_metadata("levade", record | gains | joints)
         for time, topic, data in _messages(content):
             writer.add_message(channels[topic], log_time=time, publish_time=time, data=data, sequence=counts[topic])
             counts[topic] += 1

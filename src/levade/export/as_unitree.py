@@ -9,17 +9,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.export import as_csv
 from levade.export.content import Content
-from levade.export.model import root_addresses
-from levade.motion import Motion
-from levade.trajectory import Array
+from levade.motions import Motion
 
 RATE = 500.0
 """[Hz]."""
@@ -32,21 +30,20 @@ AXES = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
 def motors(motion: Motion) -> dict[str, str]:
     """Motor -> joint, in Unitree's order. Raises LevadeError unless the robot has four such legs of three joints."""
     order: dict[str, str] = {}
-    legs: Mapping[str, Any] = motion.meta["legs"]
-    for name, leg in legs.items():
-        if len(leg["joints"]) != 3:
+    for leg in motion.legs:
+        if len(leg.joints) != 3:
             raise LevadeError(
-                f"--to unitree: leg {name} of {motion.meta['robot']} has {len(leg['joints'])} joints; Unitree's legs have"
+                f"--to unitree: leg {leg.name} of {motion.robot} has {len(leg.joints)} joints; Unitree's legs have"
                 " three (hip, thigh, calf); take csv or json"
             )
     for place, (end, side) in LEGS.items():
-        fitting = [leg for leg in legs.values() if (leg["end"], leg["side"]) == (end, side)]
+        fitting = [leg for leg in motion.legs if (leg.end, leg.side) == (end, side)]
         if len(fitting) != 1:
             raise LevadeError(
-                f"--to unitree: {motion.meta['robot']} has {len(fitting)} {end} {side} legs; Unitree's robots have one;"
+                f"--to unitree: {motion.robot} has {len(fitting)} {end} {side} legs; Unitree's robots have one;"
                 " take csv or json"
             )
-        order |= {f"{place}_{i}": joint for i, joint in enumerate(fitting[0]["joints"])}
+        order |= {f"{place}_{i}": joint for i, joint in enumerate(fitting[0].joints)}
     return order
 
 
@@ -75,17 +72,17 @@ def write(content: Content, directory: Path) -> list[str]:
 def _notes(model: mujoco.MjModel, order: Mapping[str, str], motion: Motion) -> list[str]:
     data = mujoco.MjData(model)
     data.qpos[:] = 0.0
-    data.qpos[root_addresses(model, motion.meta["trunk"])[0] + 3] = 1.0
+    data.qpos[motion.addresses(model).root_qpos + 3] = 1.0
     mujoco.mj_kinematics(model, data)
     other = [joint for k, joint in enumerate(order.values()) if data.joint(joint).xaxis @ AXES[k % 3] < 0.999]
     what = [f"{', '.join(other)} do not turn about the axes of Unitree's joints"] if other else []
     knees = [joint for k, joint in enumerate(order.values()) if k % 3 == 2]
-    angle = dict(zip(motion["joint_names"].tolist(), motion["joint_position"].max(axis=0), strict=True))
+    angle = dict(zip(motion.joint_names, motion["joint_position"].max(axis=0), strict=True))
     bent = [joint for joint in knees if angle[joint] > 0]
     what += [f"{', '.join(bent)} bend to positive angles, which Unitree's calves have not"] if bent else []
     if not what:
         return []
     return [
-        f"of {motion.meta['robot']}, {' and '.join(what)}: the numbers are in its order, but the angles are this robot's, and"
+        f"of {motion.robot}, {' and '.join(what)}: the numbers are in its order, but the angles are this robot's, and"
         " would be another motion on a Unitree robot"
     ]

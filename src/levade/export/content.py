@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import mujoco
-import numpy as np
 
 from levade.export.samples import Samples
 from levade.feedback import Feedback, names
-from levade.motion import Motion
-from levade.trajectory import Array
+from levade.motions import Motion
+from levade.motions.file import finite
+from levade.tasks import task_to_dict
 
 UNITS = {
     "time": "s",
@@ -48,38 +49,57 @@ def provenance(motion: Motion, command: str | None) -> dict[str, Any]:
     """Where a motion came from, what it meets, and how well it does; JSON."""
     from levade import __version__
 
-    meta = motion.meta
-    scene = dict(meta["task"]["scene"])
+    scene = task_to_dict(motion.task, code=True)["scene"]
     if scene["terrain"]:  # its heights are in the motion
         scene["terrain"] = {name: value for name, value in scene["terrain"].items() if name != "heights"}
     return {
         "levade": __version__,
         "command": command,
-        "task": meta["task"]["name"],
-        "robot": meta["robot"],
-        "seed": meta["seed"],
-        "success": meta["success"],
-        "errors": dict(meta["errors"]),
-        "engine": meta["engine"],
-        "made_with": dict(meta["versions"]),
-        "timestep": meta["timestep"],
-        "horizon": meta["horizon"],
+        "task": motion.task_name,
+        "robot": motion.robot,
+        "seed": motion.provenance.seed,
+        "success": motion.result.success,
+        "errors": dict(motion.result.errors),
+        "engine": motion.provenance.engine,
+        "made_with": dict(motion.provenance.versions),
+        "timestep": motion.timestep,
+        "horizon": motion.horizon,
         "scene": scene,
     }
 
 
 def surroundings(motion: Motion) -> str:
     """What the motion meets beside flat ground, in words; empty if nothing."""
-    scene = motion.meta["task"]["scene"]
+    scene = motion.task.scene
     count = lambda what, plural, items: [f"{len(items)} {what if len(items) == 1 else plural}"] * bool(items)  # noqa: E731
-    parts = count("box", "boxes", scene["boxes"]) + count("gap", "gaps", scene["gaps"])
-    parts += ["terrain"] * bool(scene["terrain"])
-    parts += [f"a slope of {scene['slope']:g} rad"] * bool(scene["slope"])
+    parts = count("box", "boxes", scene.boxes) + count("gap", "gaps", scene.gaps)
+    parts += ["terrain"] * (scene.terrain is not None)
+    parts += [f"a slope of {scene.slope:g} rad"] * bool(scene.slope)
     return " and ".join(parts)
 
 
-def describe(samples: Samples, provenance: dict[str, Any], feedback: Feedback | None = None) -> dict[str, Any]:
-    """All about a table of samples that is not in its rows; JSON. Limits are null where there is none."""
+def held(motion: Motion) -> dict[str, float]:
+    """Joints that the simulation holds, and nothing commands -> their positions [rad], of slides [m]."""
+    return dict(motion.held)
+
+
+def describe(
+    samples: Samples,
+    provenance: dict[str, Any],
+    feedback: Feedback | None = None,
+    held: Mapping[str, float] | None = None,
+) -> dict[str, Any]:
+    """Describe a table of samples beyond its rows.
+
+    Args:
+        samples: The rows.
+        provenance: See `provenance`.
+        feedback: The stabiliser, if one goes with the rows.
+        held: See `held`.
+
+    Returns:
+        JSON. Limits are null where there is none.
+    """
     joints = samples.joints
     return {
         "provenance": provenance,
@@ -91,8 +111,9 @@ def describe(samples: Samples, provenance: dict[str, Any], feedback: Feedback | 
         "joints": list(joints.names),
         "kp": joints.kp.tolist(),
         "kd": joints.kd.tolist(),
-        "limits": {name: _finite(getattr(joints, name)) for name in ("lower", "upper", "velocity", "torque")},
+        "limits": {name: finite(getattr(joints, name)) for name in ("lower", "upper", "velocity", "torque")},
         "start": {"position": joints.start_position.tolist(), "torque": joints.start_torque.tolist()},
+        "held": dict(held or {}),
         "units": UNITS,
         "feedback": None if feedback is None else _describe(feedback, joints.names),
     }
@@ -107,7 +128,3 @@ def _describe(feedback: Feedback, joints: tuple[str, ...]) -> dict[str, Any]:
         "sensed": names(joints),
         "columns": [*names(joints), *(f"{joint}/correction" for joint in joints)],
     }
-
-
-def _finite(values: Array) -> list[float | None]:
-    return [float(value) if np.isfinite(value) else None for value in values]

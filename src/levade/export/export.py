@@ -10,11 +10,11 @@ import numpy as np
 
 from levade.errors import LevadeError, did_you_mean
 from levade.export import as_csv, as_json, as_mjlab, as_ros2, as_unitree
-from levade.export.content import Content, provenance, surroundings
+from levade.export.content import Content, held, provenance, surroundings
 from levade.export.directory import filling
 from levade.export.samples import Samples, sample
 from levade.feedback import Feedback
-from levade.motion import Motion
+from levade.motions import Motion
 
 SLOW = 200.0
 """[Hz]: commands that stay in force for longer than 5 ms are no longer those of a motion of tenths of seconds."""
@@ -80,7 +80,7 @@ def export(
     if form.check is not None:
         form.check(motion)
     model = motion.compiled()
-    own = 1.0 / float(motion.meta["timestep"])
+    own = 1.0 / motion.timestep
 
     def at(rate: float) -> Samples:
         return sample(motion, model, rate=rate, reference=reference, hold=hold, kp=kp, kd=kd)
@@ -121,7 +121,7 @@ def _feedback_notes(motion: Motion, feedback: Feedback | None) -> list[str]:
 
 def _notes(motion: Motion, samples: Samples) -> list[str]:
     """What the user of the files should know before the robot does."""
-    notes = [] if motion.meta["success"] else ["the motion does not meet its success criteria"]
+    notes = [] if motion.result.success else ["the motion does not meet its success criteria"]
     if around := surroundings(motion):
         notes.append(
             f"the motion needs {around} where its task has it (scene in the provenance); the rows do not say so"
@@ -129,6 +129,11 @@ def _notes(motion: Motion, samples: Samples) -> list[str]:
     if samples.rate < SLOW:
         notes.append(
             f"{samples.rate:g} Hz is slow for sending to a robot, for whose motion {SLOW:g} Hz or more is right"
+        )
+    if still := held(motion):
+        angles = ", ".join(f"{joint} {angle:g}" for joint, angle in still.items())
+        notes.append(
+            f"the simulation holds {angles} [rad, slides m], and no command says so: hold them there (meta: held)"
         )
     joints = samples.joints
     over = np.maximum(joints.lower - samples.command_position, samples.command_position - joints.upper).max(axis=0)

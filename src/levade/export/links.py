@@ -16,9 +16,9 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from levade.export.interpolation import exponential, multiply
+from levade.arrays import Array
 from levade.export.samples import Samples
-from levade.trajectory import Array, rotate
+from levade.rotations import exponential, multiply, rotate
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,21 +7,9 @@ from collections.abc import Sequence
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
-from levade.motion import Motion
-from levade.trajectory import Array
-
-
-def joint_addresses(model: mujoco.MjModel, joints: Sequence[str]) -> tuple[list[int], list[int]]:
-    """Where the joints are in qpos and in qvel."""
-    found = [model.joint(name) for name in joints]
-    return [int(joint.qposadr[0]) for joint in found], [int(joint.dofadr[0]) for joint in found]
-
-
-def root_addresses(model: mujoco.MjModel, trunk: str) -> tuple[int, int]:
-    """Where the trunk's free joint begins in qpos and in qvel."""
-    root = model.joint(int(model.body(trunk).jntadr[0]))
-    return int(root.qposadr[0]), int(root.dofadr[0])
+from levade.motions import Motion
 
 
 def gains(model: mujoco.MjModel, joints: Sequence[str]) -> tuple[Array, Array]:
@@ -53,6 +41,5 @@ def holding_torque(motion: Motion, model: mujoco.MjModel) -> Array:
     data = mujoco.MjData(model)
     data.qpos[:], data.qvel[:], data.qacc[:] = motion["qpos0"], motion["qvel0"], 0.0
     mujoco.mj_inverse(model, data)
-    _, dofs = joint_addresses(model, motion["joint_names"].tolist())
-    limit = np.array([np.inf if bound is None else bound for bound in motion.meta["limits"]["torque"]])
-    return np.clip(data.qfrc_inverse[dofs], -limit, limit)
+    limit = motion.embodiment.limits.torque
+    return np.clip(data.qfrc_inverse[motion.addresses(model).joint_qvel], -limit, limit)

@@ -8,26 +8,39 @@ motion.csv is read together with the meta.json beside it; motion.json needs noth
 methods; arrays are in the order of `Motion.joints`, SI units:
 
     class MyRobot:
+        joints = ["lf_haa", ...]                                # optional: compared with the motion's names
+
         def read(self):                                         # what the joints do now
             return position, velocity                           # (joints,) [rad], [rad/s]
 
         def write(self, position, velocity, torque, kp, kd):    # what each drive is to do until the next call:
             ...                                                 # kp (position - q) + kd (velocity - qd) + torque; kp may be 0
 
-        def read_trunk(self):                                   # only for a motion with a stabiliser:
+        def read_trunk(self):                                   # needed for a stabiliser; optional without one
             return quaternion, rate                             # trunk to world, w x y z; (3,) [rad/s] in trunk axes
 
 A motion with a stabiliser (`feedback` in its meta; feedback.npz beside motion.csv) corrects the positions by what the robot
-senses, from the first row on; --no-feedback plays it without.
+senses, from the first row on; --no-feedback plays it without, and does not read the trunk.
 
-What happens, at the rate of the file: the joints have to be near the start already, or nothing is sent at all; they are led
-from where they are to the start within the ramp, and have to be there; then every row is sent at its time, positions clamped
-to the joints' ranges and torques to their limits; with the last one, and for as long as --hold, the velocity is 0. If a
-joint is further from where the simulation had it than the tolerance (in the ramp: from where it is led than the start
-tolerance), or a reading is not a number, or the loop comes too late, or the program is told to end, the motion is stopped:
-for a second kp is 0 and the position is where the joints were last read, so that drives damp, or stay where they are if they
-know no gains but their own. Then it is your controller's turn again. The attitude and height of the trunk are not looked at:
-that is yours to do before.
+At the rate of the file:
+
+1. The joints must be near the start already, within their ranges, and the trunk near its attitude there. Otherwise nothing
+   is sent.
+2. They are led from where they are to the start within the ramp, and must arrive.
+3. Every row is sent at its time; the last one, and --hold after it, with velocity 0.
+
+Every position sent is within the joint's range and every torque within its limit. The motion stops when
+
+- a joint is further from where the simulation had it than the tolerance (in the ramp: from where it is led),
+- a joint or the trunk moves much faster than it ever does in the simulation,
+- the trunk is tilted further from the simulation than the tilt tolerance,
+- a reading has another shape or is not finite, or a robot's method raises an exception,
+- the loop, or a reading in it, is late,
+- the program is told to end.
+
+To stop means: for a second kp and torque are 0, kd is the file's, and the position is the last reading that passed every check.
+Drives then damp, or stay where they are if they know no gains but their own. A write that fails does not end it. Then it is
+your controller's turn. The player does not know the height of the trunk, the ground, or people.
 
 Exit status: 0 played to the end, 1 stopped, 2 the input is wrong.
 """
@@ -36,13 +49,16 @@ from __future__ import annotations
 
 import argparse
 import csv
+import hashlib
 import importlib
+import io
 import json
+import math
 import signal
 import sys
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -64,7 +80,7 @@ class Robot(Protocol):
 
 
 class SensingRobot(Robot, Protocol):
-    """What the player asks of a robot beside, if the motion has a stabiliser."""
+    """What the player asks of a robot beside, if the motion has a stabiliser; without one, it watches the trunk by it."""
 
     def read_trunk(self) -> tuple[Array, Array]:
         """Attitude, trunk to world, w-x-y-z (yaw does not matter), and angular velocity in trunk axes [rad/s]."""
@@ -95,19 +111,46 @@ class Feedback:
         gain = self.gain[min(tick, len(self.gain) - 1)]
         return np.clip(np.einsum("c,jc->j", off, gain), -self.bound, self.bound)
 
+    def check(self, joints: int, rate: float) -> None:
+        """Raise ValueError unless it is one for this many joints and rows at this rate [Hz]."""
+        fits = self.gain.shape[1:] == (joints, 6 + 3 * joints) and self.reference.shape[1:] == (6 + 2 * joints,)
+        if not (fits and len(self.gain) and len(self.reference)):
+            raise ValueError(f"its stabiliser is not one for {joints} joints")
+        for name, values in (("gain", self.gain), ("reference", self.reference)):
+            _check_numbers(f"feedback: {name}", values, values.shape, -LARGEST["gain"], LARGEST["gain"])
+        if not 0.0 <= self.bound <= math.pi:
+            raise ValueError(f"feedback: bound is {self.bound}; should be 0 to pi rad")
+        rows = rate / self.rate if self.rate > 0 else 0.0
+        if not (0.5 < rows < 1e6 and abs(rows - round(rows)) < 1e-6):
+            raise ValueError(f"feedback: rate is {self.rate}; {rate:g} Hz should be a multiple of it")
+
 
 def sensed(quaternion: Array, rate: Array, position: Array, velocity: Array) -> Array:
     """What a stabiliser looks at, (6 + 2 joints,)."""
-    w, x, y, z = quaternion
-    up = [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]
-    return np.concatenate([up, rate, position, velocity])
+    return np.concatenate([_up(*quaternion), rate, position, velocity])
+
+
+def _up(w: Any, x: Any, y: Any, z: Any) -> list[Any]:
+    """Opposite of gravity in trunk axes, of an attitude from trunk to world."""
+    return [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]
+
+
+LARGEST = {"position": 1e2, "velocity": 1e3, "torque": 1e5, "gain": 1e6}
+"""[rad], [rad/s], [Nm], [Nm/rad] or [Nm s/rad]: what is larger is no number of a legged robot's joint."""
 
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """A motion as exported. Arrays (rows, joints): what to send, and where the simulation had the joints.
+    """A motion as exported. Raises ValueError for numbers that no robot should be sent.
 
-    start_position, start_torque: what to hold before; lower, upper, torque_limit: infinite for none; (joints,) each.
+    joints: their names, in the order of all arrays over joints. rate: [Hz], of the rows.
+    position, velocity, torque: what to send, (rows, joints) [rad], [rad/s], [Nm].
+    expected, expected_velocity: what the joints did in the simulation, (rows, joints) [rad], [rad/s].
+    up: opposite of gravity in trunk axes in the simulation, (rows, 3). turning: how fast the trunk turned, (rows,) [rad/s].
+    kp, kd: gains, (joints,) [Nm/rad], [Nm s/rad].
+    start_position, start_torque: what to hold before, (joints,) [rad], [Nm].
+    lower, upper, torque_limit: (joints,) [rad], [rad], [Nm]; infinite for none.
+    held: joints without commands -> where the simulation held them [rad], slides [m].
     """
 
     joints: list[str]
@@ -116,6 +159,9 @@ class Motion:
     velocity: Array
     torque: Array
     expected: Array
+    expected_velocity: Array
+    up: Array
+    turning: Array
     kp: Array
     kd: Array
     start_position: Array
@@ -124,70 +170,108 @@ class Motion:
     upper: Array
     torque_limit: Array
     feedback: Feedback | None = None
+    held: dict[str, float] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        named = all(isinstance(name, str) and name and name.isprintable() for name in [*self.joints, *self.held])
+        if not (self.joints and named and len({*self.joints, *self.held}) == len(self.joints) + len(self.held)):
+            raise ValueError("joints: should be names, each there once")
+        if not 0.01 <= self.rate <= 1e7:
+            raise ValueError(f"rate: is {self.rate:g} Hz; should be 0.01 to 1e7")
+        rows, joints, unbounded = len(self.position), len(self.joints), math.inf
+        if not rows:
+            raise ValueError("rows: there are none")
+        table, each = (rows, joints), (joints,)
+        for name, shape, least, most in (
+            *((name, table, -LARGEST["position"], LARGEST["position"]) for name in ("position", "expected")),
+            *((name, table, -LARGEST["velocity"], LARGEST["velocity"]) for name in ("velocity", "expected_velocity")),
+            ("torque", table, -LARGEST["torque"], LARGEST["torque"]),
+            ("up", (rows, 3), -1.001, 1.001),
+            ("turning", (rows,), 0.0, LARGEST["velocity"]),
+            *((name, each, 0.0, LARGEST["gain"]) for name in ("kp", "kd")),
+            ("start_position", each, -LARGEST["position"], LARGEST["position"]),
+            ("start_torque", each, -LARGEST["torque"], LARGEST["torque"]),
+            *((name, each, -unbounded, unbounded) for name in ("lower", "upper")),
+            ("torque_limit", each, 0.0, unbounded),
+            ("held", (len(self.held),), -LARGEST["position"], LARGEST["position"]),
+        ):
+            values = np.array(list(self.held.values())) if name == "held" else getattr(self, name)
+            names = self.joints if shape[-1:] == each else None
+            _check_numbers(name, values, shape, least, most, names)
+        if not (self.lower <= self.upper).all():
+            raise ValueError(f"limits: the range of {self.joints[int(np.argmin(self.lower <= self.upper))]} is empty")
+        if self.feedback is not None:
+            self.feedback.check(joints, self.rate)
 
     @classmethod
     def load(cls, path: str | Path) -> Motion:
-        """Read motion.json, or motion.csv and the meta.json beside it. Raises OSError or ValueError."""
+        """Read motion.json, or motion.csv and the meta.json beside it.
+
+        Args:
+            path: The file.
+
+        Returns:
+            The motion; everything that is played has been checked, and is as it was exported.
+
+        Raises:
+            OSError: If a file cannot be read.
+            ValueError: If a file is not one of an export, was changed since, or has numbers that no robot should be sent.
+        """
         try:
             return cls._load(Path(path))
-        except (OSError, ValueError):
+        except OSError:
             raise
         except KeyError as error:
             raise ValueError(f"{path}: has no {error}; give motion.csv or motion.json, as exported") from None
+        except ValueError as error:
+            raise ValueError(f"{path}: {_line(error)}; export the motion again") from None
         except Exception as error:
-            what = f"{type(error).__name__}: {error}".rstrip(": ")
+            what = f"{type(error).__name__}: {_line(error)}".rstrip(": ")
             raise ValueError(f"{path}: it, or a file beside it, is damaged ({what}); export the motion again") from None
 
     @classmethod
     def _load(cls, path: Path) -> Motion:
-        if path.suffix == ".json":
-            content = json.loads(path.read_text(encoding="utf-8"))
-            meta, command = content["meta"], content["command"]
-            arrays = {name: np.array(command[name], dtype=float) for name in ("position", "velocity", "torque")}
-            arrays["expected"] = np.array(content["state"]["position"], dtype=float)
-            gains = content.get("feedback") or {}
-        else:
-            meta = json.loads(path.with_name("meta.json").read_text(encoding="utf-8"))
-            with path.open(encoding="utf-8", newline="") as file:
-                lines = csv.reader(file)
-                header = next(lines, [])
-                rows = [line for line in lines if line]
-            if not header or any(len(row) != len(header) for row in rows):
-                raise ValueError(f"{path}: not a whole table; export the motion again")
-            table = np.array(rows, dtype=float).reshape(len(rows), len(header))
-            place = {name: i for i, name in enumerate(header)}
-            pick = lambda what, name: table[:, [place[f"{what}/{joint}/{name}"] for joint in meta["joints"]]]  # noqa: E731
-            arrays = {name: pick("command", name) for name in ("position", "velocity", "torque")}
-            arrays["expected"] = pick("state", "position")
-            gains = {}
-            if meta.get("feedback"):
-                with np.load(path.with_name("feedback.npz"), allow_pickle=False) as file:
-                    gains = {name: file[name] for name in ("gain", "reference")}
-        if not all(np.isfinite(values).all() and len(values) == meta["rows"] for values in arrays.values()):
-            raise ValueError(f"{path}: not {meta['rows']} rows of numbers, as its meta says; export the motion again")
-        limits = meta["limits"]
-        feedback = None
-        if meta.get("feedback"):
-            gain, reference = (np.array(gains[name], dtype=float) for name in ("gain", "reference"))
-            joints, about = len(meta["joints"]), meta["feedback"]
-            fits = gain.shape[1:] == (joints, 6 + 3 * joints) and reference.shape[1:] == (6 + 2 * joints,)
-            if not (fits and np.isfinite(gain).all() and np.isfinite(reference).all()):
-                raise ValueError(f"{path}: its stabiliser is not one for {joints} joints; export the motion again")
-            feedback = Feedback(gain, reference, float(about["rate"]), float(about["bound"]))
-        bound = lambda name, none: np.array([none if value is None else value for value in limits[name]], dtype=float)  # noqa: E731
-        return cls(
-            joints=list(meta["joints"]),
-            rate=float(meta["rate"]),
-            kp=np.array(meta["kp"], dtype=float),
-            kd=np.array(meta["kd"], dtype=float),
-            start_position=np.array(meta["start"]["position"], dtype=float),
-            start_torque=np.array(meta["start"]["torque"], dtype=float),
-            lower=bound("lower", -np.inf),
-            upper=bound("upper", np.inf),
-            torque_limit=bound("torque", np.inf),
-            feedback=feedback,
-            **arrays,
+        meta, column, gains, sealed = (_read_json if path.suffix == ".json" else _read_csv)(path)
+        joints = list(meta["joints"])
+        over = lambda name: np.stack([column[name.format(joint)] for joint in joints], axis=-1)  # noqa: E731
+        commands = {name: over(f"command/{{}}/{name}") for name in ("position", "velocity", "torque")}
+        time, turning = column["time"], np.stack([column[f"state/trunk/angular_velocity/{axis}"] for axis in "xyz"])
+        if len(time) != meta["rows"] or not all(np.isfinite(values).all() for values in (time, *commands.values())):
+            raise ValueError(f"not {meta['rows']} rows of numbers, as its meta says")
+        w, x, y, z = (column[f"state/trunk/quaternion/{part}"] for part in "wxyz")
+        rows, rate, limits, start = len(time), _number("rate", meta["rate"]), meta["limits"], meta["start"]
+        motion = cls(
+            joints=joints,
+            rate=rate,
+            **commands,
+            expected=over("state/{}/position"),
+            expected_velocity=over("state/{}/velocity"),
+            up=np.stack(_up(w, x, y, z), axis=-1),
+            turning=np.linalg.norm(turning, axis=0),
+            kp=_numbers("kp", meta["kp"]),
+            kd=_numbers("kd", meta["kd"]),
+            start_position=_numbers("start: position", start["position"]),
+            start_torque=_numbers("start: torque", start["torque"]),
+            lower=_numbers("limits: lower", limits["lower"], -np.inf),
+            upper=_numbers("limits: upper", limits["upper"], np.inf),
+            torque_limit=_numbers("limits: torque", limits["torque"], np.inf),
+            feedback=_feedback(meta.get("feedback"), gains, joints),
+            held={name: _number(f"held: {name}", value) for name, value in meta.get("held", {}).items()},
         )
+        if not np.abs(time - np.arange(rows) / rate).max() < 1e-6:
+            raise ValueError(f"rate: is {rate:g} Hz, and its rows come at other times")
+        if not np.abs(motion.start_position - motion.expected[0]).max() < 1e-6:
+            raise ValueError("start: its position is not that of the first row")
+        if not (np.abs(motion.start_torque) <= motion.torque_limit * (1 + 1e-9)).all():
+            raise ValueError("start: its torque is beyond the limits")
+        if not ((motion.expected > motion.lower - 0.5) & (motion.expected < motion.upper + 0.5)).all():
+            raise ValueError("limits: the simulation had joints far beyond them")
+        for name in ("kp", "kd"):
+            if path.suffix != ".json" and not (over(f"command/{{}}/{name}") == getattr(motion, name)).all():
+                raise ValueError(f"{name}: its rows have other gains than meta.json")
+        if meta.get("checksum") != sealed:
+            raise ValueError("was changed since it was exported, or a file beside it was (checksum)")
+        return motion
 
     def sent(self, row: int, added: Array, clamp: bool) -> Array:
         """Position to send, (joints,) [rad]: corrections do not take it out of the joints' ranges, nor further out."""
@@ -201,6 +285,113 @@ class Motion:
         )
 
 
+def checksum(meta: dict[str, Any], *contents: bytes) -> str:
+    """Over all of an export's meta except its own "checksum", and over what belongs to it.
+
+    Args:
+        meta: The meta, JSON.
+        contents: With csv the bytes of motion.csv (lines ended by a newline alone), and of feedback.npz if there is one;
+            with json `canonical` of the rest of the document.
+
+    Returns:
+        What "checksum" should be.
+    """
+    digest = hashlib.sha256()
+    for part in (canonical({key: value for key, value in meta.items() if key != "checksum"}), *contents):
+        digest.update(len(part).to_bytes(8, "big") + part)
+    return f"sha256:{digest.hexdigest()}"
+
+
+def canonical(content: Any) -> bytes:
+    """The same bytes for the same JSON, however it was laid out."""
+    return json.dumps(content, sort_keys=True, separators=(",", ":")).encode()
+
+
+_Export = tuple[dict[str, Any], dict[str, Array], dict[str, Any], str]
+"""meta; column of motion.csv -> (rows,); arrays of the stabiliser; checksum of what was read."""
+
+
+def _read_json(path: Path) -> _Export:
+    content = json.loads(path.read_text(encoding="utf-8"))
+    meta, joints = content["meta"], content["meta"]["joints"]
+    columns = {"time": np.array(content["time"], dtype=float)}
+    for what in ("command", "state"):
+        for name in ("position", "velocity", "torque"):
+            table = np.array(content[what][name], dtype=float).reshape(len(columns["time"]), len(joints))
+            columns |= {f"{what}/{joint}/{name}": table[:, i] for i, joint in enumerate(joints)}
+    for name, parts in (("quaternion", "wxyz"), ("angular_velocity", "xyz")):
+        table = np.array(content["state"]["trunk"][name], dtype=float).reshape(len(columns["time"]), len(parts))
+        columns |= {f"state/trunk/{name}/{part}": table[:, i] for i, part in enumerate(parts)}
+    rest = canonical({key: value for key, value in content.items() if key != "meta"})
+    return meta, columns, content.get("feedback") or {}, checksum(meta, rest)
+
+
+def _read_csv(path: Path) -> _Export:
+    meta = json.loads(path.with_name("meta.json").read_text(encoding="utf-8"))
+    text = path.read_bytes().replace(b"\r\n", b"\n")
+    lines = csv.reader(io.StringIO(text.decode(), newline=""))
+    header = next(lines, [])
+    rows = [line for line in lines if line]
+    if not header or len(set(header)) != len(header) or any(len(row) != len(header) for row in rows):
+        raise ValueError("not a whole table")
+    table = np.array(rows, dtype=float).reshape(len(rows), len(header))
+    contents, gains = [text], {}
+    if meta["feedback"]:
+        contents.append(path.with_name("feedback.npz").read_bytes())
+        with np.load(io.BytesIO(contents[-1]), allow_pickle=False) as file:
+            gains = {name: file[name] for name in ("gain", "reference")}
+    return meta, {name: table[:, i] for i, name in enumerate(header)}, gains, checksum(meta, *contents)
+
+
+def _feedback(about: Any, gains: dict[str, Any], joints: list[str]) -> Feedback | None:
+    """The stabiliser that a meta describes, with its arrays; None if it describes none."""
+    if not about:
+        return None
+    seen = [f"{what}/{axis}" for what in ("up", "rate") for axis in "xyz"]
+    seen += [f"{joint}/{what}" for what in ("position", "velocity") for joint in joints]
+    if about["sensed"] != seen:
+        raise ValueError("feedback: sensed are other things than the player reads")
+    gain, reference = (np.array(gains[name], dtype=float) for name in ("gain", "reference"))
+    return Feedback(gain, reference, *(_number(f"feedback: {name}", about[name]) for name in ("rate", "bound")))
+
+
+def _number(name: str, value: Any) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+        raise ValueError(f"{name}: is {_line(value)}; should be a number")
+    return float(value)
+
+
+def _numbers(name: str, values: Any, none: float | None = None) -> Array:
+    """A list of JSON as an array; null is `none` if there can be none."""
+    if not isinstance(values, list):
+        raise ValueError(f"{name}: is {_line(values)}; should be a list of numbers")
+    empty = none is not None
+    return np.array(
+        [none if value is None and empty else _number(f"{name}[{i}]", value) for i, value in enumerate(values)],
+        dtype=float,
+    )
+
+
+def _check_numbers(
+    name: str, values: Array, shape: tuple[int, ...], least: float, most: float, joints: list[str] | None = None
+) -> None:
+    """Raise ValueError unless an array has a shape, and all its values lie in a range."""
+    if values.shape != shape:
+        raise ValueError(f"{name}: has the shape {values.shape}; should be {shape}")
+    wrong = np.argwhere(~((values >= least) & (values <= most)))
+    if len(wrong):
+        place = tuple(wrong[0])
+        of = "" if joints is None else f" of {joints[place[-1]]}"
+        raise ValueError(f"{name}{of}: is {values[place]:g}; should be {least:g} to {most:g}")
+
+
+def _line(what: object, longest: int = 200) -> str:
+    """Text on one line that a terminal can show."""
+    text = " ".join(str(what).split())
+    text = "".join(char if char.isprintable() else "?" for char in text)
+    return text if len(text) <= longest else f"{text[:longest]}..."
+
+
 def play(
     motion: Motion,
     robot: Robot,
@@ -208,59 +399,117 @@ def play(
     ramp: float = 2.0,
     start_tolerance: float = 0.5,
     tolerance: float = 0.5,
+    speed_tolerance: float = 20.0,
+    tilt_tolerance: float = 1.0,
     hold: float = 0.0,
     feedback: bool = True,
     clamp: bool = True,
     wait: Callable[[float], float] | None = None,
 ) -> float:
-    """Play a motion. Returns the largest tracking error [rad]. Raises Stopped, and ValueError of times and tolerances.
+    """Play a motion.
 
-    ramp: [s], from the present joint positions to the start; 0 for none. start_tolerance: [rad], how far the joints may be
-    from the start before the ramp (else nothing is sent), and in it from where they are led. tolerance: [rad], how far from
-    where the simulation had them, from the end of the ramp on. hold: [s], for which the last row is sent on after the end.
-    feedback: whether to use the motion's stabiliser, if it has one; the robot then needs ``read_trunk``. The tolerance
-    is wider by the correction in force. clamp: whether positions are kept within the joints' ranges; without it, they go
-    as far out as they were told in the simulation: for commanded references on drives like the simulated ones.
-    wait: called before each tick with its time [s] since the first; returns how late it is [s]. By default the clock.
+    Args:
+        motion: What to play.
+        robot: What plays it.
+        ramp: Time from the present joint positions to the start [s]; 0 for none.
+        start_tolerance: How far the joints may be from the start before the ramp (else nothing is sent), and in it from
+            where they are led [rad].
+        tolerance: How far the joints may be from the simulation, from the end of the ramp on [rad]; wider by the
+            stabiliser's correction in force.
+        speed_tolerance: How much faster joints and trunk may move than they ever do in the simulation [rad/s].
+        tilt_tolerance: Largest angle between the trunk's attitude and that in the simulation, yaw apart [rad].
+        hold: For how long the last row is sent on after the end [s].
+        feedback: Whether to read the trunk, if the robot can, and to use the motion's stabiliser, if it has one; with a
+            stabiliser the robot needs ``read_trunk``.
+        clamp: Whether positions are kept within the joints' ranges. Without it, they go as far out as they were in the
+            simulation: for commanded references on drives like the simulated ones.
+        wait: Called before each tick, and again before its command is sent, with the tick's time since the first [s]. Returns
+            how late it is [s]. By default the clock.
+
+    Returns:
+        The largest tracking error [rad].
+
+    Raises:
+        Stopped: If the motion did not begin, or was not played to its end. Whatever the robot's methods raise is passed on.
+        ValueError: If a time or tolerance is negative or not finite.
     """
-    for name, value in {"ramp": ramp, "start_tolerance": start_tolerance, "tolerance": tolerance, "hold": hold}.items():
+    times = {"ramp": ramp, "hold": hold}
+    tolerances = {"start_tolerance": start_tolerance, "tolerance": tolerance}
+    wider = {"speed_tolerance": speed_tolerance, "tilt_tolerance": tilt_tolerance}
+    for name, value in (times | tolerances | wider).items():
         if not 0.0 <= value < np.inf:
             raise ValueError(f"{name}: {value} should be a number, 0 or more")
+    check_robot(motion, robot, feedback=feedback)
     late = wait or clock()
     zero, period = np.zeros(len(motion.joints)), 1.0 / motion.rate
-    torque = motion.clamped()[1]
-    correcting = _Correcting(motion, robot) if feedback and motion.feedback is not None else None
+    correcting = _Correcting(motion.feedback, motion) if feedback and motion.feedback is not None else None
+    trunk = _Trunk(motion, robot, speed_tolerance, tilt_tolerance) if feedback and _senses(robot) else None
     start = np.clip(motion.start_position, motion.lower, motion.upper)
-    joints = _Joints(motion, robot)
-    present, _ = joints.read()  # nothing is sent if the motion does not begin: the robot's own controller holds it
-    _check(motion, present, motion.start_position, start_tolerance, "before the ramp: bring it near the start first")
+    joints = _Joints(motion, robot, speed_tolerance, clamp=clamp)
+    before = "before the ramp: bring it near the start first"
+    # nothing is sent if the motion does not begin: the robot's own controller holds it
+    present, _, _ = joints.read(motion.start_position, start_tolerance, before)
+    joints.check_range(present)
+    if trunk is not None:
+        trunk.read(0, before)
     ticks, rows, holding = round(ramp * motion.rate), len(motion.position), round(hold * motion.rate)
     worst, led = 0.0, present
     try:
         for tick in range(ticks):
             _on_time(late(tick * period), motion.rate)
-            _check(motion, joints.read()[0], led, start_tolerance, f"in the ramp at {tick * period:.3f} s")
+            when = f"in the ramp at {tick * period:.3f} s"
+            joints.read(led, start_tolerance, when)
+            if trunk is not None:
+                trunk.read(0, when)
             led = present + _smooth((tick + 1) / ticks) * (start - present)
             share = _smooth(min(1.0, (tick + 1) * period / HOLDING))
+            _on_time(late(tick * period), motion.rate)
             joints.write(led, zero, share * motion.start_torque, motion.kp, motion.kd)
         for tick in range(rows + holding):
             _on_time(late((ticks + tick) * period), motion.rate)
             row, holds = min(tick, rows - 1), tick >= rows
-            now, rate = joints.read()
-            added = zero if correcting is None else correcting(tick, now, rate)
+            added = zero if correcting is None else correcting.in_force(tick)
             when = f"in the hold at {(tick - rows) * period:.3f} s" if holds else f"at {tick * period:.3f} s"
-            off = _check(motion, now, motion.expected[row], tolerance + np.abs(added), when)
+            now, rate, off = joints.read(motion.expected[row], tolerance + np.abs(added), when)
+            if trunk is not None and (correcting is None or correcting.measures(tick)):
+                attitude, turning = trunk.read(row, when)
+                if correcting is not None:
+                    correcting.measure(tick, sensed(attitude, turning, now, rate))
             worst = max(worst, 0.0 if holds else off)
             going = motion.velocity[row] if row < rows - 1 else zero  # the last row ends the motion: nothing follows
-            joints.write(motion.sent(row, added, clamp), going, torque[row], motion.kp, motion.kd)
-    except BaseException:
-        _damp(joints, clock() if wait is None else lambda instant: 0.0)
+            _on_time(late((ticks + tick) * period), motion.rate)
+            joints.write(motion.sent(row, added, clamp), going, motion.torque[row], motion.kp, motion.kd)
+    except BaseException as error:
+        failed = _damp(joints, clock() if wait is None else lambda instant: 0.0)
+        if failed:
+            error.__notes__ = [*getattr(error, "__notes__", []), *failed]
         raise
     return worst
 
 
+def check_robot(motion: Motion, robot: Any, *, feedback: bool = True) -> None:
+    """Raise Stopped if a robot's joints have other names than the motion's, or if it lacks what the stabiliser needs."""
+    names = getattr(robot, "joints", None)
+    if names is not None:
+        names = [str(name) for name in names] if isinstance(names, list | tuple | np.ndarray) else [_line(names)]
+        other = [(own, theirs) for own, theirs in zip(motion.joints, names, strict=False) if own != theirs]
+        if other or len(names) != len(motion.joints):
+            order = "the same in another order" if sorted(names) == sorted(motion.joints) else _line(", ".join(names))
+            raise Stopped(f"the robot's joints are {order}; should be {', '.join(motion.joints)}")
+    if feedback and motion.feedback is not None and not _senses(robot):
+        raise Stopped("the motion has a stabiliser, and the robot no read_trunk; add it, or play with --no-feedback")
+
+
+def _senses(robot: Any) -> bool:
+    return callable(getattr(robot, "read_trunk", None))
+
+
 HOLDING = 0.02
 """[s], within which the torque that holds the start comes in: a robot that stands there already would sink without it."""
+
+
+BEYOND = 0.1
+"""[rad] beyond its range at which a joint may be before the ramp: soft stops give way."""
 
 
 def _smooth(s: float) -> float:
@@ -268,59 +517,118 @@ def _smooth(s: float) -> float:
     return s * s * (3.0 - 2.0 * s)
 
 
+def _pair(what: str, values: Any, sizes: tuple[int, int]) -> tuple[Array, Array]:
+    """Two readings as arrays of their own. Raises Stopped unless they are finite and of these sizes."""
+    try:
+        one, other = (np.array(part, dtype=float) for part in values)
+    except (TypeError, ValueError, OverflowError):
+        raise Stopped(f"the robot reads {_line(values)} as {what}; should be two arrays of numbers") from None
+    for part, name, size in zip((one, other), what.split(" and "), sizes, strict=True):
+        if part.shape != (size,) or not np.isfinite(part).all():
+            raise Stopped(f"the robot reads {_line(part.tolist())} as {name}; should be {size} numbers")
+    return one, other
+
+
 class _Joints:
-    """The robot's joints, read and told. Arrays are copied both ways: the robot may go on using its own."""
+    """The robot's joints: every reading is checked, every command clamped.
 
-    def __init__(self, motion: Motion, robot: Robot) -> None:
+    Arrays are copied both ways: the robot may go on using its own.
+    """
+
+    def __init__(self, motion: Motion, robot: Robot, speed_tolerance: float, *, clamp: bool) -> None:
         self.motion, self._robot = motion, robot
+        self._fastest = np.abs(motion.expected_velocity).max(axis=0) + speed_tolerance
+        self._lower, self._upper = motion.lower, motion.upper
+        if not clamp:  # as far out as the motion's own commands
+            self._lower = np.minimum(self._lower, motion.position.min(axis=0))
+            self._upper = np.maximum(self._upper, motion.position.max(axis=0))
         self.position = motion.start_position
-        """Where they were when they were last read, (joints,) [rad]."""
+        """Last reading that passed every check, (joints,) [rad]."""
 
-    def read(self) -> tuple[Array, Array]:
-        """Position and velocity, (joints,) each. Raises Stopped if they are not numbers."""
-        position, velocity = (np.array(values, dtype=float) for values in self._robot.read())
-        for what, values in (("position", position), ("velocity", velocity)):
-            if values.shape != (len(self.motion.joints),) or not np.isfinite(values).all():
-                raise Stopped(
-                    f"the robot reads {values.tolist()} as {what}; should be {len(self.motion.joints)} numbers"
-                )
+    def read(self, expected: Array, tolerance: float | Array, when: str) -> tuple[Array, Array, float]:
+        """Position and velocity, (joints,) each, and the largest distance from what was expected [rad].
+
+        Raises Stopped for a reading that is not to be trusted, or is further off than the tolerance.
+        """
+        joints = len(self.motion.joints)
+        position, velocity = _pair("position and velocity", self._robot.read(), (joints, joints))
+        off = _check(self.motion, position, expected, tolerance, when)
+        wild = np.abs(velocity) > self._fastest
+        if wild.any():
+            joint = int(np.argmax(wild))
+            raise Stopped(
+                f"{self.motion.joints[joint]} moves at {velocity[joint]:.4g} rad/s, should be at most"
+                f" {self._fastest[joint]:.4g} {when}"
+            )
         self.position = position.copy()
-        return position, velocity
+        return position, velocity, off
 
-    def write(self, *command: Array) -> None:
+    def check_range(self, position: Array) -> None:
+        """Raise Stopped where a joint reads far beyond its range: the first command, clamped to it, would be a jump."""
+        beyond = np.maximum(self._lower - position, position - self._upper)
+        joint = int(np.argmax(beyond))
+        if not beyond[joint] <= BEYOND:
+            raise Stopped(
+                f"{self.motion.joints[joint]} is at {position[joint]:.3f} rad, {beyond[joint]:.3f} beyond its range: check"
+                " its zero, or bring it into the range first"
+            )
+
+    def write(self, position: Array, velocity: Array, torque: Array, kp: Array, kd: Array) -> None:
+        """Send a command. Raises Stopped, and sends nothing, if it is not made of numbers."""
+        limit = self.motion.torque_limit
+        command = (np.clip(position, self._lower, self._upper), velocity, np.clip(torque, -limit, limit), kp, kd)
+        if not all(np.isfinite(values).all() for values in command):
+            raise Stopped("a command would not be made of numbers, and is not sent")
         self._robot.write(*(values.copy() for values in command))
+
+
+class _Trunk:
+    """The robot's trunk: every reading is checked."""
+
+    def __init__(self, motion: Motion, robot: Any, speed_tolerance: float, tilt_tolerance: float) -> None:
+        self._motion, self._robot, self._most = motion, robot, tilt_tolerance
+        self._fastest = float(motion.turning.max()) + speed_tolerance
+
+    def read(self, row: int, when: str) -> tuple[Array, Array]:
+        """Attitude, a unit quaternion (4,), and rate (3,) [rad/s]. Raises Stopped if it is not as in the simulation."""
+        quaternion, rate = _pair("the trunk's attitude and the trunk's rate", self._robot.read_trunk(), (4, 3))
+        length = math.hypot(*quaternion)
+        if not abs(length - 1.0) < 0.01:
+            raise Stopped(f"the robot's trunk reads {quaternion.tolist()}; should be a unit quaternion")
+        quaternion = quaternion / length
+        cosine = float(np.dot(_up(*quaternion), self._motion.up[row]))
+        tilt = math.acos(min(1.0, max(-1.0, cosine)))
+        if not tilt <= self._most:
+            raise Stopped(
+                f"the trunk is tilted by {tilt:.3f} rad from the simulation, should be by at most {self._most:g} {when}"
+            )
+        speed = math.hypot(*rate)
+        if not speed <= self._fastest:
+            raise Stopped(f"the trunk turns at {speed:.4g} rad/s, should be at most {self._fastest:.4g} {when}")
+        return quaternion, rate
 
 
 class _Correcting:
     """A stabiliser at work: measures at its ticks, and keeps the correction that is in force."""
 
-    def __init__(self, motion: Motion, robot: Any) -> None:
-        if not hasattr(robot, "read_trunk"):
-            raise Stopped(
-                "the motion has a stabiliser, and the robot no read_trunk; add it, or play with --no-feedback"
-            )
-        assert motion.feedback is not None
-        self._feedback, self._robot = motion.feedback, robot
-        self._rows = round(motion.rate / motion.feedback.rate)
+    def __init__(self, feedback: Feedback, motion: Motion) -> None:
+        self._feedback = feedback
+        self._rows = round(motion.rate / feedback.rate)
         self._due = self._last = np.zeros(len(motion.joints))
 
-    def __call__(self, row: int, position: Array, velocity: Array) -> Array:
-        """(joints,) [rad], to be added to what is sent now."""
-        if row % self._rows == 0:
-            quaternion, rate = (np.asarray(values, dtype=float) for values in self._robot.read_trunk())
-            if quaternion.shape != (4,) or rate.shape != (3,):
-                raise Stopped(
-                    f"the robot's trunk reads {quaternion.tolist()}, {rate.tolist()}; should be 4 and 3 numbers"
-                )
-            length = float(np.linalg.norm(quaternion))
-            if not abs(length - 1.0) < 0.01:
-                raise Stopped(f"the robot's trunk reads {quaternion.tolist()}; should be a unit quaternion")
-            if not np.isfinite(rate).all():
-                raise Stopped(f"the robot's trunk turns at {rate.tolist()}; should be 3 numbers")
+    def measures(self, tick: int) -> bool:
+        """Whether a measurement is due."""
+        return tick % self._rows == 0
+
+    def in_force(self, tick: int) -> Array:
+        """(joints,) [rad], to be added to what is sent now. To be asked once a tick, before the measurement."""
+        if self.measures(tick):
             self._last = self._due
-            seen = sensed(quaternion / length, rate, position, velocity)
-            self._due = self._feedback.correction(row // self._rows, seen, self._last)
         return self._last
+
+    def measure(self, tick: int, seen: Array) -> None:
+        """Take what is `sensed` at a tick."""
+        self._due = self._feedback.correction(tick // self._rows, seen, self._last)
 
 
 def _check(motion: Motion, position: Array, expected: Array, tolerance: float | Array, when: str) -> float:
@@ -337,20 +645,27 @@ def _check(motion: Motion, position: Array, expected: Array, tolerance: float | 
 
 
 def _on_time(late: float, rate: float) -> None:
-    if late > max(5.0 / rate, 0.02):
+    if not late <= min(max(5.0 / rate, 0.02), 0.1):
         raise Stopped(f"the loop is {late * 1e3:.0f} ms late; {rate:g} Hz is too fast for it")
 
 
-def _damp(joints: _Joints, wait: Callable[[float], float], seconds: float = 1.0) -> None:
+def _damp(joints: _Joints, wait: Callable[[float], float], seconds: float = 1.0) -> list[str]:
     """Let the drives only damp, wherever the joints are; readings are not trusted any more.
 
-    The position is where the joints were last: a drive that cannot do without its own kp stays there.
+    The position is where the joints were last: a drive that cannot do without its own kp stays there. Nothing ends it before
+    its time, not even Ctrl-C. Returns a line about the commands that did not get through, if there were any.
     """
     motion = joints.motion
-    zero = np.zeros(len(motion.joints))
-    for tick in range(max(1, round(seconds * motion.rate))):
-        wait(tick / motion.rate)
-        joints.write(joints.position, zero, zero, zero, motion.kd)
+    zero, ticks = np.zeros(len(motion.joints)), max(1, round(seconds * motion.rate))
+    failed, last = 0, ""
+    for tick in range(ticks):
+        try:
+            if tick / motion.rate + wait(tick / motion.rate) > 2 * seconds:  # writes hang: it has taken long enough
+                break
+            joints.write(joints.position, zero, zero, zero, motion.kd)
+        except BaseException as error:
+            failed, last = failed + 1, f"{type(error).__name__}: {_line(error)}".rstrip(": ")
+    return [f"while damping, {failed} of {ticks} commands did not get through ({last})"] if failed else []
 
 
 def clock() -> Callable[[float], float]:
@@ -393,7 +708,11 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--ramp", type=float, default=2.0, help="to the start [s]; 2")
     parser.add_argument("--start-tolerance", type=float, default=0.5, help="from the start, before the ramp [rad]; 0.5")
     parser.add_argument("--tolerance", type=float, default=0.5, help="from the simulation, in the motion [rad]; 0.5")
-    parser.add_argument("--no-feedback", action="store_true", help="without the motion's stabiliser")
+    parser.add_argument(
+        "--speed-tolerance", type=float, default=20.0, help="beyond the fastest of the simulation [rad/s]; 20"
+    )
+    parser.add_argument("--tilt-tolerance", type=float, default=1.0, help="of the trunk, from the simulation [rad]; 1")
+    parser.add_argument("--no-feedback", action="store_true", help="without stabiliser, and without reading the trunk")
     parser.add_argument(
         "--no-clamp", action="store_true", help="send positions beyond the joints' ranges, too, as told"
     )
@@ -401,13 +720,13 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     if options.dry_run == (options.robot is not None):
         parser.error("give one of --dry-run and --robot MODULE:CLASS")
-    if not all(0 <= v < np.inf for v in (options.ramp, options.hold, options.tolerance, options.start_tolerance)):
+    tolerances = (options.tolerance, options.start_tolerance, options.speed_tolerance, options.tilt_tolerance)
+    if not all(0 <= value < np.inf for value in (options.ramp, options.hold, *tolerances)):
         parser.error("--ramp, --hold and tolerances should be numbers, 0 or more")
     try:
         motion = Motion.load(options.motion)
         robot: Any = StandIn(motion, options.ramp) if options.dry_run else _load_robot(options.robot)
-        if motion.feedback is not None and not (options.dry_run or options.no_feedback):
-            _Correcting(motion, robot)
+        check_robot(motion, robot, feedback=not (options.dry_run or options.no_feedback))
     except (OSError, ValueError, Stopped) as error:
         print(f"player: {error}", file=sys.stderr)
         return 2
@@ -421,6 +740,9 @@ def main(arguments: list[str] | None = None) -> int:
         print(
             f"with a stabiliser at {motion.feedback.rate:g} Hz, corrections of {motion.feedback.bound:g} rad at most{off}"
         )
+    if motion.held:
+        held = ", ".join(f"{joint} {angle:g}" for joint, angle in motion.held.items())
+        print(f"not among them, hold them yourself where the simulation had them [rad, slides m]: {held}")
     if changed:
         print(f"{changed} commands of {2 * position.size} are beyond the joints' limits, and are clamped")
     if beyond and not motion.torque.any():  # commanded references: the torque is in how far out they are
@@ -432,16 +754,31 @@ def main(arguments: list[str] | None = None) -> int:
             ramp=options.ramp,
             start_tolerance=options.start_tolerance,
             tolerance=options.tolerance,
+            speed_tolerance=options.speed_tolerance,
+            tilt_tolerance=options.tilt_tolerance,
             hold=options.hold,
             feedback=not (options.no_feedback or options.dry_run),
             clamp=not options.no_clamp,
             wait=(lambda instant: 0.0) if options.dry_run else None,
         )
-    except (Stopped, KeyboardInterrupt) as stopped:
-        print(f"player: stopped: {str(stopped) or 'interrupted'}", file=sys.stderr)
+    except (Exception, KeyboardInterrupt) as stopped:
+        print(f"player: stopped: {'; '.join([_why(stopped), *getattr(stopped, '__notes__', [])])}", file=sys.stderr)
         return 1
     print(f"played to the end; largest tracking error {worst:.4f} rad")
     return 0
+
+
+def _why(stopped: BaseException) -> str:
+    """What ended a motion, on one line."""
+    if isinstance(stopped, KeyboardInterrupt):
+        return "interrupted"
+    if isinstance(stopped, Stopped):
+        return str(stopped)
+    trace = stopped.__traceback__
+    while trace is not None and trace.tb_next is not None:
+        trace = trace.tb_next
+    where = "" if trace is None else f" ({Path(trace.tb_frame.f_code.co_filename).name}, line {trace.tb_lineno})"
+    return f"{type(stopped).__name__}: {_line(stopped)}{where}"
 
 
 def _heed_signals() -> None:

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from levade.trajectory import Array
+from levade.arrays import Array
 
 _TIME = "int32 sec\nuint32 nanosec\n"
 _HEADER = "builtin_interfaces/Time stamp\nstring frame_id\n"

@@ -26,12 +26,12 @@ from dataclasses import dataclass, replace
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError, did_you_mean
-from levade.export.interpolation import conjugate, hermite, linear, locate, mean, rotations
-from levade.export.model import gains, holding_torque, joint_addresses, root_addresses
-from levade.export.references import commands
-from levade.motion import Motion
-from levade.trajectory import Array, rotate
+from levade.export.model import gains, holding_torque
+from levade.motions import Motion, ReferenceCurve
+from levade.motions.interpolation import hermite, linear, locate, mean, rotations
+from levade.rotations import rotate
 
 REFERENCES = ("measured", "commanded")
 
@@ -128,18 +128,18 @@ def sample(
                 f"{option} {gain}: commanded references only make the motion with the gains of the simulation; leave it"
                 " out, or take --reference measured"
             )
-    if motion.meta["diverged"] or not all(np.isfinite(v).all() for v in motion.arrays.values() if v.dtype.kind == "f"):
+    if motion.result.diverged or not all(np.isfinite(v).all() for v in motion.arrays.values() if v.dtype.kind == "f"):
         raise LevadeError("motion: its simulation broke down, there is nothing to export; solve the task anew")
-    timestep = float(motion.meta["timestep"])
-    steps = len(motion["time"])
+    timestep, steps = motion.timestep, motion.steps
     end = (steps if hold else motion.horizon_steps) * timestep
     time = _times(rate, end)
     state = _state(motion, model, time, timestep)
     until = time + 1.0 / rate
-    names = tuple(motion["joint_names"].tolist())
+    names = motion.joint_names
     torque = mean(time, until, motion["joint_torque"], timestep)
     force = mean(time, until, motion["foot_contact_force"].reshape(steps, -1), timestep)
-    sent_position, sent_velocity, analytic = commands(motion, time)
+    curve = ReferenceCurve.of(motion)
+    sent_position, sent_velocity = curve.in_force(time)
     measured = reference == "measured"
     return Samples(
         time=time,
@@ -150,9 +150,9 @@ def sample(
         command_velocity=state["joint_velocity"] if measured else sent_velocity,
         command_torque=torque if measured else np.zeros_like(torque),
         joint_torque=torque,
-        feet=tuple(leg["foot"] for leg in motion.meta["legs"].values()),
+        feet=motion.embodiment.feet,
         foot_contact_force=force.reshape(len(time), -1, 3),
-        analytic=analytic,
+        analytic=curve.policy is not None,
         **state,
     )
 
@@ -175,43 +175,43 @@ def _joints(
         own_kp, own_kd = gains(model, names)
     else:
         own_kp = own_kd = np.zeros(len(names))
-    limits = {
-        name: np.array([missing if bound is None else bound for bound in motion.meta["limits"][name]])
-        for name, missing in (("lower", -np.inf), ("upper", np.inf), ("velocity", np.inf), ("torque", np.inf))
-    }
+    limits = motion.embodiment.limits
     return Joints(
         names=names,
         kp=own_kp if kp is None else np.full(len(names), float(kp)),
         kd=own_kd if kd is None else np.full(len(names), float(kd)),
-        start_position=motion["qpos0"][joint_addresses(model, names)[0]],
+        lower=limits.lower,
+        upper=limits.upper,
+        velocity=limits.velocity,
+        torque=limits.torque,
+        start_position=motion["qpos0"][motion.addresses(model).joint_qpos],
         start_torque=holding_torque(motion, model),
-        **limits,
     )
 
 
 def _state(motion: Motion, model: mujoco.MjModel, time: Array, timestep: float) -> dict[str, Array]:
     """State of joints and trunk at the times: the start, then the end of each step."""
     qpos, qvel = motion["qpos0"], motion["qvel0"]
-    at, rates = joint_addresses(model, motion["joint_names"].tolist())
-    root, rate = root_addresses(model, motion.meta["trunk"])
+    at = motion.addresses(model)
 
     def knots(first: Array, name: str) -> Array:
         return np.concatenate([first[None], motion[name]])
 
-    angle, speed = knots(qpos[at], "joint_position"), knots(qvel[rates], "joint_velocity")
-    place, going = knots(qpos[root : root + 3], "trunk_position"), knots(qvel[rate : rate + 3], "trunk_linear_velocity")
-    first = qpos[root + 3 : root + 7] / np.linalg.norm(qpos[root + 3 : root + 7])
+    angle, speed = knots(qpos[at.joint_qpos], "joint_position"), knots(qvel[at.joint_qvel], "joint_velocity")
+    place = knots(qpos[at.trunk_position], "trunk_position")
+    going = knots(qvel[at.trunk_linear_velocity], "trunk_linear_velocity")
+    first = qpos[at.trunk_quaternion] / np.linalg.norm(qpos[at.trunk_quaternion])
     attitude = knots(first, "trunk_quaternion")
-    turning = knots(rotate(first, qvel[rate + 3 : rate + 6]), "trunk_angular_velocity")
+    rate = knots(qvel[at.trunk_angular_velocity], "trunk_angular_velocity")  # in trunk axes
     interval, share = locate(time, timestep, len(angle) - 1)
     position = hermite(interval, share, place, going, timestep)
-    quaternion = rotations(interval, share, attitude, rotate(conjugate(attitude), turning), timestep)
+    quaternion = rotations(interval, share, attitude, rate, timestep)
     return {
         "joint_position": hermite(interval, share, angle, speed, timestep),
         "joint_velocity": linear(interval, share, speed),
         "trunk_position": position,
-        "trunk_com_position": position + rotate(quaternion, np.array(motion.meta["trunk_com_offset"])),
+        "trunk_com_position": position + rotate(quaternion, motion.embodiment.trunk_com_offset),
         "trunk_quaternion": quaternion,
         "trunk_linear_velocity": linear(interval, share, going),
-        "trunk_angular_velocity": linear(interval, share, turning),
+        "trunk_angular_velocity": linear(interval, share, rotate(attitude, rate)),
     }

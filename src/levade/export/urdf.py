@@ -11,9 +11,10 @@ from xml.etree import ElementTree as xml
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.export.links import Link, links_of
 from levade.export.samples import Joints
-from levade.trajectory import Array, roll_pitch_yaw, rotate
+from levade.rotations import roll_pitch_yaw, rotate
 
 _NO_LIMIT = 1e9
 """URDF wants an effort and a velocity for every joint: where the robot gives none, more than any joint has."""

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.optimizers.sampling import Sampler, checked_share
-from levade.trajectory import Array
+from levade.optimizers.space import SearchSpace
 
 
 class CEM(Sampler):
@@ -15,24 +16,30 @@ class CEM(Sampler):
     mu <- (1 - a) mu + a mean(elite),  sigma^2 <- (1 - a) sigma^2 + a var(elite)
 
     smoothed by a, and a noise floor against stopping early (Szita and Lörincz, Neural Computation 18(12), 2006).
-    Arguments beside those of `Sampler`: elite: share of the trials that are learned from, at least two. smoothing: a.
-    floor: least standard deviation, as a share of ``step``; it shrinks by ``decay`` each generation.
+    Args:
+        space, seed: See `Sampler`.
+        elite: Share of the trials that are learned from; at least two are.
+        smoothing: The share a above.
+        floor: Least standard deviation, as a share of the first step.
+        decay: Factor on the floor in each generation.
+
+    Raises:
+        LevadeError: If one of them is not a share.
     """
+
+    SETTINGS = ("elite", "smoothing", "floor", "decay")
 
     def __init__(
         self,
-        mean: Array,
+        space: SearchSpace,
         *,
-        factor: Array | None = None,
-        step: float,
         seed: int | tuple[int, ...],
-        population: int | None = None,
         elite: float = 0.25,
         smoothing: float = 0.5,
         floor: float = 0.5,
         decay: float = 0.98,
     ) -> None:
-        super().__init__(mean, factor=factor, step=step, seed=seed, population=population)
+        super().__init__(space, seed=seed)
         self._elite = max(2, round(checked_share("elite", elite) * (self.population - 1)))
         self._smoothing, self._decay = checked_share("smoothing", smoothing), checked_share("decay", decay)
         self._least = checked_share("floor", floor) * self._first_step

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.optimizers.sampling import Sampler, checked_positive, checked_share, softmax
-from levade.trajectory import Array
+from levade.optimizers.space import SearchSpace
 
 
 class MPPI(Sampler):
@@ -15,23 +16,28 @@ class MPPI(Sampler):
 
     with noise that shrinks from wide to narrow (as the outer loop of DIAL-MPC does: Xue et al., arXiv 2409.15610). As
     there, the temperature lambda is a share of the standard deviation of the costs, so that their unit does not matter.
-    Arguments beside those of `Sampler`: temperature: that share. decay: of the noise, each generation. floor: what it
-    shrinks to, as a share of the first.
+    Args:
+        space, seed: See `Sampler`.
+        temperature: That share.
+        decay: Factor on the noise in each generation.
+        floor: What the noise shrinks to, as a share of the first.
+
+    Raises:
+        LevadeError: If the temperature is not positive, or decay or floor is not a share.
     """
+
+    SETTINGS = ("temperature", "decay", "floor")
 
     def __init__(
         self,
-        mean: Array,
+        space: SearchSpace,
         *,
-        factor: Array | None = None,
-        step: float,
         seed: int | tuple[int, ...],
-        population: int | None = None,
         temperature: float = 0.1,
         decay: float = 0.97,
         floor: float = 0.01,
     ) -> None:
-        super().__init__(mean, factor=factor, step=step, seed=seed, population=population)
+        super().__init__(space, seed=seed)
         self._temperature = checked_positive("temperature", temperature)
         self._decay, self._floor = checked_share("decay", decay), checked_share("floor", floor)
         self._step = self._first_step

@@ -12,8 +12,9 @@ import math
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.optimizers.sampling import Sampler, checked_positive, checked_share, softmax
-from levade.trajectory import Array
+from levade.optimizers.space import SearchSpace
 
 
 def probabilities(cost: Array, eliteness: float) -> Array:
@@ -33,22 +34,28 @@ class PI2(Sampler):
     theta <- sum_k P_k theta_k
 
     and exploration that is not learned, but shrinks by ``decay`` each generation, down to ``floor`` of the first.
-    Arguments beside those of `Sampler`: eliteness: h of the probabilities. decay, floor: shares.
+    Args:
+        space, seed: See `Sampler`.
+        eliteness: h of the probabilities.
+        decay: Factor on the exploration in each generation.
+        floor: What the exploration shrinks to, as a share of the first.
+
+    Raises:
+        LevadeError: If the eliteness is not positive, or decay or floor is not a share.
     """
+
+    SETTINGS = ("eliteness", "decay", "floor")
 
     def __init__(
         self,
-        mean: Array,
+        space: SearchSpace,
         *,
-        factor: Array | None = None,
-        step: float,
         seed: int | tuple[int, ...],
-        population: int | None = None,
         eliteness: float = 10.0,
         decay: float = 0.98,
         floor: float = 0.01,
     ) -> None:
-        super().__init__(mean, factor=factor, step=step, seed=seed, population=population)
+        super().__init__(space, seed=seed)
         self._eliteness = checked_positive("eliteness", eliteness)
         self._decay, self._floor = checked_share("decay", decay), checked_share("floor", floor)
         self._step = self._first_step
@@ -73,25 +80,29 @@ class PI2CMA(Sampler):
 
     Sigma <- sum_k P_k (theta_k - theta)(theta_k - theta)'        (their eq. 17; theta is the mean before the update)
 
-    Arguments beside those of `Sampler`: eliteness: h of the probabilities. rate: share of the new covariance, the rest
-    is the old one; 0.5 / sqrt(m) if None: the paper's 1 is too much where a full covariance has far more
-    entries than a generation has trials. floor: standard deviation that is
-    always there, as a share of ``step``.
+    Args:
+        space, seed: See `Sampler`.
+        eliteness: h of the probabilities.
+        rate: Share of the new covariance in the next one. Defaults to 0.5 / sqrt(m): the paper's 1 is too much where a full
+            covariance has far more entries than a generation has trials.
+        floor: Standard deviation that is always added, as a share of the first step.
+
+    Raises:
+        LevadeError: If the eliteness is not positive, or rate or floor is not a share.
     """
+
+    SETTINGS = ("eliteness", "rate", "floor")
 
     def __init__(
         self,
-        mean: Array,
+        space: SearchSpace,
         *,
-        factor: Array | None = None,
-        step: float,
         seed: int | tuple[int, ...],
-        population: int | None = None,
         eliteness: float = 10.0,
         rate: float | None = None,
         floor: float = 0.0001,
     ) -> None:
-        super().__init__(mean, factor=factor, step=step, seed=seed, population=population)
+        super().__init__(space, seed=seed)
         self._eliteness = checked_positive("eliteness", eliteness)
         self._rate = checked_share("rate", 0.5 / math.sqrt(self._centre.size) if rate is None else rate)
         self._floor = checked_share("floor", floor)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from levade.arrays import Array
 from levade.optimizers.sampling import Sampler
-from levade.trajectory import Array
 
 
 class RandomSearch(Sampler):
-    """Samples round the start, always the same distribution (Brooks, Operations Research 6(2), 1958). Arguments as
-    `Sampler`; nothing is learned.
+    """Samples around the start, always from the same distribution (Brooks, Operations Research 6(2), 1958).
+
+    Nothing is learned. The arguments are those of `Sampler`.
     """
 
     @property

@@ -12,6 +12,7 @@ from levade.policies.groups import Follower, Group, independent_joints
 from levade.policies.kernels import GaussianKernels
 from levade.policies.policy import Policy, refine
 from levade.policies.smoothness import smoothness, smoothness_factor
+from levade.policies.tables import policy_from_dict, policy_to_dict
 
 __all__ = [
     "Ends",
@@ -20,6 +21,8 @@ __all__ = [
     "Group",
     "Policy",
     "independent_joints",
+    "policy_from_dict",
+    "policy_to_dict",
     "refine",
     "smoothness",
     "smoothness_factor",

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
-from levade.trajectory import Array
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from levade.arrays import Array
 from levade.errors import LevadeError
-from levade.trajectory import Array
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,8 @@ from typing import Literal
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
-from levade.trajectory import Array
 
 
 @dataclass(frozen=True)

@@ -14,16 +14,21 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.policies.ends import Ends
 from levade.policies.groups import Group, expansion
 from levade.policies.kernels import GaussianKernels
-from levade.trajectory import Array, JointReference
+from levade.trajectory import JointReference
 
 # Singular values of the basis below this share of the largest are left out of a fit: with kernels that overlap almost
 # entirely they ask for huge weights of opposite sign to follow details that no kernel can show.
 FIT_CUTOFF = 1e-4
 LINE_CUTOFF = 1e-2
+
+
+_HEARD = 0.05
+"""Share of the kernels' reference in a blended row below which that row says nothing about the weights."""
 
 
 @dataclass(frozen=True)
@@ -82,11 +87,14 @@ class Policy:
     @cached_property
     def _blend(self) -> tuple[Array, Array, Array, Array] | None:
         """What `Ends.blend` says at the end of each step up to the horizon, its rates by time [1/s] and [rad/s]."""
+        return self._blend_at(np.arange(1, self.horizon_steps + 1) / self.horizon_steps)
+
+    def _blend_at(self, share: Array) -> tuple[Array, Array, Array, Array] | None:
+        """The same at shares (rows,) of the horizon."""
         if self.ends is None:
             return None
-        steps = self.horizon_steps
-        factor, added, factor_rate, added_rate = self.ends.blend(np.arange(1, steps + 1) / steps)
-        horizon = steps * self.timestep
+        factor, added, factor_rate, added_rate = self.ends.blend(share)
+        horizon = self.horizon_steps * self.timestep
         return factor, added, factor_rate / horizon, added_rate / horizon
 
     @cached_property
@@ -110,33 +118,64 @@ class Policy:
         weights = self._checked(weights)
         n, rows = weights.shape[0], self.horizon_steps
         steps = rows + (self.hold_steps if hold_steps is None else hold_steps)
-        index, sign = self._expansion
-        w = weights.reshape(n, self.independent_joints, self.kernels.kernels)
-        # sum_i w_i Phi_i = w_1 + sum_i (w_i - w_1) Phi_i, as Phi sums to one: exact where all weights are equal
-        start = w[:, :, 0]
-        deviation = np.ascontiguousarray((w - start[:, :, None])[:, index].transpose(0, 2, 1))
-        phi, phi_rate = self.basis
         position = np.empty((n, steps, self.joints))
         velocity = np.empty((n, steps, self.joints))
-        # a stacked matmul is one product of the same shape per trial, whatever n: no bit depends on the batch
-        np.matmul(phi, deviation, out=position[:, :rows])
-        position[:, :rows] += start[:, None, index]
-        np.matmul(phi_rate, deviation, out=velocity[:, :rows])
-        # two columns of one product may differ in the last bit even where their weights agree, so followers are copied
-        for joint, leader in enumerate(self._leaders[index]):
-            if joint != leader:
-                np.multiply(position[:, :rows, leader], sign[joint], out=position[:, :rows, joint])
-                np.multiply(velocity[:, :rows, leader], sign[joint], out=velocity[:, :rows, joint])
-        if self._blend is not None:
-            factor, added, factor_rate, added_rate = self._blend
-            velocity[:, :rows] *= factor
-            velocity[:, :rows] += factor_rate * position[:, :rows]
-            velocity[:, :rows] += added_rate
-            position[:, :rows] *= factor
-            position[:, :rows] += added
+        self._evaluate(weights, self.basis, self._blend, position[:, :rows], velocity[:, :rows])
         position[:, rows:] = position[:, rows - 1 : rows]
         velocity[:, rows:] = 0.0
         return JointReference(position, velocity, self.timestep, rows)
+
+    def at(self, weights: Array, time: Array) -> tuple[Array, Array]:
+        """Evaluate eq. 3 at any instants.
+
+        Args:
+            weights: Policy weights [rad], shape (n, size).
+            time: Instants [s], shape (rows,), from 0 to the horizon T.
+
+        Returns:
+            Position [rad] and velocity [rad/s], shape (n, rows, joints); at the end of a step those of `reference`, up to
+            rounding.
+
+        Raises:
+            LevadeError: If the weights have another shape or are not finite.
+        """
+        weights = self._checked(weights)
+        horizon = self.horizon_steps * self.timestep
+        position = np.empty((len(weights), len(time), self.joints))
+        velocity = np.empty_like(position)
+        self._evaluate(weights, self.kernels.basis(time, horizon), self._blend_at(time / horizon), position, velocity)
+        return position, velocity
+
+    def _evaluate(
+        self,
+        weights: Array,
+        basis: tuple[Array, Array],
+        blend: tuple[Array, Array, Array, Array] | None,
+        position: Array,
+        velocity: Array,
+    ) -> None:
+        """Fill position and velocity, (n, rows, joints) each, from weights (n, size) and a basis of as many rows."""
+        index, sign = self._expansion
+        w = weights.reshape(len(weights), self.independent_joints, self.kernels.kernels)
+        # sum_i w_i Phi_i = w_1 + sum_i (w_i - w_1) Phi_i, as Phi sums to one: exact where all weights are equal
+        start = w[:, :, 0]
+        deviation = np.ascontiguousarray((w - start[:, :, None])[:, index].transpose(0, 2, 1))
+        # a stacked matmul is one product of the same shape per trial, whatever n: no bit depends on the batch
+        np.matmul(basis[0], deviation, out=position)
+        position += start[:, None, index]
+        np.matmul(basis[1], deviation, out=velocity)
+        # two columns of one product may differ in the last bit even where their weights agree, so followers are copied
+        for joint, leader in enumerate(self._leaders[index]):
+            if joint != leader:
+                np.multiply(position[:, :, leader], sign[joint], out=position[:, :, joint])
+                np.multiply(velocity[:, :, leader], sign[joint], out=velocity[:, :, joint])
+        if blend is not None:
+            factor, added, factor_rate, added_rate = blend
+            velocity *= factor
+            velocity += factor_rate * position
+            velocity += added_rate
+            position *= factor
+            position += added
 
     def hold(self, posture: ArrayLike) -> Array:
         """Weights that keep a posture (the paper's start for rearing).
@@ -176,6 +215,31 @@ class Policy:
         deviation = sampled - sampled[:, :, :1]
         missed = leader - sampled[:, :, :1] - deviation @ self.basis[0].T
         return (sampled + missed @ np.linalg.pinv(self.basis[0], rcond=cutoff).T).reshape(len(position), self.size)
+
+    def imitate(self, position: Array) -> Array:
+        """Weights whose reference, blended at its ends, is nearest to given joint motions.
+
+        As `fit` does for the kernels alone. Rows where the blend leaves little of the kernels' reference count little, and so
+        does what the given motions do there.
+
+        Args:
+            position: Joint angles at the end of each step up to the horizon [rad], shape (n, horizon_steps, joints).
+
+        Returns:
+            Policy weights [rad], shape (n, size).
+        """
+        if self._blend is None:
+            return self.fit(position)
+        factor, added = self._blend[0][:, 0], self._blend[1]
+        heard = np.flatnonzero(factor > _HEARD)
+        nearest = heard[np.abs(np.arange(len(factor))[:, None] - heard).argmin(axis=1)]
+        wanted = ((position - added) / np.maximum(factor, _HEARD)[:, None])[:, nearest]
+        leader = self.project(wanted).transpose(0, 2, 1)
+        rows = np.clip(np.round(self.kernels.means * self.horizon_steps).astype(int) - 1, 0, None)
+        sampled = leader[:, :, rows]
+        missed = (leader - sampled[:, :, :1] - (sampled - sampled[:, :, :1]) @ self.basis[0].T) * factor
+        solve = np.linalg.pinv(factor[:, None] * self.basis[0], rcond=FIT_CUTOFF)
+        return (sampled + missed @ solve.T).reshape(len(position), self.size)
 
     def project(self, angles: Array) -> Array:
         """(..., joints) angles [rad] to (..., independent_joints): each leader's angle and its followers', averaged."""

@@ -10,9 +10,9 @@ import math
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.policies.kernels import GaussianKernels
-from levade.trajectory import Array
 
 # Share of independent noise in every weight: keeps the covariance positive definite however long the length.
 NUGGET = 1e-6

@@ -23,13 +23,22 @@ from typing import Any
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError, did_you_mean
-from levade.motion import Motion
-from levade.policies import GaussianKernels
+from levade.motions import Motion
+from levade.motions.file import finite
 from levade.report.files import writing
-from levade.report.series import QUANTITIES, Progress, goals, policy_names, read_progress, short, trunk_values
+from levade.report.series import (
+    QUANTITIES,
+    Progress,
+    goals,
+    kernels_of,
+    policy_names,
+    read_progress,
+    short,
+    trunk_values,
+)
 from levade.report.style import LIGHT, leg_colours
-from levade.trajectory import Array
 
 FORMATS = ("pdf", "svg", "png")
 
@@ -99,7 +108,7 @@ def figures(
     }
     if progress_csv is not None:
         progress = read_progress(progress_csv)
-        first = motion.meta["trials_to_success"]
+        first = motion.result.trials_to_success
         drawings["cost"] = lambda: _cost(progress, first)
     return write_figures(drawings, Path(directory), format)
 
@@ -167,7 +176,7 @@ def _line(label: str, **look: Any) -> Any:
 
 def _time_axis(axes: Any, motion: Motion, *, label: bool = True) -> None:
     """Time along x: the hold is shaded, and where it is long drawn to a shorter scale."""
-    horizon, end = float(motion.meta["horizon"]), float(motion["time"][-1])
+    horizon, end = motion.horizon, motion.duration
     axes.set_xlim(0.0, end)
     held = end - horizon > 1e-9
     if _squeezed(motion):  # the hold takes a quarter of the width
@@ -192,7 +201,7 @@ def _time_axis(axes: Any, motion: Motion, *, label: bool = True) -> None:
 
 
 def _squeezed(motion: Motion) -> bool:
-    return float(motion["time"][-1]) > 1.5 * float(motion.meta["horizon"])
+    return motion.duration > 1.5 * motion.horizon
 
 
 def _time_label(motion: Motion) -> str:
@@ -401,20 +410,20 @@ def _costs(progress: Mapping[str, Progress]) -> Any:
 
 def _joint_grid(motion: Motion) -> tuple[Any, list[tuple[Any, int, str]]]:
     """A column per leg, a row per joint of a leg. Returns the figure and its axes, joint indices and legs."""
-    legs, names = motion.meta["legs"], [str(name) for name in motion["joint_names"]]
-    depth = max(len(leg["joints"]) for leg in legs.values())
+    legs, names = motion.legs, motion.joint_names
+    depth = max(len(leg.joints) for leg in legs)
     figure, grid = _figure(PAGE, 0.75 + 1.3 * depth, depth, len(legs), sharex=True)
     places = []
-    for column, (name, leg) in enumerate(legs.items()):
+    for column, leg in enumerate(legs):
         for row in range(depth):
             axes = grid[row, column]
-            if row >= len(leg["joints"]):
+            if row >= len(leg.joints):
                 axes.set_visible(False)
                 continue
-            joint = leg["joints"][row]
-            axes.set_title(f"{name.upper()} {short(joint, name)}")
+            joint = leg.joints[row]
+            axes.set_title(f"{leg.name.upper()} {short(joint, leg.name)}")
             _time_axis(axes, motion, label=False)
-            places.append((axes, names.index(joint), name))
+            places.append((axes, names.index(joint), leg.name))
     figure.supxlabel(_time_label(motion), fontsize=7.5)
     return figure, places
 
@@ -440,7 +449,8 @@ def _shade_key() -> Any:
 
 def _joints(motion: Motion) -> Any:
     figure, places = _joint_grid(motion)
-    limits, colours = motion.meta["limits"], leg_colours(motion.meta["legs"], LIGHT)
+    limits, colours = motion.embodiment.limits, leg_colours(motion.legs, LIGHT)
+    lower, upper = finite(limits.lower), finite(limits.upper)
     for axes, joint, leg in places:
         axes.plot(motion["time"], motion["joint_position"][:, joint], color=colours[leg])
         axes.plot(
@@ -451,7 +461,7 @@ def _joints(motion: Motion) -> Any:
             linestyle=_STYLES[1],
         )
         _at_least(axes, 0.1)
-        _beyond(axes, limits["lower"][joint], limits["upper"][joint])
+        _beyond(axes, lower[joint], upper[joint])
     _label_rows(figure, places, "angle [rad]")
     reference = _line("reference", color=LIGHT.measured, linewidth=0.9, linestyle=_STYLES[1])
     _key(figure, [reference, _line("measured", color=colours[places[0][2]]), _shade_key()], 3)
@@ -468,8 +478,8 @@ def _label_rows(figure: Any, places: Sequence[tuple[Any, int, str]], label: str)
 
 def _limited(motion: Motion, array: str, what: str, unit: str) -> Any:
     figure, places = _joint_grid(motion)
-    limits = motion.meta["limits"]["torque" if what == "torque" else "velocity"]
-    colours = leg_colours(motion.meta["legs"], LIGHT)
+    limits = finite(getattr(motion.embodiment.limits, "torque" if what == "torque" else "velocity"))
+    colours = leg_colours(motion.legs, LIGHT)
     for axes, joint, leg in places:
         axes.plot(motion["time"], motion[array][:, joint], color=colours[leg])
         _at_least(axes, 1.0)
@@ -482,8 +492,8 @@ def _limited(motion: Motion, array: str, what: str, unit: str) -> Any:
 
 def _foot_forces(motion: Motion) -> Any:
     figure, grid = _figure(COLUMN, 3.4, 2, 1, sharex=True)
-    force, legs = motion["foot_contact_force"], motion.meta["legs"]
-    colours = leg_colours(legs, LIGHT)
+    force, legs = motion["foot_contact_force"], [leg.name for leg in motion.legs]
+    colours = leg_colours(motion.legs, LIGHT)
     looks = {leg: {"color": colours[leg], "linestyle": _STYLES[k % 4], "linewidth": 1.1} for k, leg in enumerate(legs)}
     for row, (values, label) in enumerate(
         ((force[..., 2], "vertical [N]"), (np.hypot(force[..., 0], force[..., 1]), "horizontal [N]"))
@@ -501,8 +511,7 @@ def _foot_forces(motion: Motion) -> Any:
 
 
 def _kernels(motion: Motion) -> Any:
-    choice, horizon = motion.meta["task"]["policy"], float(motion.meta["horizon"])
-    kernels = GaussianKernels(choice["kernels"], choice["variance"], choice["time"])
+    kernels, horizon = kernels_of(motion), motion.horizon
     weights = motion["weights"].reshape(-1, kernels.kernels)
     time = np.linspace(0.0, horizon, 301)
     phi, _ = kernels.basis(time, horizon)
@@ -520,7 +529,7 @@ def _kernels(motion: Motion) -> Any:
     top.set_ylabel(r"$\varphi_i / \Sigma_j \varphi_j$ [-]")
     top.set_xlim(0.0, horizon)
     top.set_ylim(0.0, None)
-    named = policy_names(motion, kernels, weights)
+    named = policy_names(motion, len(weights))
     for k, (w, name) in enumerate(zip(weights, named, strict=True)):
         axes = figure.add_subplot(specification[1 + k // columns, k % columns])
         axes.plot(time, phi @ w, color=LIGHT.measured)

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from levade.trajectory import Array
+from levade.arrays import Array
 
 UNIT = 32767
 """An int16 of this size stands for 1, in what `pack_unit` writes."""

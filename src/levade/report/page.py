@@ -13,11 +13,11 @@ import json
 import math
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from levade import __version__
 from levade.errors import LevadeError
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.report.files import writing
 from levade.report.scene import scene_data
 from levade.report.series import read_progress, series_data
@@ -84,15 +84,26 @@ def page(motion: Motion, *, progress_csv: str | Path | None = None, source: str 
     return assembled(f"{provenance['task']} on {provenance['robot']}, seed {provenance['seed']}", data, "report")
 
 
-def assembled(title: str, data: Any, bundle: str) -> str:
-    """A page that needs nothing else: look and script of a bundle of web/, and the data that the script reads."""
+def assembled(title: str, data: Any, entry: Literal["report", "live"]) -> str:
+    """Build a page that needs nothing else.
+
+    Args:
+        title: The page's title.
+        data: What the script reads, JSON.
+        entry: The function of web/src/levade.js that the page calls. Served pages ("live") have a style sheet more.
+
+    Returns:
+        The page as HTML.
+    """
+    style = stylesheet() + _bundled("style.css") + (_bundled("live.css") if entry == "live" else "")
+    script = f"{_bundled('levade.js')}levade.{entry}();"
     return _PAGE.format(
         mark=_MARK,
         version=__version__,
         title=html.escape(title),
-        style=stylesheet() + _bundled(f"{bundle}.css").replace("</style", "<\\/style"),
+        style=style.replace("</style", "<\\/style"),
         data=_json(data),
-        script=_bundled(f"{bundle}.js").replace("</script", "<\\/script").replace("<!--", "<\\!--"),
+        script=script.replace("</script", "<\\/script").replace("<!--", "<\\!--"),
     )
 
 

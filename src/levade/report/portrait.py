@@ -16,14 +16,15 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.report.files import writing
 from levade.report.rendering import FIELD_OF_VIEW, Camera, Renderer, View, outline
 from levade.report.style import LIGHT, leg_colours
 from levade.report.video import load_pillow
 from levade.robots import Leg, Robot
+from levade.robots.addresses import Addresses
 from levade.scenes import Scene, compose
-from levade.trajectory import Array
 
 _SIZE = (1600, 1000)
 _EDGE = 24.0
@@ -87,10 +88,9 @@ def _column(pillow: Any, robot: Robot) -> float:
 def _standing(robot: Robot, model: Any) -> Any:
     """Kinematics on the ground, level."""
     data = mujoco.MjData(model)
-    start = int(model.jnt_qposadr[model.body(robot.trunk).jntadr[0]])
-    data.qpos[start : start + 7] = [0.0, 0.0, robot.neutral_height, 1.0, 0.0, 0.0, 0.0]
-    for joint, angle in zip(robot.joint_names, robot.postures["neutral"], strict=True):
-        data.joint(joint).qpos[0] = angle
+    at = Addresses.of(model, robot.trunk, robot.joint_names)
+    data.qpos[at.trunk_pose] = [0.0, 0.0, robot.neutral_height, 1.0, 0.0, 0.0, 0.0]
+    data.qpos[at.joint_qpos] = robot.postures["neutral"]
     mujoco.mj_kinematics(model, data)
     return data
 
@@ -118,7 +118,7 @@ class _Eye:
 
 
 def _labels(robot: Robot, data: Any, eye: _Eye) -> list[Label]:
-    colours = leg_colours({leg.name: {"side": leg.side, "end": leg.end} for leg in robot.legs}, LIGHT)
+    colours = leg_colours(robot.legs, LIGHT)
     labels: list[list[Label]] = []
     for leg in robot.legs:
         seen = [(eye.see(place), name, what) for place, name, what in _places(data, leg)]

@@ -23,11 +23,11 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from levade.arrays import Array
 from levade.errors import LevadeError
-from levade.motion import Motion
+from levade.motions import Motion, configurations
 from levade.report.style import LIGHT
 from levade.scenes.scene import GROUND
-from levade.trajectory import Array
 
 Image = NDArray[np.uint8]
 
@@ -200,28 +200,9 @@ class Renderer:
 
 
 def replay(motion: Motion) -> Poses:
-    """Simulate the motion from its file; take it as recorded if another engine than MuJoCo made it."""
+    """The robot's poses in a motion, as recorded: the start, then every row."""
     model = motion.compiled()
-    if motion.meta["engine"] != "mujoco":
-        return _recorded(motion, model)
-    data = mujoco.MjData(model)
-    data.qpos[:], data.qvel[:], data.act[:] = motion["qpos0"], motion["qvel0"], motion["act0"]
-    qpos = np.empty((len(motion["ctrl"]) + 1, model.nq))
-    qpos[0] = data.qpos
-    for row, ctrl in enumerate(motion["ctrl"], start=1):
-        data.ctrl[:] = ctrl
-        mujoco.mj_step(model, data)
-        qpos[row] = data.qpos
-    return Poses(model, np.concatenate([[0.0], motion["time"]]), qpos)
-
-
-def _recorded(motion: Motion, model: Any) -> Poses:
-    qpos = np.repeat(motion["qpos0"][None], len(motion["time"]) + 1, axis=0)
-    root = int(model.jnt_qposadr[model.body(motion.meta["trunk"]).jntadr[0]])
-    qpos[1:, root : root + 3], qpos[1:, root + 3 : root + 7] = motion["trunk_position"], motion["trunk_quaternion"]
-    for column, joint in enumerate(motion["joint_names"]):
-        qpos[1:, int(model.joint(str(joint)).qposadr[0])] = motion["joint_position"][:, column]
-    return Poses(model, np.concatenate([[0.0], motion["time"]]), qpos)
+    return Poses(model, np.concatenate([[0.0], motion["time"]]), configurations(motion, model))
 
 
 def outline(model: Any, qpos: Array) -> Array:

@@ -12,19 +12,22 @@ recorded rows, never of a time between: the first is the start, the horizon's an
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from levade.motion import Motion
+from levade.arrays import Array
+from levade.costs import Criterion
+from levade.motions import Motion, configurations
 from levade.report.packing import pack, pack_unit
-from levade.report.rendering import FIELD_OF_VIEW, Camera, replay
+from levade.report.rendering import FIELD_OF_VIEW, Camera
 from levade.report.shapes import moving_bodies, shapes_of
 from levade.report.style import DARK, LIGHT, Theme, leg_colours
-from levade.trajectory import Array, roll_pitch_yaw
+from levade.robots import Leg
+from levade.rotations import roll_pitch_yaw
 
 Rows = NDArray[np.int64]
 
@@ -50,13 +53,13 @@ def scene_data(
     is compiled already. rate: [Hz], at most so many poses a second.
     """
     model = motion.compiled() if model is None else model
-    rows = frame_rows(len(motion["time"]), motion.horizon_steps, float(motion.meta["timestep"]), rate)
+    rows = frame_rows(motion.steps, motion.horizon_steps, motion.timestep, rate)
     qpos = configurations(motion, model)[rows]
     position, quaternion = body_poses(model, qpos)
     shapes = shapes_of(model) if like is None else like["model"]
     moving: dict[str, Any] = {
         "time": pack(np.concatenate([[0.0], motion["time"]])[rows]),
-        "horizon": float(motion.meta["horizon"]),
+        "horizon": motion.horizon,
         "position": pack(position),
         "quaternion": pack_unit(quaternion),
         "reference": _reference(motion, model, rows, qpos),
@@ -67,17 +70,17 @@ def scene_data(
     layers = _layers(shapes, moving)
     if like is not None:
         return {**like, "motion": moving, "layers": layers}
-    return put_together(motion.meta["robot"], motion.meta["legs"], shapes, moving, layers)
+    return put_together(motion.robot, motion.legs, shapes, moving, layers)
 
 
 def put_together(
     robot: str,
-    legs: Mapping[str, Mapping[str, Any]],
+    legs: Iterable[Leg],
     shapes: Mapping[str, Any],
     moving: Mapping[str, Any],
     layers: list[dict[str, Any]],
 ) -> dict[str, Any]:
-    """A scene of its parts. legs: as in a motion's meta."""
+    """A scene of its parts."""
     camera = Camera()
     return {
         "version": 1,
@@ -96,21 +99,6 @@ def frame_rows(steps: int, horizon_steps: int, timestep: float, rate: float = RA
     return np.unique(np.concatenate([np.arange(0, steps + 1, stride), [min(horizon_steps, steps), steps]]))
 
 
-def configurations(motion: Motion, model: Any) -> Array:
-    """(steps + 1, nq): the start, and what was recorded. Replayed, if the model has more joints than were recorded."""
-    free = int(model.body(motion.meta["trunk"]).jntadr[0])
-    root = int(model.jnt_qposadr[free])
-    joints = _joint_addresses(motion, model)
-    if model.nq != 7 + len(joints):
-        return replay(motion).qpos
-    qpos = np.tile(motion["qpos0"], (len(motion["time"]) + 1, 1))
-    qpos[1:, root : root + 3] = motion["trunk_position"]
-    qpos[1:, root + 3 : root + 7] = motion["trunk_quaternion"]
-    qpos[1:, joints] = motion["joint_position"]
-    sound = np.isfinite(qpos).all(axis=1)  # a trial that diverged stays where it last was
-    return qpos[np.maximum.accumulate(np.where(sound, np.arange(len(qpos)), 0))]
-
-
 def body_poses(model: Any, qpos: Array) -> tuple[Array, Array]:
     """(rows, bodies, 3) [m] and (rows, bodies, 4) x-y-z-w, continuous, of the bodies that move, at (rows, nq)."""
     bodies = moving_bodies(model)
@@ -126,10 +114,6 @@ def body_poses(model: Any, qpos: Array) -> tuple[Array, Array]:
     return position, quaternion
 
 
-def _joint_addresses(motion: Motion, model: Any) -> list[int]:
-    return [int(model.joint(str(name)).qposadr[0]) for name in motion["joint_names"]]
-
-
 def _recorded(values: Array, rows: Rows) -> Array:
     """Rows of something recorded at the end of each step; the start is like the first step. Never NaN."""
     return np.nan_to_num(values[np.maximum(rows - 1, 0)], posinf=0.0, neginf=0.0)
@@ -138,8 +122,8 @@ def _recorded(values: Array, rows: Rows) -> Array:
 def _reference(motion: Motion, model: Any, rows: Rows, qpos: Array) -> dict[str, Any]:
     """Poses of the legs at the reference angles, on the measured trunk: bodies (places), position, quaternion."""
     wanted = qpos.copy()
-    wanted[:, _joint_addresses(motion, model)] = _recorded(motion["joint_position_reference"], rows)
-    bodies, trunk = moving_bodies(model), model.body(motion.meta["trunk"]).id
+    wanted[:, motion.addresses(model).joint_qpos] = _recorded(motion["joint_position_reference"], rows)
+    bodies, trunk = moving_bodies(model), model.body(motion.trunk).id
     legs = [place for place, body in enumerate(bodies) if model.body_weldid[body] != model.body_weldid[trunk]]
     position, quaternion = body_poses(model, wanted)
     return {"bodies": legs, "position": pack(position[:, legs]), "quaternion": pack_unit(quaternion[:, legs])}
@@ -149,12 +133,12 @@ def _forces(motion: Motion, model: Any, rows: Rows) -> dict[str, Any]:
     """Contact force on each foot [N], and where: the foot's body (place), centre in it and radius [m], and leg."""
     places = {body: place for place, body in enumerate(moving_bodies(model))}
     feet = []
-    for name, leg in motion.meta["legs"].items():
-        geom = model.geom(leg["foot"])
+    for leg in motion.legs:
+        geom = model.geom(leg.foot)
         radius = float(np.min(geom.size[geom.size > 0], initial=geom.rbound[0])) if len(geom.size) else 0.0
         feet.append(
             {
-                "leg": name,
+                "leg": leg.name,
                 "body": places[int(geom.bodyid[0])],
                 "centre": np.round(geom.pos, 6).tolist(),
                 "radius": round(radius, 6),
@@ -177,9 +161,9 @@ def force_scale(force: float, length: float) -> float:
 
 def _reach(model: Any, motion: Motion) -> float:
     """[m], from the trunk along its longest leg."""
-    trunk, reaches = model.body(motion.meta["trunk"]).id, [0.1]
-    for leg in motion.meta["legs"].values():
-        geom = model.geom(leg["foot"])
+    trunk, reaches = model.body(motion.trunk).id, [0.1]
+    for leg in motion.legs:
+        geom = model.geom(leg.foot)
         body, reach = int(geom.bodyid[0]), float(np.linalg.norm(geom.pos))
         while body not in (0, trunk):
             reach += float(np.linalg.norm(model.body_pos[body]))
@@ -190,29 +174,28 @@ def _reach(model: Any, motion: Motion) -> float:
 
 def _goal(motion: Motion, model: Any) -> dict[str, Any] | None:
     """What is required of the trunk at the horizon."""
-    row = min(motion.horizon_steps, len(motion["time"])) - 1
+    row = min(motion.horizon_steps, motion.steps) - 1
     return goal_box(
         model,
-        motion.meta["trunk"],
-        np.asarray(motion.meta["trunk_com_offset"]),
-        motion.meta["task"].get("success") or {},
+        motion.trunk,
+        motion.embodiment.trunk_com_offset,
+        motion.task.success,
         motion["trunk_com_position"][row],
         motion["trunk_quaternion"][row],
     )
 
 
 def goal_box(
-    model: Any, trunk: str, com_offset: Array, criteria: Mapping[str, Any], centre: Array, attitude: Array
+    model: Any, trunk: str, com_offset: Array, criteria: Mapping[str, Criterion], centre: Array, attitude: Array
 ) -> dict[str, Any] | None:
-    """A box around the trunk where criteria, tables of a task, want it at the horizon; None if they do not say.
+    """A box around the trunk where criteria want it at the horizon; None if they do not say.
 
     centre (3,) [m], of mass, and attitude (4,) w-x-y-z of the trunk: for angles and coordinates that nothing is required of.
     """
     wanted = {}
-    for name, criterion in criteria.items():
-        quantity, at = criterion.get("quantity") or name, criterion.get("at") or "horizon"
-        if at == "horizon" and isinstance(criterion.get("target"), int | float):
-            wanted[quantity] = float(criterion["target"])
+    for criterion in criteria.values():
+        if criterion.at == "horizon" and criterion.target is not None:
+            wanted[criterion.quantity] = float(criterion.target)
     if not wanted.keys() & {"roll", "pitch", "yaw", "x", "y", "height"}:
         return None
     if not (np.isfinite(centre).all() and np.isfinite(attitude).all()):
@@ -279,7 +262,7 @@ def goal_text(wanted: Mapping[str, float]) -> str:
     return ", ".join(texts)
 
 
-def _palette(legs: Mapping[str, Mapping[str, Any]], theme: Theme) -> dict[str, Any]:
+def _palette(legs: Iterable[Leg], theme: Theme) -> dict[str, Any]:
     names = ("sky", "ground", "ground_line", "ghost", "goal", "limit", "accent", "muted")
     colours: dict[str, Any] = {name: getattr(theme, name) for name in names}
     return colours | {"legs": list(leg_colours(legs, theme).values())}

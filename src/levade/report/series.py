@@ -1,7 +1,7 @@
 """What a motion's figures and page draw, as numbers: curves over time, goals, limits, the search, the policies.
 
 series_data(motion, progress)      # JSON for the page; web/src/plots.js draws it
-trunk_values(motion), goals(motion), read_progress(path), policy_names(motion, kernels, weights)
+trunk_values(motion), goals(motion), read_progress(path), policy_names(motion, count)
 """
 
 from __future__ import annotations
@@ -15,12 +15,14 @@ from typing import Any
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
-from levade.motion import Motion
+from levade.motions import Motion, ReferenceCurve
+from levade.motions.file import finite
 from levade.policies import GaussianKernels
 from levade.report.packing import pack
 from levade.report.style import leg_places
-from levade.trajectory import Array, roll_pitch_yaw
+from levade.rotations import roll_pitch_yaw
 
 _TOUCHES = 1.0
 """[N], contact force from which a foot counts as on the ground."""
@@ -67,31 +69,31 @@ def series_data(motion: Motion, progress: Progress | None = None) -> dict[str, A
 
     progress: of the motion's search; None for no curve of the cost.
     """
-    meta, names = motion.meta, [str(name) for name in motion["joint_names"]]
+    names, limits = motion.joint_names, motion.embodiment.limits
+    bounds = {key: finite(getattr(limits, key)) for key in ("lower", "upper", "velocity", "torque")}
     position, orientation = trunk_values(motion)
-    legs, limits = meta["legs"], meta["limits"]
-    places = leg_places(legs)
+    places = leg_places(motion.legs)
     force = motion["foot_contact_force"]
     return {
         "time": pack(motion["time"]),
-        "horizon": float(meta["horizon"]),
-        "end": float(motion["time"][-1]),
+        "horizon": motion.horizon,
+        "end": motion.duration,
         "trunk": {"position": pack(position), "orientation": pack(orientation), "goals": _goal_rows(motion)},
         "legs": [
             {
-                "name": name,
-                "colour": places[name],
+                "name": leg.name,
+                "colour": places[leg.name],
                 "joints": [
                     {
                         "index": names.index(joint),
                         "name": joint,
-                        "short": short(joint, name),
-                        **{key: limits[key][names.index(joint)] for key in ("lower", "upper", "velocity", "torque")},
+                        "short": short(joint, leg.name),
+                        **{key: values[names.index(joint)] for key, values in bounds.items()},
                     }
-                    for joint in leg["joints"]
+                    for joint in leg.joints
                 ],
             }
-            for name, leg in legs.items()
+            for leg in motion.legs
         ],
         "joints": {
             "reference": pack(motion["joint_position_reference"]),
@@ -104,7 +106,7 @@ def series_data(motion: Motion, progress: Progress | None = None) -> dict[str, A
             "horizontal": pack(np.hypot(force[..., 0], force[..., 1])),
             "touches": _TOUCHES,
         },
-        "cost": None if progress is None else cost_data(progress, meta["trials_to_success"]),
+        "cost": None if progress is None else cost_data(progress, motion.result.trials_to_success),
         "policy": _policy_data(motion),
     }
 
@@ -133,12 +135,11 @@ def _numbers(values: Array) -> list[float | None]:
 
 def _policy_data(motion: Motion) -> dict[str, Any]:
     """The kernels over the horizon and, per policy, its weights at the kernels' means and what they add up to."""
-    choice, horizon = motion.meta["task"]["policy"], float(motion.meta["horizon"])
-    kernels = GaussianKernels(choice["kernels"], choice["variance"], choice["time"])
+    kernels, horizon = kernels_of(motion), motion.horizon
     weights = motion["weights"].reshape(-1, kernels.kernels)
     time = np.linspace(0.0, horizon, 201)
     phi, _ = kernels.basis(time, horizon)
-    names = policy_names(motion, kernels, weights)
+    names = policy_names(motion, len(weights))
     return {
         "time": pack(time),
         "kernels": pack(phi),
@@ -147,6 +148,12 @@ def _policy_data(motion: Motion) -> dict[str, Any]:
             {"name": name, "weights": pack(w), "angle": pack(phi @ w)} for name, w in zip(names, weights, strict=True)
         ],
     }
+
+
+def kernels_of(motion: Motion) -> GaussianKernels:
+    """The kernels of the motion's policy."""
+    choice = motion.task.policy
+    return GaussianKernels(choice.kernels, choice.variance, choice.time)
 
 
 QUANTITIES = (("x", "y", "height"), ("roll", "pitch", "yaw"))
@@ -162,14 +169,11 @@ def trunk_values(motion: Motion) -> tuple[Array, Array]:
 
 def goals(motion: Motion) -> dict[str, list[tuple[float, float, float]]]:
     """Quantity -> goals: time [s], target, tolerance."""
-    horizon, end = float(motion.meta["horizon"]), float(motion["time"][-1])
     found: dict[str, list[tuple[float, float, float]]] = {}
-    for criterion in motion.meta["task"]["success"].values():
-        if criterion["target"] is not None and criterion["at"] in ("horizon", "end", "hold"):
-            when = horizon if criterion["at"] == "horizon" else end
-            found.setdefault(criterion["quantity"], []).append(
-                (when, criterion["target"], criterion["tolerance"] or 0.0)
-            )
+    for criterion in motion.task.success.values():
+        if criterion.target is not None and criterion.at in ("horizon", "end", "hold"):
+            when = motion.horizon if criterion.at == "horizon" else motion.duration
+            found.setdefault(criterion.quantity, []).append((when, criterion.target, criterion.tolerance or 0.0))
     return found
 
 
@@ -190,28 +194,17 @@ def short(joint: str, leg: str) -> str:
     return rest.upper() if len(rest) <= 4 else rest
 
 
-def policy_names(motion: Motion, kernels: GaussianKernels, weights: Array) -> list[str]:
-    """Which joints each policy moves, found by its reference: "LF, RF HAA". weights: (policies, kernels)."""
-    horizon = float(motion.meta["horizon"])
-    rows = motion.horizon_steps
-    phi, _ = kernels.basis(motion["time"][:rows], horizon)
-    reference = motion["joint_position_reference"][:rows]
-    legs = {joint: leg for leg, entry in motion.meta["legs"].items() for joint in entry["joints"]}
-    names, taken = [], set[int]()
-    for number, w in enumerate(weights):
-        wanted = phi @ w
-        same = [
-            (joint, sign)
-            for joint in range(reference.shape[1])
-            for sign in (1.0, -1.0)
-            if joint not in taken and np.abs(reference[:, joint] - sign * wanted).max() < 1e-6
-        ]
-        chosen = dict(reversed(same))
-        joints = [str(motion["joint_names"][joint]) for joint in sorted(chosen)]
-        taken |= set(chosen)
-        if not joints or any(joint not in legs for joint in joints):
-            names.append(", ".join(joints) or f"policy {number + 1}")
-            continue
-        name = short(joints[0], legs[joints[0]])
-        names.append(", ".join(legs[joint].upper() for joint in joints) + f" {name}")
+def policy_names(motion: Motion, count: int) -> list[str]:
+    """Name each policy after the joints that it moves: "LF, RF HAA". count: number of policies."""
+    policy = ReferenceCurve.of(motion).policy
+    if policy is None or policy.independent_joints != count:
+        return [f"policy {number + 1}" for number in range(count)]
+    legs = {joint: leg.name for leg in motion.legs for joint in leg.joints}
+    names = []
+    for group in policy.groups:
+        for k, leader in enumerate(group.leader):
+            indices = sorted([leader, *(follower.joints[k] for follower in group.followers)])
+            joints = [motion.joint_names[joint] for joint in indices]
+            name = short(joints[0], legs[joints[0]])
+            names.append(", ".join(legs[joint].upper() for joint in joints) + f" {name}")
     return names

@@ -18,10 +18,10 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from levade.arrays import Array
 from levade.report.packing import pack
 from levade.report.rendering import drawn_geoms
 from levade.scenes.scene import GROUND
-from levade.trajectory import Array
 
 TRIANGLES = 60_000
 """At most about so many of all meshes together: more make a page slow to open, and no prettier."""

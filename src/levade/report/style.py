@@ -2,7 +2,7 @@
 
     theme = LIGHT                                   # or DARK
     theme.goal, theme.limit                         # "#rrggbb"
-    leg_colours(motion.meta["legs"], theme)         # {"lf": "#0072b2", ...}
+    leg_colours(motion.legs, theme)         # {"lf": "#0072b2", ...}
 
 Hues keep one meaning: front legs are blue, hind legs orange; left is darker than right, so the four also differ in grey.
 x and roll are vermilion, y and pitch green, z and yaw blue. A reference is dashed, a measurement solid, a goal a thin
@@ -11,9 +11,10 @@ dashed line in the colour of its quantity, a limit a shaded band.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass
-from typing import Any
+
+from levade.robots import Leg
 
 SANS = ("Inter", "Segoe UI", "Roboto", "Helvetica Neue", "Arial", "DejaVu Sans", "sans-serif")
 """Font families in order of preference; all have tabular figures or are drawn with them."""
@@ -124,8 +125,8 @@ DARK = Theme(
 )
 
 
-def leg_colours(legs: Mapping[str, Mapping[str, Any]], theme: Theme) -> dict[str, str]:
-    """Colour of each leg: leg name -> "#rrggbb". legs: as in a motion's meta, with the keys ``end`` and ``side``."""
+def leg_colours(legs: Iterable[Leg], theme: Theme) -> dict[str, str]:
+    """Colour of each leg: leg name -> "#rrggbb"."""
     places = leg_places(legs)
     return {
         name: theme.others[int(place[5:])] if place.startswith("other") else getattr(theme, place.replace("-", "_"))
@@ -133,13 +134,13 @@ def leg_colours(legs: Mapping[str, Mapping[str, Any]], theme: Theme) -> dict[str
     }
 
 
-def leg_places(legs: Mapping[str, Mapping[str, Any]]) -> dict[str, str]:
+def leg_places(legs: Iterable[Leg]) -> dict[str, str]:
     """What each leg's colour is called in the stylesheet: leg name -> "front-left" and so on, or "other0"."""
     free = {f"{end}-{side}" for end in ("front", "hind") for side in ("left", "right")}
     places = {}
-    for number, (name, leg) in enumerate(legs.items()):
-        place = f"{leg.get('end')}-{leg.get('side')}"
-        places[name] = place if place in free else f"other{number % len(LIGHT.others)}"
+    for number, leg in enumerate(legs):
+        place = f"{leg.end}-{leg.side}"
+        places[leg.name] = place if place in free else f"other{number % len(LIGHT.others)}"
         free.discard(place)
     return places
 

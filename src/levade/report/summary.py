@@ -8,15 +8,15 @@ from __future__ import annotations
 
 import math
 import shlex
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
+from levade.costs import Criterion
 from levade.costs.success import CIRCULAR, QUANTITIES
-from levade.errors import LevadeError
-from levade.motion import Motion, cost_weights, met_on_the_model_only
-from levade.tasks import builtin_tasks, load_task, task_from_dict, task_to_dict, task_to_yaml
+from levade.motions import Motion
+from levade.tasks import builtin_tasks, load_task, task_to_yaml
 
 WHEN = {
     "horizon": "At the horizon T",
@@ -29,39 +29,38 @@ WHEN = {
 
 def summary_data(motion: Motion) -> dict[str, Any]:
     """Goal against result, peaks against limits, cost terms; SI units, null where there is no number."""
-    meta = motion.meta
-    criteria = [
-        _criterion(name, criterion, meta["errors"][name]) for name, criterion in meta["task"]["success"].items()
-    ]
+    result = motion.result
+    criteria = [_criterion(name, one, result.errors[name]) for name, one in motion.task.success.items()]
     terms = [
-        {"name": name, "value": value, "weight": cost_weights(meta)[name]} for name, value in meta["cost_terms"].items()
+        {"name": name, "value": value, "weight": result.cost_weights[name]} for name, value in result.cost_terms.items()
     ]
     return {
-        "success": bool(meta["success"]),
+        "success": result.success,
         "verdict": _verdict(motion, criteria),
         "criteria": criteria,
         "peaks": list(_peaks(motion)),
-        "cost": float(meta["cost"]),
+        "cost": result.cost,
         "terms": [term | {"weighted": term["weight"] * term["value"]} for term in terms],
-        "trials": int(meta["trials"]),
-        "trials_to_success": meta["trials_to_success"],
+        "trials": result.trials,
+        "trials_to_success": result.trials_to_success,
     }
 
 
-def _criterion(name: str, criterion: Mapping[str, Any], error: float) -> dict[str, Any]:
-    target, low, high = criterion["target"], criterion["minimum"], criterion["maximum"]
-    tolerance = criterion["tolerance"] or 0.0
+def _criterion(name: str, criterion: Criterion, error: float) -> dict[str, Any]:
+    target, low, high = criterion.target, criterion.minimum, criterion.maximum
+    tolerance = criterion.tolerance or 0.0
     if target is not None:
         result: float | None = target + error
-        if criterion["quantity"] in CIRCULAR:
+        if criterion.quantity in CIRCULAR:
             result = math.remainder(target + error, 2 * math.pi)
     else:
-        result = None if error == 0 else (low if error < 0 else high) + error
+        bound = low if error < 0 else high
+        result = None if error == 0 or bound is None else bound + error
     return {
         "name": name,
-        "quantity": criterion["quantity"],
-        "when": WHEN[criterion["at"]],
-        "unit": QUANTITIES[criterion["quantity"]],
+        "quantity": criterion.quantity,
+        "when": WHEN[criterion.at],
+        "unit": QUANTITIES[criterion.quantity],
         "target": target,
         "minimum": low,
         "maximum": high,
@@ -74,11 +73,11 @@ def _criterion(name: str, criterion: Mapping[str, Any], error: float) -> dict[st
 
 def _verdict(motion: Motion, criteria: list[dict[str, Any]]) -> str:
     missed = sum(not criterion["met"] for criterion in criteria)
-    if motion.meta["diverged"]:
+    if motion.result.diverged:
         return "the simulation diverged"
     if not criteria:
         return "nothing was required"
-    if met_on_the_model_only(motion.meta):
+    if motion.met_on_the_model_only:
         return "met on the model, but not on enough robots that differ from it"
     if not missed:
         return "every criterion met" if len(criteria) > 1 else "its criterion met"
@@ -87,13 +86,12 @@ def _verdict(motion: Motion, criteria: list[dict[str, Any]]) -> str:
 
 def _peaks(motion: Motion) -> Iterator[dict[str, Any]]:
     """The joint that comes nearest to its limit, or goes furthest beyond, in torque and speed; and in its range."""
-    limits, names = motion.meta["limits"], [str(name) for name in motion["joint_names"]]
-    for what, unit, array, limit in (
-        ("torque", "Nm", "joint_torque", limits["torque"]),
-        ("speed", "rad/s", "joint_velocity", limits["velocity"]),
+    limits, names = motion.embodiment.limits, motion.joint_names
+    for what, unit, array, bounds in (
+        ("torque", "Nm", "joint_torque", limits.torque),
+        ("speed", "rad/s", "joint_velocity", limits.velocity),
     ):
         peak = np.abs(motion[array]).max(axis=0)
-        bounds = np.array([math.inf if value is None else value for value in limit])
         joint = int(np.argmax(peak / bounds)) if np.isfinite(bounds).any() else int(np.argmax(peak))
         bounded = math.isfinite(bounds[joint])
         yield {
@@ -104,8 +102,7 @@ def _peaks(motion: Motion) -> Iterator[dict[str, Any]]:
             "limit": float(bounds[joint]) if bounded else None,
             "share": float(peak[joint] / bounds[joint]) if bounded else None,
         }
-    lower = np.array([-math.inf if value is None else value for value in limits["lower"]])
-    upper = np.array([math.inf if value is None else value for value in limits["upper"]])
+    lower, upper = limits.lower, limits.upper
     if not (np.isfinite(lower) & np.isfinite(upper)).any():
         return
     with np.errstate(invalid="ignore"):
@@ -127,27 +124,23 @@ def provenance_data(motion: Motion) -> dict[str, Any]:
     task_yaml: the task with every default filled in. command: as typed in a shell; where the task differs from the
     built-in one of its name, it speaks of a task.yaml, which is ``task_yaml``.
     """
-    meta = motion.meta
-    name = meta["task"]["name"]
-    known = name in builtin_tasks() and task_to_dict(load_task(name)) == meta["task"]
-    try:
-        text = task_to_yaml(task_from_dict(dict(meta["task"]), where=name))
-    except LevadeError:  # it speaks of files that are not here
-        text = None
+    task, result, origin = motion.task, motion.result, motion.provenance
+    name = task.name
+    known = name in builtin_tasks() and load_task(name) == task
     return {
         "task": name,
-        "description": meta["task"]["description"],
-        "robot": meta["robot"],
-        "seed": meta["seed"],
-        "timestep": meta["timestep"],
-        "horizon": meta["horizon"],
-        "hold": max(0.0, float(motion["time"][-1]) - meta["horizon"]),
-        "engine": meta["engine"],
-        "versions": meta["versions"],
-        "trials": meta["trials"],
-        "trials_to_success": meta["trials_to_success"],
-        "stopped": meta["stopped"],
-        "command": shlex.join(["levade", "solve", name if known else "task.yaml", "--seed", str(meta["seed"])]),
+        "description": task.description,
+        "robot": motion.robot,
+        "seed": origin.seed,
+        "timestep": motion.timestep,
+        "horizon": motion.horizon,
+        "hold": motion.hold,
+        "engine": origin.engine,
+        "versions": origin.versions,
+        "trials": result.trials,
+        "trials_to_success": result.trials_to_success,
+        "stopped": result.stopped,
+        "command": shlex.join(["levade", "solve", name if known else "task.yaml", "--seed", str(origin.seed)]),
         "builtin": known,
-        "task_yaml": text,
+        "task_yaml": task_to_yaml(task, code=True),
     }

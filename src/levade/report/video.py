@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from levade.errors import LevadeError, did_you_mean
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.report.files import writing
 from levade.report.rendering import Camera, Image, Poses, Renderer, View, outline, replay
 from levade.report.style import LIGHT
@@ -135,7 +135,7 @@ def strip(
 
 def frame_times(motion: Motion, *, slow: float, fps: int) -> list[float]:
     """Time in the motion [s] of each picture: slowed down to the horizon, at true speed in the hold."""
-    horizon, end = float(motion.meta["horizon"]), float(motion["time"][-1])
+    horizon, end = motion.horizon, motion.duration
     moving = max(1, round(horizon * slow * fps))
     held = round((end - horizon) * fps)
     return [horizon * k / moving for k in range(moving + 1)] + [
@@ -145,7 +145,7 @@ def frame_times(motion: Motion, *, slow: float, fps: int) -> list[float]:
 
 def strip_times(motion: Motion, n: int) -> list[float]:
     """Times [s] of the n poses of a strip."""
-    horizon, end = float(motion.meta["horizon"]), float(motion["time"][-1])
+    horizon, end = motion.horizon, motion.duration
     held = [end] if end - horizon > 1e-9 and n > 2 else []
     moving = n - len(held)
     return [horizon * k / (moving - 1) for k in range(moving)] + held if moving > 1 else [horizon]
@@ -170,7 +170,7 @@ def _frames(
         )
         points = points - shift
     view = camera.frame(points, aspect=size[0] / size[1])
-    horizon = float(motion.meta["horizon"])
+    horizon = motion.horizon
     with Renderer(motion, size, shadows=4) as renderer:
         for number, time in enumerate(times, start=1):
             image = renderer.image(poses.at(time), _follow(camera, view, motion, time))

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from levade.trajectory import Array
+from levade.arrays import Array
 
 # MjsActuator.ctrlspec, a bit per input: "pos" is 1, "vel" is 2
 _POSITION_AND_VELOCITY = 3

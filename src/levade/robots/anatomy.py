@@ -67,6 +67,7 @@ def understand(draft: Draft, path: Path, form: RobotForm) -> tuple[Bare, Followe
         )
     free = int(model.body_jntadr[trunk])
     movable = [model.joint(j).name for j in range(model.njnt) if j != free]
+    draft.joints = movable
     fixed = per_joint(form.fixed, movable, f"{path}: fixed", all_joints=False)
     draft.couplings = [c for c in draft.couplings if c.follower not in fixed]
     _check_followers(draft.couplings, path, form)

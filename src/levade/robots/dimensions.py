@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.robots.robot import Leg, Robot
-from levade.trajectory import Array
 
 GRAVITY = 9.81
 """[m/s^2]"""

@@ -18,6 +18,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.robots.dimensions import dimensions
 from levade.robots.findings import Finding, named, note, some, warning
@@ -28,7 +29,6 @@ from levade.robots.shapes import support
 from levade.robots.standing import Bare
 from levade.robots.symmetry import mirror_signs
 from levade.robots.understanding import Leg, joint_positions, moved_bodies
-from levade.trajectory import Array
 
 _MASS = (0.2, 500.0)  # kg, of a robot
 _DOWN = np.array([0.0, 0.0, -1.0])

@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from levade.arrays import Array
+from levade.embodiment import JointLimits
 from levade.robots import gains
 from levade.robots.actuation import PID, Actuation, DCMotor
 from levade.robots.findings import named, note, warning
 from levade.robots.reading import Draft
 from levade.robots.standing import Bare
-from levade.trajectory import Array, JointLimits
 
 if TYPE_CHECKING:
     from levade.robots.description import RobotForm

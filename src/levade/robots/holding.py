@@ -9,11 +9,11 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.robots.inertias import survive_text
 from levade.robots.reading import Draft
 from levade.robots.world import delete_tendons
-from levade.trajectory import Array
 
 _HINGE, _SLIDE, _BALL = mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE, mujoco.mjtJoint.mjJNT_BALL
 

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
-from levade.trajectory import Array
 
 if TYPE_CHECKING:
     from levade.robots.reading import Draft

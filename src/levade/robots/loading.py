@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from levade.embodiment import JointLimits, TorqueCurve
 from levade.errors import LevadeError, did_you_mean
 from levade.robots.actuation import DCMotor
 from levade.robots.anatomy import understand
@@ -26,7 +27,6 @@ from levade.robots.preparing import (
 from levade.robots.reading import Draft, read_model
 from levade.robots.robot import Robot
 from levade.robots.visuals import thin_visuals
-from levade.trajectory import JointLimits, TorqueCurve
 
 if TYPE_CHECKING:
     from levade.robots.description import RobotForm
@@ -116,8 +116,9 @@ def load_robot(
         linkage=linkage,
         source=str(path),
         findings=tuple(draft.findings),
-        held=dict(draft.held),
         origins=draft.origins,
+        held={joint: draft.held[joint] for joint in [*draft.joints, *draft.held] if joint in draft.held},
+        model_joints=tuple(draft.joints),
     )
 
 

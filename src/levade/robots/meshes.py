@@ -9,9 +9,9 @@ from pathlib import Path, PurePosixPath
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.robots.files import is_pointer, pointer_problem
-from levade.trajectory import Array
 
 READABLE = (".stl", ".obj", ".msh")
 """Suffixes that MuJoCo reads."""

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.robots.anatomy import Followers, bare_robot
 from levade.robots.findings import named, note
@@ -14,7 +15,6 @@ from levade.robots.holding import hold_elsewhere
 from levade.robots.loops import say_followers
 from levade.robots.reading import Draft
 from levade.robots.standing import CROUCHED_EXTENSION, NEUTRAL_EXTENSION, STRETCHED_EXTENSION, Bare, neutral_from
-from levade.trajectory import Array
 
 if TYPE_CHECKING:
     from levade.robots.description import RobotForm

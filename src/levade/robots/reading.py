@@ -17,6 +17,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.robots.assets import compile_readable, read_assets
 from levade.robots.files import parts, read_xml
@@ -28,7 +29,6 @@ from levade.robots.ranges import check_ranges, doubt_ranges
 from levade.robots.servos import Servo, read_servos
 from levade.robots.urdf import read_urdf
 from levade.robots.world import collide_as_paired, float_alone, leave_only, robot_root
-from levade.trajectory import Array
 
 _UNITS = "kg and kg m2"
 _FUSED = " The static bodies of the spec were fused before this error, and remain so."
@@ -54,7 +54,7 @@ class Draft:
     effort [Nm], velocity [rad/s]: joint -> limit, of those that have one. servos: joint -> position servo.
     driven: joints of an MJCF that an actuator drives. couplings: joints that follow others. loops: bodies that were
     held together. held: joint that was taken out -> its angle [rad], or [m]. origins: what of the robot came from where,
-    see `Robot`.
+    see `Robot`. joints: of the file except the free one, in its order.
     """
 
     path: Path
@@ -71,6 +71,7 @@ class Draft:
     held: dict[str, float] = field(default_factory=dict)
     findings: list[Finding] = field(default_factory=list)
     origins: dict[str, str] = field(default_factory=dict)
+    joints: list[str] = field(default_factory=list)
 
     def compile(self) -> mujoco.MjModel:
         """The model. Raises LevadeError in one line."""

@@ -19,12 +19,13 @@ from functools import cached_property
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
+from levade.embodiment import Embodiment, JointLimits, LegGeometry
 from levade.errors import LevadeError, did_you_mean
 from levade.robots.actuation import Actuation
 from levade.robots.findings import Finding
 from levade.robots.shapes import support
 from levade.robots.understanding import Leg
-from levade.trajectory import Array, JointLimits, LegGeometry
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,8 +38,9 @@ class Robot:
     variant: name of the description's variant, None for the plain model.
     linkage: whether ``limits`` has the linkage's torque curves. source: the description's path, for messages.
     findings: what was noticed, chosen and left out when the robot was read.
-    held: joint of the file that is held fixed -> its angle [rad], or place [m] of a slide.
     origins: of "legs", "neutral", "torque", "velocity", "gains" and, where there are such joints, "fixed": what decided.
+    held: joints of the file that are held fixed -> where [rad], slides [m].
+    model_joints: all joints of the file except the free one, in its order, with those that are held.
     """
 
     name: str
@@ -54,8 +56,9 @@ class Robot:
     linkage: bool = False
     source: str = ""
     findings: tuple[Finding, ...] = ()
-    held: Mapping[str, float] = field(default_factory=dict)
     origins: Mapping[str, str] = field(default_factory=dict, repr=False)
+    held: Mapping[str, float] = field(default_factory=dict, repr=False)
+    model_joints: tuple[str, ...] = ()
 
     @property
     def joint_names(self) -> tuple[str, ...]:
@@ -188,6 +191,18 @@ class Robot:
                 )
             )
         return tuple(geometry)
+
+    @cached_property
+    def embodiment(self) -> Embodiment:
+        """The robot as simulations, costs and motion files know it."""
+        return Embodiment(
+            trunk=self.trunk,
+            joint_names=self.joint_names,
+            feet=self.feet,
+            limits=self.limits,
+            trunk_com_offset=self.trunk_com_offset,
+            legs=self.leg_geometry,
+        )
 
     @cached_property
     def mass(self) -> float:

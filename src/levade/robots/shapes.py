@@ -5,7 +5,7 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
-from levade.trajectory import Array
+from levade.arrays import Array
 
 
 def support(model: mujoco.MjModel, data: mujoco.MjData, geom: int, direction: Array) -> Array:

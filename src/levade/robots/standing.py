@@ -9,10 +9,10 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.robots.reading import Keyframe
 from levade.robots.shapes import tip
 from levade.robots.understanding import Leg
-from levade.trajectory import Array
 
 NEUTRAL_EXTENSION = (0.75, 0.8, 0.85, 0.9)
 """Hip above foot as a share of the leg's length: the first at which the joints can carry the robot is the neutral one."""

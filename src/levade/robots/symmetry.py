@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.robots.robot import Robot
 from levade.robots.understanding import Leg
-from levade.trajectory import Array
 
 _ANGLE_TOLERANCE = np.radians(1.0)
 _DISTANCE_TOLERANCE = 0.02  # m

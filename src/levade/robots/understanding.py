@@ -12,10 +12,10 @@ from dataclasses import dataclass, field
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.robots.findings import some
 from levade.robots.shapes import reach
-from levade.trajectory import Array
 
 LEG_NAMES = {("left", "front"): "lf", ("right", "front"): "rf", ("left", "hind"): "lh", ("right", "hind"): "rh"}
 """(side, end) -> the name that levade gives a leg."""

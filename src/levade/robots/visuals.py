@@ -5,9 +5,9 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.robots.meshes import cluster, stl
 from levade.robots.reading import Draft
-from levade.trajectory import Array
 
 _SMALL = 150_000
 """[bytes]: meshes below it stay as they are."""

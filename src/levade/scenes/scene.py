@@ -9,10 +9,10 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.robots import Robot
 from levade.scenes.terrain import Gap, Terrain
-from levade.trajectory import Array
 
 GROUND, PLATFORM = "ground", "platform"
 """Name of the ground's geom; obstacles are named ``box0``, ``box1``, ..., ``terrain``, ground between gaps ``platform0``."""

@@ -9,8 +9,8 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError
-from levade.trajectory import Array
 
 MOST_HEIGHTS = 40_000
 """In one height field: they are all written to task files and motions."""

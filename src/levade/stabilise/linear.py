@@ -13,10 +13,12 @@ import mujoco
 import numpy as np
 from mujoco.batch import Batch
 
-from levade.engines.engine import Layout
-from levade.engines.simulating import RESET_OFF, SENSORS_OFF, STATE, quiet
+from levade.arrays import Array
+from levade.engines import Layout, State
+from levade.engines.batches import RESET_OFF, SENSORS_OFF, STATE, quiet
 from levade.feedback import sensed
-from levade.trajectory import Array, JointReference, rotate
+from levade.rotations import conjugate, rotate
+from levade.trajectory import JointReference
 
 UNSENSED = 4
 """Height and velocity of the trunk; after them come the states of the actuators."""
@@ -86,14 +88,14 @@ class Linear:
 def linearise(
     model: mujoco.MjModel,
     layout: Layout,
-    start: tuple[Array, Array, Array],
+    start: State,
     reference: JointReference,
     *,
     period: int,
     size: float = 0.6,
     threads: int = 0,
 ) -> Linear:
-    """Of a motion in MuJoCo. start: qpos, qvel, act. reference: of one trial. period: steps from tick to tick. size: [m], of
+    """Of a motion in MuJoCo. start: one row. reference: of one trial. period: steps from tick to tick. size: [m], of
     the robot.
     """
     model = copy.deepcopy(model)
@@ -124,10 +126,10 @@ def linearise(
     return Linear(np.array(a), np.array(b), state[:, : 6 + 2 * joints], state, drives)
 
 
-def _rows(model: mujoco.MjModel, start: tuple[Array, Array, Array], ctrl: Array, period: int) -> Array:
+def _rows(model: mujoco.MjModel, start: State, ctrl: Array, period: int) -> Array:
     """MuJoCo's states at the ticks of a motion, (ticks, size of a state)."""
     data = mujoco.MjData(model)
-    data.qpos[:], data.qvel[:], data.act[:] = start
+    data.qpos[:], data.qvel[:], data.act[:] = start.qpos[0], start.qvel[0], start.act[0]
     first = np.empty(mujoco.mj_stateSize(model, STATE))
     mujoco.mj_getState(model, data, first, STATE)
     batch = Batch(model, 1, 1)
@@ -141,7 +143,7 @@ def state_of(layout: Layout, qpos: Array, qvel: Array, act: Array | None = None)
     """(..., states) of MuJoCo's (..., nq), (..., nv) and (..., na)."""
     root, rate = layout.root_qpos, layout.root_qvel
     quaternion = qpos[..., root + 3 : root + 7]
-    inverse = quaternion * np.array([1.0, -1.0, -1.0, -1.0])
+    inverse = conjugate(quaternion)
     seen = sensed(
         quaternion, qvel[..., rate + 3 : rate + 6], qpos[..., layout.joint_qpos], qvel[..., layout.joint_qvel]
     )

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from levade.trajectory import Array
+from levade.arrays import Array
 
 
 def sweep(a: Array, b: Array, state: Array, correction: Array, value: Array) -> tuple[Array, Array]:

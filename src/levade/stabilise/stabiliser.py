@@ -9,16 +9,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from levade.check import Subject
-from levade.check.perturbed import Judged, judge
-from levade.engines import Perturbation
+from levade.arrays import Array
+from levade.engines import ENGINES, Perturbation, engine_kind
 from levade.engines.perturbation import Sample
 from levade.errors import LevadeError
 from levade.feedback import Feedback, SensorErrors
-from levade.motion import Motion
+from levade.motions import Motion, RecordedSimulation, Trials, run_trials
 from levade.stabilise.linear import Linear, Scales, linearise, state_of
 from levade.stabilise.regulator import expectation, project, steady, sweep
-from levade.trajectory import Array
 
 WEIGHED = Scales(attitude=0.03, height=0.03, speed=0.3, rate=1.0, joint=0.3, joint_speed=10.0, drive=math.inf)
 """Deviations at the end that cost 1 each; on the way, a tenth. Weighed are things of unlike sizes, so that all count."""
@@ -88,34 +86,39 @@ def stabilise(
     stopping: asked before each; once it says so, the best of those that were tried is the outcome.
     Raises LevadeError if the motion is not MuJoCo's, broke down, has no criteria, or a number makes no sense.
     """
-    subject = Subject(motion, threads=threads)
-    _check(subject, rate, bound, runs)
-    period = max(1, round(1.0 / (rate * subject.timestep)))
-    size = _size(subject)
+    simulation = RecordedSimulation(motion, threads=threads)
+    _check(simulation, rate, bound, runs)
+    period = max(1, round(1.0 / (rate * simulation.timestep)))
+    size = _size(simulation)
     linear = linearise(
-        subject.model, subject.layout, subject.start, subject.reference, period=period, size=size, threads=threads
+        simulation.model,
+        simulation.layout,
+        simulation.start,
+        simulation.reference,
+        period=period,
+        size=size,
+        threads=threads,
     )
-    ensemble = subject.ensemble()
     drawing = perturbation or Perturbation()
     sample, fresh = (
-        drawing.draw(ensemble.model, ensemble.joints, n=runs, seed=(seed, tag)) for tag in (_TRAINING, _JUDGING)
+        drawing.draw(simulation.model, simulation.joints, n=runs, seed=(seed, tag)) for tag in (_TRAINING, _JUDGING)
     )
-    expected = _expectations(subject, linear, sample, period)
+    expected = _expectations(simulation, linear, sample, period)
 
     def feedback(design: Design) -> Feedback:
-        gain = _gains(subject, linear, expected, design, size)
-        return Feedback(gain, linear.reference, period * subject.timestep, design.bound)
+        gain = _gains(simulation, linear, expected, design, size)
+        return Feedback(gain, linear.reference, period * simulation.timestep, design.bound)
 
-    def runs_of(design: Design | None, sample: Sample, tag: int, what: str = "") -> Judged:
+    def runs_of(design: Design | None, sample: Sample, tag: int, what: str = "") -> Trials:
         given = None if design is None else feedback(design)
-        found = judge(subject, ensemble, subject.reference, sample, feedback=given, seed=seed + tag)
+        found = run_trials(simulation, sample, feedback=given, seed=seed + tag)
         if tell is not None:
             tell(f"{what}{'no feedback' if design is None else _text(design)}: {found.success.mean():.1%}")
         return found
 
     scores: dict[Design | None, tuple[float, float]] = {}
     best, interrupted = Design(bound=min(Design.bound, bound)), False
-    hold = subject.reference.steps > subject.reference.horizon_steps
+    hold = simulation.reference.steps > simulation.reference.horizon_steps
     for change in (None, {}, *_designs(bound, hold=hold)):
         design = None if change is None else replace(best, **change)
         if design in scores:
@@ -144,21 +147,23 @@ def stabilise(
     )
 
 
-def _check(subject: Subject, rate: float, bound: float, runs: int) -> None:
-    motion = subject.motion
-    if motion.meta["engine"] != "mujoco":
+def _check(simulation: RecordedSimulation, rate: float, bound: float, runs: int) -> None:
+    motion = simulation.motion
+    if not engine_kind(motion.provenance.engine).feedback:
+        able = " or ".join(kind.title for kind in ENGINES.values() if kind.feedback)
         raise LevadeError(
-            f"stabilise: the motion was made in {motion.meta['engine']}; only MuJoCo's can be stabilised: solve the task in it"
+            f"stabilise: the motion was made in {motion.provenance.engine}, which simulates no feedback;"
+            f" solve the task in {able}"
         )
-    if motion.meta["diverged"]:
+    if motion.result.diverged:
         raise LevadeError(
             "stabilise: the motion's simulation broke down, there is nothing to hold; solve the task anew"
         )
-    if not subject.criteria:
-        raise LevadeError(f"stabilise: the task {subject.task.name} has no success criteria to choose by")
-    if not (math.isfinite(rate) and 1.0 <= rate <= 1.0001 / subject.timestep):
-        raise LevadeError(f"--rate {rate:g}: should be 1 to {1 / subject.timestep:g} Hz, one measurement a step")
-    slowest = 1.0 / (motion.horizon_steps * subject.timestep)
+    if not simulation.criteria:
+        raise LevadeError(f"stabilise: the task {simulation.task.name} has no success criteria to choose by")
+    if not (math.isfinite(rate) and 1.0 <= rate <= 1.0001 / simulation.timestep):
+        raise LevadeError(f"--rate {rate:g}: should be 1 to {1 / simulation.timestep:g} Hz, one measurement a step")
+    slowest = 1.0 / (motion.horizon_steps * simulation.timestep)
     if rate < slowest:
         raise LevadeError(
             f"--rate {rate:g}: no measurement within the motion's {1 / slowest:g} s; should be {slowest:.3g} Hz at least,"
@@ -170,11 +175,11 @@ def _check(subject: Subject, rate: float, bound: float, runs: int) -> None:
         raise LevadeError(f"--runs {runs}: should be 8 to 100000; 96 is usual")
 
 
-def _size(subject: Subject) -> float:
+def _size(simulation: RecordedSimulation) -> float:
     """[m]: how high the robot stands, about: 0.7 of its longest leg."""
     lengths = [
         float(np.linalg.norm(np.diff(np.concatenate([leg.anchors, leg.foot[None]]), axis=0), axis=1).sum())
-        for leg in subject.names.legs
+        for leg in simulation.embodiment.legs
     ]
     return 0.7 * max(lengths, default=0.0) or 0.6
 
@@ -203,22 +208,22 @@ def _text(design: Design) -> str:
     return f"corrections of {design.motion:g} rad, {design.hold:g} in the hold, {design.bound:g} at most"
 
 
-def _score(found: Judged) -> tuple[float, float]:
+def _score(found: Trials) -> tuple[float, float]:
     """Share of successes; then how near the others are, which decides where the share does not."""
     return float(found.success.mean()), -float(np.minimum(found.miss, 10.0).mean())
 
 
-def _expectations(subject: Subject, linear: Linear, sample: Sample, period: int) -> Array:
+def _expectations(simulation: RecordedSimulation, linear: Linear, sample: Sample, period: int) -> Array:
     """(ticks of the linear model, states - sensed, sensed): what is not sensed, as far as what is sensed tells.
 
     From perturbed runs without feedback.
     """
-    ensemble, joints = subject.ensemble(), subject.joints
+    joints = simulation.joints
     ticks = len(linear.a)
-    fields = ["qpos", "qvel", *(["act"] if subject.model.na else [])]
-    found, _ = ensemble.record(ensemble.vary(subject.start, sample), subject.reference, fields)
+    fields = ["qpos", "qvel", *(["act"] if simulation.model.na else [])]
+    found = simulation.states(sample, fields)
     every = slice(period - 1, None, period)  # the end of the last step before each tick but the first
-    state = state_of(subject.layout, *(found[name][:, every] for name in fields))
+    state = state_of(simulation.layout, *(found[name][:, every] for name in fields))
     errors = SensorErrors()
     noise = np.concatenate(
         [
@@ -230,7 +235,7 @@ def _expectations(subject: Subject, linear: Linear, sample: Sample, period: int)
     )
     states, width = linear.a.shape[1], 6 + 2 * joints
     expected = np.zeros((ticks, states - width, width))
-    hold = subject.reference.steps > subject.reference.horizon_steps
+    hold = simulation.reference.steps > simulation.reference.horizon_steps
     count = min(state.shape[1], len(linear.state) - 1)
     off = state[:, :count] - linear.state[1 : count + 1]
     # those that are far off say nothing about those that are near
@@ -244,13 +249,13 @@ def _expectations(subject: Subject, linear: Linear, sample: Sample, period: int)
     return expected
 
 
-def _gains(subject: Subject, linear: Linear, expected: Array, design: Design, size: float) -> Array:
+def _gains(simulation: RecordedSimulation, linear: Linear, expected: Array, design: Design, size: float) -> Array:
     """(gains, joints, sensed + joints)."""
-    joints, states = subject.joints, linear.a.shape[1]
+    joints, states = simulation.joints, linear.a.shape[1]
     weight = 1.0 / WEIGHED.sized(size).column(joints, linear.drives) ** 2
     moving, held = np.full(joints, design.motion**-2), np.full(joints, design.hold**-2)
     a, b, last = linear.a, linear.b, []
-    if subject.reference.steps > subject.reference.horizon_steps:
+    if simulation.reference.steps > simulation.reference.horizon_steps:
         gain, value = steady(a[-1], b[-1], 0.1 * weight, held)
         a, b, last = a[:-1], b[:-1], [gain]
     else:

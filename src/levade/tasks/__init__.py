@@ -4,19 +4,20 @@ task = load_task("rearing", changes=["horizon=0.4"])
 task = load_task("my-task.yaml", robot="my/robot.yaml")
 """
 
-from levade.tasks.document import TERMS, builtin_tasks, load_task, task_from_dict, task_text, task_to_dict, task_to_yaml
-from levade.tasks.robust import Racing, Robust
-from levade.tasks.task import (
-    Change,
-    Cost,
-    PolicyChoice,
-    RobotChoice,
-    Search,
-    Stage,
-    StartChoice,
-    Task,
-    looks_at_hold,
+from levade.tasks.document import (
+    TERMS,
+    builtin_tasks,
+    load_task,
+    task_checksum,
+    task_from_dict,
+    task_text,
+    task_to_dict,
+    task_to_yaml,
 )
+from levade.tasks.parts import Change, Cost, PolicyChoice, RobotChoice, Search, Stage, StartChoice
+from levade.tasks.robust import Racing, Robust
+from levade.tasks.task import Task
+from levade.tasks.validation import looks_at_hold
 
 __all__ = [
     "TERMS",
@@ -33,6 +34,7 @@ __all__ = [
     "builtin_tasks",
     "load_task",
     "looks_at_hold",
+    "task_checksum",
     "task_from_dict",
     "task_text",
     "task_to_dict",

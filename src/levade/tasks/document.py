@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import zlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -28,9 +29,12 @@ from levade.costs import (
 from levade.costs.success import QUANTITIES
 from levade.document import build, kind_of, parse_yaml, read_text, read_yaml
 from levade.errors import LevadeError, did_you_mean
+from levade.optimizers import ALIASES, canonical
 from levade.robots import Dimensions, dimensions, load_robot
 from levade.scenes import read_heights
-from levade.tasks.task import Cost, RobotChoice, Task
+from levade.tasks.code import KEY, code_name, missing_code
+from levade.tasks.parts import Cost, RobotChoice
+from levade.tasks.task import Task
 from levade.tasks.units import measure_of, to_si
 
 TERMS = {
@@ -88,7 +92,10 @@ def load_task(name_or_path: str | Path, *, robot: str | None = None, changes: Se
         content = task_to_dict(task)
         for change in sorted(rest, key=lambda change: not change.startswith("search.optimizer=")):
             _apply(content, change)
-            if change.startswith("search.optimizer=") and content["search"]["optimizer"] != task.search.optimizer:
+            if (
+                change.startswith("search.optimizer=")
+                and canonical(content["search"]["optimizer"]) != task.search.optimizer
+            ):
                 content["search"]["settings"] = {}
         task = _changed(content)
     return task
@@ -120,10 +127,19 @@ def _set() -> Iterator[None]:
         raise LevadeError(f"--set {str(error).removeprefix('--set').lstrip('.: ')}") from None
 
 
-def task_from_dict(content: Mapping[str, Any], *, where: str) -> Task:
-    """A task from the tables of its YAML file; LevadeErrors start with ``where``.
+def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False) -> Task:
+    """Make a task from the tables of its YAML file.
 
     The robot is loaded if a number is in units of it, such as ``1.5 heights``.
+
+    Args:
+        content: The tables.
+        where: What error messages start with.
+        code: Whether to accept costs that were Python code, as `task_to_dict` writes them for a motion file; their terms
+            are then `levade.tasks.code.MissingCode`.
+
+    Raises:
+        LevadeError: If something is missing, unknown or wrong.
     """
     content = dict(content)
     success = content.get("success")
@@ -160,7 +176,8 @@ def task_from_dict(content: Mapping[str, Any], *, where: str) -> Task:
     content["scene"] = _with_heights(content.get("scene", {}), f"{where}.scene.terrain")
     if isinstance(costs, Mapping):
         content["costs"] = {
-            name: _cost(str(name), value, where=f"{where}.costs.{name}") for name, value in content["costs"].items()
+            name: _cost(str(name), value, where=f"{where}.costs.{name}", code=code)
+            for name, value in content["costs"].items()
         }
     return build(Task, content, where=where)
 
@@ -207,10 +224,16 @@ def _tolerances(
     return {**stage, "promote": promote}
 
 
-def task_to_dict(task: Task) -> dict[str, Any]:
-    """The whole task as plain tables, with every default filled in, in SI: what ``task.yaml`` of a run holds.
+def task_to_dict(task: Task, *, code: bool = False) -> dict[str, Any]:
+    """Write the whole task as plain tables, with every default filled in, in SI: what ``task.yaml`` of a run holds.
 
-    Raises LevadeError for a cost that is a plain Python function: a file cannot hold it.
+    Args:
+        task: The task.
+        code: Whether to write a cost that is Python code as ``{python: module.name, weight: ...}``, which names it without
+            holding it. `task_from_dict` reads it back with ``code=True`` only.
+
+    Raises:
+        LevadeError: For a cost that is Python code, unless ``code`` is true: a file cannot hold it.
     """
     content = _plain(dataclasses.asdict(task))
     content["start"] = {key: value for key, value in content["start"].items() if value is not None}
@@ -218,7 +241,10 @@ def task_to_dict(task: Task) -> dict[str, Any]:
     names = {kind: name for name, kind in TERMS.items()}
     for name, cost in task.costs.items():
         if type(cost.term) not in names:
-            raise LevadeError(f"costs.{name}: a Python function cannot be written to a task file")
+            if not code:
+                raise LevadeError(f"costs.{name}: a Python function cannot be written to a task file")
+            content["costs"][name] = {KEY: code_name(cost.term), "weight": cost.weight}
+            continue
         term: Any = cost.term
         content["costs"][name] = {
             "term": names[type(cost.term)],
@@ -228,15 +254,29 @@ def task_to_dict(task: Task) -> dict[str, Any]:
     return {key: content[key] for key in _ORDER}
 
 
-def task_to_yaml(task: Task) -> str:
-    """The text of a task file with every default filled in."""
+def task_to_yaml(task: Task, *, code: bool = False) -> str:
+    """Write the text of a task file with every default filled in. code: as in `task_to_dict`."""
+    return _yaml(task_to_dict(task, code=code))
+
+
+def task_checksum(task: Task, *more: object) -> int:
+    """A checksum of the task and of what else decides a result; costs that are Python code count by their names.
+
+    An optimizer counts by its first name, which may be an alias today: runs and benches of earlier versions go on.
+    """
+    content = task_to_dict(task, code=True)
+    first = {name: alias for alias, name in ALIASES.items()}
+    content["search"]["optimizer"] = first.get(task.search.optimizer, task.search.optimizer)
+    return zlib.crc32("".join([_yaml(content), *map(str, more)]).encode())
+
+
+def _yaml(content: dict[str, Any]) -> str:
     import yaml
 
     class Dumper(yaml.SafeDumper):
         pass
 
     Dumper.add_representer(_Row, lambda dumper, row: dumper.represent_sequence(_SEQUENCE, row, flow_style=True))
-    content = task_to_dict(task)
     if content["scene"]["terrain"] is not None:  # a line for each row, not for each number
         content["scene"]["terrain"]["heights"] = [_Row(row) for row in content["scene"]["terrain"]["heights"]]
     return yaml.dump(content, Dumper=Dumper, sort_keys=False, width=120, allow_unicode=True)
@@ -246,20 +286,31 @@ class _Row(list[float]):
     """A list that is written in one go."""
 
 
-def _cost(name: str, content: Any, *, where: str) -> Cost:
+def _cost(name: str, content: Any, *, where: str, code: bool) -> Cost:
     if not isinstance(content, Mapping):
         raise LevadeError(f"{where}: should be a table such as {{weight: 1}}, is {kind_of(content)}")
     content = dict(content)
-    term, weight = content.pop("term"), content.pop("weight", None)
+    if KEY in content:
+        if not code:
+            raise LevadeError(
+                f"{where}: was Python code ({content[KEY]}), which is not in the file; give the task its function in Python"
+            )
+        missing, weight = missing_code(content, where=where)
+        return Cost(missing, _weight(weight, where))
+    term, weight = content.pop("term"), _weight(content.pop("weight", None), where)
     if not isinstance(term, str) or term not in TERMS:
         raise LevadeError(f"{where}: no term {term!r}; {did_you_mean(str(term), TERMS)}")
-    if isinstance(weight, bool) or not isinstance(weight, (int, float)):
-        raise LevadeError(f"{where}.weight: should be a number, is {'missing' if weight is None else kind_of(weight)}")
     valid = [field.name for field in dataclasses.fields(TERMS[term])]
     for key in content:
         if key not in valid:
             raise LevadeError(f"{where}: unknown key {key!r}; {did_you_mean(str(key), [*valid, 'term', 'weight'])}")
-    return Cost(build(TERMS[term], content, where=where), float(weight))
+    return Cost(build(TERMS[term], content, where=where), weight)
+
+
+def _weight(weight: Any, where: str) -> float:
+    if isinstance(weight, bool) or not isinstance(weight, (int, float)):
+        raise LevadeError(f"{where}.weight: should be a number, is {'missing' if weight is None else kind_of(weight)}")
+    return float(weight)
 
 
 def _find(name_or_path: str) -> Path:

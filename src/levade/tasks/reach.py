@@ -8,11 +8,11 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.costs import Position
 from levade.errors import LevadeError
 from levade.robots import Leg, Robot
 from levade.tasks.task import Task
-from levade.trajectory import Array
 
 _ROOM = 0.01
 """[m]: soft joint limits and contacts give way by less."""

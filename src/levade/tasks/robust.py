@@ -9,10 +9,10 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from levade.arrays import Array
 from levade.costs.risk import Measure
 from levade.engines import Perturbation
 from levade.errors import LevadeError
-from levade.trajectory import Array
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,7 @@ from typing import Any, Literal
 
 from levade.costs import Criterion
 from levade.costs.success import QUANTITIES
+from levade.engines import ENGINES
 from levade.tasks.document import TERMS
 from levade.tasks.task import Task
 from levade.tasks.units import PLURALS, ROBOT_UNITS, UNITS, measured
@@ -38,6 +39,9 @@ def task_schema() -> Schema:
     heights["properties"]["height"] = _number("a length") | {"description": "Of white, in an image."}
     heights["required"] = ["size"]
     heights["oneOf"] = [{"required": ["heights"]}, {"required": ["file"]}]
+    engine = definitions["Physics"]["properties"]["engine"]
+    del engine["type"]
+    engine["enum"] = list(ENGINES)
     definitions["StartChoice"] |= {"minProperties": 1, "maxProperties": 1}
     return {"$schema": DIALECT, "title": "levade task", **task, "$defs": definitions}
 

@@ -7,14 +7,12 @@ from typing import Any
 from levade.report.page import assembled
 from levade.viewer.server import TOKEN
 
-_BUNDLE = "live"
-
 
 def watch_page(task: str) -> str:
     """The page of a solve; the rest comes over the server's events."""
-    return assembled(f"{task}, solving", {"kind": "watch", "token": TOKEN}, _BUNDLE)
+    return assembled(f"{task}, solving", {"kind": "watch", "token": TOKEN}, "live")
 
 
 def view_page(title: str, data: dict[str, Any]) -> str:
     """The page of a robot or a task: `levade.viewer.subjects`."""
-    return assembled(title, {"kind": "view", **data}, _BUNDLE)
+    return assembled(title, {"kind": "view", **data}, "live")

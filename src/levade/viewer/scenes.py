@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from levade.motion import Motion
+from levade.motions import Motion
 from levade.report.scene import scene_data
-from levade.solve import Objective
+from levade.search import Objective
 
 _RATE = 100.0
 """[Hz], poses a second of motions that a better one will soon replace."""

@@ -1,7 +1,7 @@
 """Robots and tasks as a page shows them: a scene that stands still, what is known about it, and for a robot its joints.
 
     robot_data(load_robot("hyq2max"))       # JSON: web/src/view.js draws it
-    task_data(Objective(load_task("rearing")))
+    task_data(make_objective(load_task("rearing")))
 
 The scene is that of `levade.report.scene` with one pose. ``tree``: how bodies hang together, so that the page can pose the
 robot by itself: of each body its parent, place in the scene's bodies (-1 if it has no shape), pos [m] and quat x-y-z-w in
@@ -20,6 +20,7 @@ import mujoco
 import numpy as np
 
 from levade import __version__
+from levade.arrays import Array
 from levade.costs import Posture
 from levade.costs.success import QUANTITIES
 from levade.errors import LevadeError
@@ -29,10 +30,11 @@ from levade.report.shapes import moving_bodies, shapes_of
 from levade.report.style import leg_places
 from levade.report.summary import WHEN
 from levade.robots import Leg, Robot, builtin_robots, mirror_signs
+from levade.robots.addresses import Addresses
+from levade.rotations import rotate
 from levade.scenes import Scene, compose
-from levade.solve import Objective
+from levade.search import Objective
 from levade.tasks import builtin_tasks, load_task, task_to_dict, task_to_yaml
-from levade.trajectory import Array, rotate
 
 _GROUPS = {
     "pairs": "a policy for each pair of legs",
@@ -53,7 +55,7 @@ def robot_data(robot: Robot) -> dict[str, Any]:
     )
     shapes = shapes_of(model)
     layers = [("robot", "robot", True)]
-    scene = put_together(robot.name, _legs(robot), shapes, _moving(model, qpos), _with_collision(layers, shapes))
+    scene = put_together(robot.name, robot.legs, shapes, _moving(model, qpos), _with_collision(layers, shapes))
     scene["motion"]["feet"] = _feet(model, robot)
     scene["camera"]["margin"] = _ROOM
     return {
@@ -64,7 +66,7 @@ def robot_data(robot: Robot) -> dict[str, Any]:
         "joints": _joints(robot),
         "together": _together(robot),
         "tree": _tree(model, robot),
-        "trunk": {"position": qpos[_root(model, robot)][:3].tolist()},
+        "trunk": {"position": qpos[Addresses.of(model, robot.trunk, robot.joint_names).trunk_position].tolist()},
         "postures": {name: np.round(angles, 6).tolist() for name, angles in robot.postures.items()},
         "facts": [
             ["Mass", f"{robot.mass:.4g} kg"],
@@ -81,14 +83,14 @@ def robot_data(robot: Robot) -> dict[str, Any]:
 def task_data(objective: Objective) -> dict[str, Any]:
     """The page of a task: the start, the scene, and what the goal says about robot and trunk."""
     task, robot, model = objective.task, objective.robot, objective.engine.model
-    qpos = objective.state.qpos
+    qpos = objective.state.qpos[0]
     shapes = shapes_of(model)
     moving = _moving(model, qpos)
-    root = _root(model, robot)
-    position, quaternion = qpos[root][:3], qpos[root][3:]
+    at = objective.engine.layout
+    position, quaternion = qpos[at.trunk_position], qpos[at.trunk_quaternion]
     com = position + rotate(quaternion, robot.trunk_com_offset)
-    criteria = task_to_dict(task)["success"]
-    moving["goal"] = goal_box(model, robot.trunk, robot.trunk_com_offset, criteria, com, quaternion)
+    criteria = task_to_dict(task, code=True)["success"]
+    moving["goal"] = goal_box(model, robot.trunk, robot.trunk_com_offset, task.success, com, quaternion)
     layers = [("robot", "robot at the start", True)]
     ghost = _ghost(objective, model, moving["goal"], qpos)
     if ghost is not None:
@@ -96,7 +98,7 @@ def task_data(objective: Objective) -> dict[str, Any]:
         layers.append(("reference", label, True))
     if moving["goal"]:
         layers.append(("goal", f"goal ({goal_text(moving['goal']['quantities'])})", True))
-    scene = put_together(robot.name, _legs(robot), shapes, moving, _with_collision(layers, shapes))
+    scene = put_together(robot.name, robot.legs, shapes, moving, _with_collision(layers, shapes))
     if task.scene.boxes and np.mean([box.position[1] for box in task.scene.boxes]) > position[1]:
         scene["camera"]["azimuth"] = -scene["camera"]["azimuth"]  # from the left: what is there is not behind the robot
     known = task.name in builtin_tasks() and load_task(task.name) == task
@@ -124,25 +126,13 @@ def task_data(objective: Objective) -> dict[str, Any]:
     }
 
 
-def _legs(robot: Robot) -> dict[str, dict[str, Any]]:
-    """As in a motion's meta."""
-    return {leg.name: {"side": leg.side, "end": leg.end} for leg in robot.legs}
-
-
 def _configuration(model: Any, robot: Robot, position: Any, quaternion: Any, angles: Array) -> Array:
     """(nq,): trunk frame at a position [m] and quaternion w-x-y-z, joints at (joints,) [rad]."""
     qpos = model.qpos0.copy()
-    root = _root(model, robot)
-    qpos[root] = [*position, *quaternion]
-    for joint, angle in zip(robot.joint_names, angles, strict=True):
-        qpos[model.joint(joint).qposadr[0]] = angle
+    at = Addresses.of(model, robot.trunk, robot.joint_names)
+    qpos[at.trunk_pose] = [*position, *quaternion]
+    qpos[at.joint_qpos] = angles
     return qpos
-
-
-def _root(model: Any, robot: Robot) -> slice:
-    """Where the trunk's pose is in qpos."""
-    address = int(model.jnt_qposadr[int(model.body(robot.trunk).jntadr[0])])
-    return slice(address, address + 7)
 
 
 def _moving(model: Any, qpos: Array) -> dict[str, Any]:
@@ -158,7 +148,7 @@ def _with_collision(layers: list[tuple[str, str, bool]], shapes: Mapping[str, An
 
 
 def _joints(robot: Robot) -> list[dict[str, Any]]:
-    limits, places = robot.limits, leg_places(_legs(robot))
+    limits, places = robot.limits, leg_places(robot.legs)
 
     def bound(value: float) -> float | None:
         return float(value) if math.isfinite(value) else None
@@ -255,12 +245,12 @@ def _ghost(
 ) -> tuple[dict[str, Any], str] | None:
     """The robot, or only its trunk where nothing is said about the joints, as the goal has it; and what to call it."""
     task, robot = objective.task, objective.robot
-    root = _root(model, robot)
-    position, quaternion = qpos[root][:3], qpos[root][3:]
+    at = objective.engine.layout
+    position, quaternion = qpos[at.trunk_position], qpos[at.trunk_quaternion]
     if goal is not None:
         quaternion = np.roll(goal["quaternion"], 1)
         position = np.array(goal["centre"]) - rotate(quaternion, robot.trunk_com_offset)
-    now = qpos[_joint_addresses(model, robot)]
+    now = qpos[at.joint_qpos]
     required = [cost.term.position for cost in task.costs.values() if isinstance(cost.term, Posture)]
     angles = None
     if required:
@@ -276,10 +266,6 @@ def _ghost(
     shown = [place for place, body in enumerate(bodies) if whole or model.body_weldid[body] == model.body_weldid[trunk]]
     ghost = {"bodies": shown, "position": pack(poses[:, shown]), "quaternion": pack_unit(turned[:, shown])}
     return ghost, "goal posture" if whole else "trunk at the goal"
-
-
-def _joint_addresses(model: Any, robot: Robot) -> list[int]:
-    return [int(model.joint(joint).qposadr[0]) for joint in robot.joint_names]
 
 
 def _goal_row(criterion: Mapping[str, Any]) -> dict[str, Any]:

@@ -11,7 +11,7 @@ from pathlib import Path
 from levade.document import read_yaml
 from levade.errors import LevadeError, did_you_mean
 from levade.robots import Robot, builtin_robots, find_package_robot, load_robot
-from levade.run import MOTION, TASK
+from levade.search.run import MOTION, TASK
 from levade.tasks import Task, builtin_tasks, load_task
 
 _KINDS = {"task": ("costs", "success", "horizon", "policy"), "robot": ("legs", "model", "trunk", "postures")}

@@ -21,13 +21,14 @@ from typing import Any
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.costs.success import QUANTITIES
 from levade.errors import LevadeError, did_you_mean
-from levade.motion import Motion, record
-from levade.run import MOTION, Outcome, so_far
-from levade.solve import Generation, Objective
+from levade.motions import Motion
+from levade.search import Generation, Objective, Stopped
+from levade.search.recording import record
+from levade.search.run import MOTION, Outcome
 from levade.tasks import Change
-from levade.trajectory import Array
 
 _MOVING = ("motion", "layers")
 """Parts of a scene that differ between motions of one solve."""
@@ -98,7 +99,7 @@ class Watch:
         row = [
             *(generation.trials, generation.stage, best.cost, float(cost.min()), float(_median(cost))),
             *(float(cost.max()), generation.step, generation.diverged, int(best.success)),
-            [generation.weights[name] * value for name, value in best.terms.items()],
+            [generation.cost_weights[name] * value for name, value in best.terms.items()],
             list(best.errors.values()),
             self._found,
         ]
@@ -113,19 +114,19 @@ class Watch:
         """What the terminal should say of it; empty while there is nothing."""
         return "paused on the page" if self._paused_at is not None and not self._stop else ""
 
-    def steer(self, generation: int) -> Mapping[str, float] | None:
+    def steer(self, generation: int) -> Mapping[str, float] | Stopped | None:
         """What the page's sliders say for this generation, None if they have not been moved; waits while it says pause.
 
-        Raises KeyboardInterrupt when the page, or the keyboard, says stop.
+        Returns `Stopped.INTERRUPTED` when the page, or the keyboard, says stop.
         """
         while self._paused_at is not None and not self._stop:
             if self._interrupted():
-                raise KeyboardInterrupt
+                return Stopped.INTERRUPTED
             self._show()
             self._told.wait(0.1)
             self._told.clear()
         if self._stop:
-            raise KeyboardInterrupt
+            return Stopped.INTERRUPTED
         with self._lock:
             wanted, self._wanted = self._wanted, {}
             in_force = _factors(self._changes, generation)
@@ -145,14 +146,14 @@ class Watch:
         verdict: dict[str, Any] = {"outcome": "error"}
         scene = None
         if outcome is not None:
-            solution, meta = outcome.solution, outcome.motion.meta
+            solution, result = outcome.solution, outcome.motion.result
             verdict = {
-                "outcome": solution.stopped,
-                "success": meta["success"],
+                "outcome": str(solution.stopped),
+                "success": result.success,
                 "trials": solution.trials,
                 "trials_to_success": solution.trials_to_success,
-                "cost": meta["cost"],
-                "errors": meta["errors"],
+                "cost": result.cost,
+                "errors": result.errors,
                 "motion": str((outcome.directory / MOTION).resolve()),
             }
             motion = outcome.motion
@@ -173,7 +174,7 @@ class Watch:
             return
         if self._best is self._shown:
             return
-        scene = self._drawn(lambda: record(self._objective, so_far(generation), seed=self._seed))
+        scene = self._drawn(lambda: record(self._objective, generation.solution(), seed=self._seed))
         with self._lock:
             self._scene, self._shown = scene or self._scene, self._best
         took = time.perf_counter() - now

@@ -1,169 +1,130 @@
-"""The engine ode: the Open Dynamics Engine, the paper's contact model, behind the same two methods as MuJoCo.
+"""The engine ode: the Open Dynamics Engine, the paper's contact model.
 
-engine = OdeEngine(load_robot("hyq2max"), Scene(), Physics(engine="ode"))
+engine = make_engine(load_robot("hyq2max"), Scene(), Physics(engine="ode"))
+
+ODE's worlds are made from a compiled model. A version of it (`levade.engines.Models`) is that model with its fields changed,
+and has worlds of its own. Versions that come again, such as those that candidates are compared on, are kept.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from collections import OrderedDict
+from collections.abc import Sequence
+from importlib.metadata import version
+from typing import Any, ClassVar
 
 import mujoco
 import numpy as np
 
-from levade.engines.engine import Engine
-from levade.engines.ode.crew import Crew
+from levade.arrays import Array
+from levade.engines.engine import Engine, Trials, broke_down
+from levade.engines.layout import FOOT_CONTACT_FORCE
+from levade.engines.models import Models, with_free_frames
+from levade.engines.ode.library import load
+from levade.engines.ode.multibody import multibody_of
 from levade.engines.ode.simulation import Record, Simulation
-from levade.engines.ode.skeleton import skeleton
-from levade.engines.physics import Physics
-from levade.engines.start import State
-from levade.errors import LevadeError
-from levade.robots import Robot
-from levade.scenes import Scene
-from levade.trajectory import Array, JointLimits, JointReference, LegGeometry, Trajectories, rotate
+from levade.engines.ode.workers import WorkerPool
+from levade.engines.state import State
+from levade.rotations import conjugate, rotate
+from levade.trajectory import Trajectories
 
-if TYPE_CHECKING:
-    from levade.engines.ode.ensemble import OdeEnsemble
+_KEPT = 64
+"""Versions whose worlds are kept."""
 
 
 class OdeEngine(Engine):
-    """ODE. threads: processes at most, 0 for one per core; results do not depend on it.
+    """ODE. Trials on the nominal model are shared by ``threads`` processes; versions of it are simulated in this one."""
 
-    Raises LevadeError if the library is missing, or the robot has something that ODE cannot simulate.
-    """
+    name: ClassVar[str] = "ode"
 
-    def __init__(self, robot: Robot, scene: Scene, physics: Physics, *, threads: int = 0) -> None:
-        super().__init__(robot, scene, physics, threads=threads)
-        self._stage = OdeStage(
-            self.xml,
-            self.assets,
-            physics,
-            joints=robot.joint_names,
-            feet=robot.feet,
-            limits=robot.limits,
-            trunk_com_offset=robot.trunk_com_offset,
-            legs=robot.leg_geometry,
-            threads=threads,
-        )
+    def _prepare(self) -> None:
+        self._workers = WorkerPool(self.xml, self.assets, self.physics, self.threads)
+        self._kept: OrderedDict[bytes, Simulation] = OrderedDict()
+        hinges, joints = self._workers.simulation.multibody.hinges.names, self.embodiment.joint_names
+        self._to = [hinges.index(joint) for joint in joints]
+        self._from = [joints.index(hinge) for hinge in hinges]
 
-    def rollout(
-        self, state: State, reference: JointReference, *, feet: bool = False, bodies: Sequence[str] = ()
-    ) -> Trajectories:
-        self.steps += reference.position.shape[0] * reference.steps
-        return self._stage.rollout((state.qpos, state.qvel, state.act), reference, feet=feet, bodies=bodies)
+    @classmethod
+    def versions(cls) -> dict[str, str]:
+        """MuJoCo's too, which reads the model from its text."""
+        return {**{name: version(name) for name in ("mujoco", "numpy")}, "ode": load().name}
 
-    def ensemble(self) -> OdeEnsemble:
-        """For simulating versions of the model: robots that differ from the nominal one."""
-        from levade.engines.ode.ensemble import OdeEnsemble
-
-        robot = self.robot
-        return OdeEnsemble(
-            self._stage,
-            self.physics,
-            self.layout,
-            trunk=robot.trunk,
-            joint_names=robot.joint_names,
-            limits=robot.limits,
-            trunk_com_offset=robot.trunk_com_offset,
-            legs=robot.leg_geometry,
-            threads=self.threads,
-        )
-
-    def _settle(self, model: mujoco.MjModel, data: mujoco.MjData, posture: Array, time: float) -> State:
+    def hold(self, model: mujoco.MjModel, data: mujoco.MjData, posture: Array, time: float) -> State:
         steps = round(time / self.physics.timestep)
-        start = (data.qpos.copy(), data.qvel.copy(), data.act.copy())
-        if steps:
-            simulation = Simulation(skeleton(model), self.physics.ode, self.physics.timestep)
-            held = np.broadcast_to(posture[_order(simulation, self.robot.joint_names)[1]], (1, steps, posture.size))
-            record = simulation.run(*start, held, np.zeros_like(held))
-            if record.diverged[0]:
-                raise LevadeError(
-                    f"start: the simulation broke down within {time} s; a smaller physics.timestep or lower gains may help"
-                )
-            start = simulation.state_after(record, 0)
-        return State(*start, joint_position=start[0][self.layout.joint_qpos].copy(), joint_reference=posture.copy())
+        start = self.layout.state(data.qpos, data.qvel, data.act, joint_reference=posture)
+        if not steps:
+            return start
+        simulation = self._simulation(model)
+        held = np.broadcast_to(posture[self._from], (1, steps, posture.size))
+        record = simulation.run(start.qpos, start.qvel, start.act, held, np.zeros_like(held))
+        if record.diverged[0]:
+            raise broke_down(time)
+        return self.layout.state(*simulation.state_after(record, 0), joint_reference=posture)
 
-
-class OdeStage:
-    """A model in ODE, by names: what a motion file has is enough.
-
-    xml, assets: MJCF and its files. joints, feet, limits, trunk_com_offset: as in `levade.robots.Robot`; legs: its
-    ``leg_geometry``.
-    """
-
-    def __init__(
-        self,
-        xml: str,
-        assets: Mapping[str, bytes],
-        physics: Physics,
-        *,
-        joints: Sequence[str],
-        feet: Sequence[str],
-        limits: JointLimits,
-        trunk_com_offset: Array,
-        legs: tuple[LegGeometry, ...] = (),
-        threads: int = 0,
-    ) -> None:
-        self._legs = legs
-        self._crew = Crew(xml, assets, physics, threads)
-        self._physics, self._limits, self._offset = physics, limits, trunk_com_offset
-        self._to, self._from = _order(self._crew.simulation, joints)
-        self.model = self._crew.simulation.skeleton.model
-        self._feet = [self.model.geom(foot).id for foot in feet]
-
-    def rollout(
-        self,
-        start: tuple[Array, Array, Array],
-        reference: JointReference,
-        *,
-        feet: bool = False,
-        bodies: Sequence[str] = (),
-    ) -> Trajectories:
-        """As `Engine.rollout`; start: qpos, qvel, act of the model."""
-        asked = self.asked(reference.position, reference.velocity, feet=feet, bodies=bodies)
-        record = self._crew.run(start, **asked)
-        return self.trajectories(record, reference, feet=feet, bodies=bodies)
-
-    def asked(self, position: Array, velocity: Array, *, feet: bool, bodies: Sequence[str]) -> dict[str, Any]:
-        """What `Simulation.run` takes: desired joint motion (n, steps, joints), and whose forces to record."""
-        return {
-            "position": position[..., self._from],
-            "velocity": velocity[..., self._from],
-            "geoms": self._feet if feet else [],
+    def _simulate(self, trials: Trials, record: Sequence[str]) -> Trajectories:
+        commanded, bodies = trials.commanded.repeated(trials.n), [name for name in record if name != FOOT_CONTACT_FORCE]
+        position, velocity = commanded.position[..., self._from], commanded.velocity[..., self._from]
+        forces = {
+            "geoms": [self.model.geom(foot).id for foot in self.embodiment.feet]
+            if FOOT_CONTACT_FORCE in record
+            else [],
             "bodies": [self.model.body(body).id for body in bodies],
         }
-
-    def trajectories(
-        self, record: Record, reference: JointReference, *, feet: bool, bodies: Sequence[str]
-    ) -> Trajectories:
-        """What was simulated, in the robot's order of joints."""
+        if trials.models is None:
+            done = self._workers.run(trials.starts, position, velocity, **forces)
+        else:
+            done = self._run_versions(trials.models, trials.starts, position, velocity, forces)
         return Trajectories(
-            joint_position=record.angle[..., self._to],
-            joint_velocity=record.speed[..., self._to],
-            joint_torque=record.torque[..., self._to],
-            trunk_position=record.position,
-            trunk_quaternion=record.quaternion,
-            trunk_linear_velocity=record.linear,
-            trunk_angular_velocity=rotate(_inverse(record.quaternion), record.angular),
-            trunk_com_offset=self._offset,
-            reference=reference,
-            limits=self._limits,
-            legs=self._legs,
-            timestep=self._physics.timestep,
-            horizon_steps=reference.horizon_steps,
-            diverged=record.diverged,
-            foot_contact_force=record.geom_force if feet else None,
+            joint_position=done.angle[..., self._to],
+            joint_velocity=done.speed[..., self._to],
+            joint_torque=done.torque[..., self._to],
+            trunk_position=done.position,
+            trunk_quaternion=done.quaternion,
+            trunk_linear_velocity=done.linear,
+            trunk_angular_velocity=rotate(conjugate(done.quaternion), done.angular),
+            reference=trials.reference,
+            embodiment=self.embodiment,
+            timestep=trials.reference.timestep,
+            horizon_steps=trials.reference.horizon_steps,
+            diverged=done.diverged,
+            foot_contact_force=done.geom_force if FOOT_CONTACT_FORCE in record else None,
             body_contact_force={
-                body: np.linalg.norm(record.body_force[:, :, i], axis=-1) for i, body in enumerate(bodies)
+                body: np.linalg.norm(done.body_force[:, :, i], axis=-1) for i, body in enumerate(bodies)
             },
         )
 
+    def _run_versions(
+        self, models: Models, starts: State, position: Array, velocity: Array, forces: dict[str, Any]
+    ) -> Record:
+        """Simulate trials on versions of the model, those on the same one together."""
+        n = len(position)
+        same: dict[bytes, list[int]] = {}
+        for trial in range(n):
+            same.setdefault(_key(models, trial % len(models)), []).append(trial)
+        parts, order = [], []
+        for key, some in same.items():
+            of = starts if len(starts) == 1 else starts[some]
+            simulation = self._version(key, models, some[0] % len(models))
+            parts.append(simulation.run(of.qpos, of.qvel, of.act, position[some], velocity[some], **forces))
+            order += some
+        return Record.joined(parts)[np.argsort(order)]
 
-def _order(simulation: Simulation, joints: Sequence[str]) -> tuple[list[int], list[int]]:
-    """Where the joints are among the hinges, and the hinges among the joints."""
-    names = simulation.skeleton.hinges.names
-    return [names.index(joint) for joint in joints], [list(joints).index(name) for name in names]
+    def _version(self, key: bytes, models: Models, row: int) -> Simulation:
+        """The worlds of a version."""
+        if key not in self._kept:
+            model = with_free_frames(self.model, self.layout)
+            for name, values in models.fields.items():
+                getattr(model, name)[:] = values[row]
+            self._kept[key] = self._simulation(model)
+            while len(self._kept) > _KEPT:
+                self._kept.popitem(last=False)
+        self._kept.move_to_end(key)
+        return self._kept[key]
+
+    def _simulation(self, model: mujoco.MjModel) -> Simulation:
+        return Simulation(multibody_of(model), self.physics.ode, self.physics.timestep)
 
 
-def _inverse(quaternion: Array) -> Array:
-    return quaternion * np.array([1.0, -1.0, -1.0, -1.0])
+def _key(models: Models, row: int) -> bytes:
+    """What tells a version from the others."""
+    return b"".join(name.encode() + values[row].tobytes() for name, values in models.fields.items())

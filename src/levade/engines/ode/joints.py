@@ -10,8 +10,9 @@ from collections.abc import Mapping
 import mujoco
 import numpy as np
 
-from levade.engines.ode.skeleton import Skeleton
-from levade.trajectory import Array, rotation_matrix
+from levade.arrays import Array
+from levade.engines.ode.multibody import Multibody
+from levade.rotations import rotation_matrix
 
 _STIFF = 0.2
 """Share of its speed that damping may take off a hinge in one step and still be left to explicit integration."""
@@ -23,8 +24,8 @@ _FREE = 1e-9
 class Angles:
     """Angles and speeds of the hinges, measured on the links: the angle between two arms, one on either link."""
 
-    def __init__(self, skeleton: Skeleton) -> None:
-        hinges = skeleton.hinges
+    def __init__(self, multibody: Multibody) -> None:
+        hinges = multibody.hinges
         joints = len(hinges.names)
         child, self._parent, self._zero = np.arange(1, joints + 1), hinges.parent, hinges.zero
         least = np.eye(3)[np.argmin(np.abs(hinges.axis), axis=1)]
@@ -65,11 +66,11 @@ class Torques:
     resisted: (J,) bool, the hinges that have it.
     """
 
-    def __init__(self, skeleton: Skeleton, timestep: float) -> None:
-        self._hinges, self._drives = skeleton.hinges, skeleton.drives
+    def __init__(self, multibody: Multibody, timestep: float) -> None:
+        self._hinges, self._drives = multibody.hinges, multibody.drives
         hinges, drives = self._hinges, self._drives
         implicit = np.where(drives.time_constant == 0, drives.kd, 0.0)  # with a lag, MuJoCo has it explicit as well
-        stiff = (hinges.damping + implicit) * timestep * _mobility(skeleton) > _STIFF
+        stiff = (hinges.damping + implicit) * timestep * _mobility(multibody) > _STIFF
         self.resisted = stiff | (hinges.armature > 0)
         self._implicit = np.where(self.resisted, implicit, 0.0)
         self._explicit = np.where(self.resisted, 0.0, hinges.damping)
@@ -95,30 +96,30 @@ class Torques:
         return torque, pushed, resistance, self._hold * speed / resistance
 
 
-def link_motion(skeleton: Skeleton, qpos: Array, qvel: Array) -> tuple[Array, Array, Array, Array]:
+def link_motion(multibody: Multibody, qpos: Array, qvel: Array) -> tuple[Array, Array, Array, Array]:
     """(L, ...) of the links at a state of the model: centres of mass, quaternions, velocities, angular velocities."""
-    model, com = skeleton.model, skeleton.com
+    model, com = multibody.model, multibody.com
     data = mujoco.MjData(model)
     data.qpos[:], data.qvel[:] = qpos, qvel
     mujoco.mj_fwdPosition(model, data)
     mujoco.mj_fwdVelocity(model, data)
-    lever = np.einsum("lab,lb->la", data.xmat[skeleton.body].reshape(-1, 3, 3), com)
+    lever = np.einsum("lab,lb->la", data.xmat[multibody.body].reshape(-1, 3, 3), com)
     twist: Array = np.zeros((len(com), 6))
-    for row, body in zip(twist, skeleton.body, strict=True):
+    for row, body in zip(twist, multibody.body, strict=True):
         mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_XBODY, body, row, 0)
     angular, linear = twist[:, :3], twist[:, 3:]
     velocity = linear + np.asarray(np.cross(angular, lever), dtype=float)
-    return data.xpos[skeleton.body] + lever, data.xquat[skeleton.body], velocity, angular
+    return data.xpos[multibody.body] + lever, data.xquat[multibody.body], velocity, angular
 
 
-def _mobility(skeleton: Skeleton) -> Array:
+def _mobility(multibody: Multibody) -> Array:
     """(J,) [rad/s² per Nm], of each hinge between its two links alone: no less than what it has in the robot."""
-    hinges = skeleton.hinges
+    hinges = multibody.hinges
     at_rest = rotation_matrix(hinges.rest)
     total = []
     for j, parent in enumerate(hinges.parent):
         axis = hinges.axis[j]
         over = at_rest[j] @ axis
-        total.append(axis @ np.linalg.solve(skeleton.inertia[j + 1], axis))
-        total[-1] += over @ np.linalg.solve(skeleton.inertia[parent], over)
+        total.append(axis @ np.linalg.solve(multibody.inertia[j + 1], axis))
+        total[-1] += over @ np.linalg.solve(multibody.inertia[parent], over)
     return np.array(total)

@@ -8,8 +8,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from levade.arrays import Array
 from levade.errors import LevadeError
-from levade.trajectory import Array
 
 _KIND = mujoco.mjtGeom
 _PRIMITIVES = {

@@ -1,6 +1,6 @@
 """The loop over time: actuators, contacts and steps of n trials side by side.
 
-simulation = Simulation(skeleton, Ode(), timestep=0.002)
+simulation = Simulation(multibody, Ode(), timestep=0.002)
 record = simulation.run(qpos, qvel, act, position, velocity)
 
 The trials share every numpy call, but no number: a trial gives the same bits alone, beside others, and in another
@@ -15,13 +15,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from levade.arrays import Array
+from levade.engines.ode.broadphase import BroadPhase
 from levade.engines.ode.joints import Angles, Torques, link_motion
 from levade.engines.ode.library import load
-from levade.engines.ode.nearness import Nearness
-from levade.engines.ode.skeleton import Skeleton
+from levade.engines.ode.multibody import Multibody
 from levade.engines.ode.worlds import CONTACTS, Worlds
 from levade.engines.physics import Ode
-from levade.trajectory import Array, rotate
+from levade.rotations import conjugate, rotate
 
 _SPEED = 1e4
 """[m/s], [rad/s]: a simulation in which something is faster has broken down."""
@@ -35,7 +36,7 @@ _SEED = 2017
 
 @dataclass(frozen=True, eq=False)
 class Record:
-    """What n trials did, in the skeleton's order of links and hinges.
+    """What n trials did, in the multibody's order of links and hinges.
 
     angle, speed, torque: (n, steps, J). position: (n, steps, 3), quaternion: (n, steps, 4), linear, angular: (n, steps,
     3), of the trunk's frame: origin, orientation, velocity of the origin and angular velocity in world axes.
@@ -55,17 +56,28 @@ class Record:
     body_force: Array
     diverged: NDArray[np.bool_]
 
+    def __getitem__(self, trials: NDArray[np.intp]) -> Record:
+        """Some of the trials, in the order given."""
+        return Record(**{name: values[trials] for name, values in vars(self).items()})
+
+    @classmethod
+    def joined(cls, records: Sequence[Record]) -> Record:
+        """The trials of several records, one after another."""
+        if len(records) == 1:
+            return records[0]
+        return cls(**{name: np.concatenate([getattr(one, name) for one in records]) for name in vars(records[0])})
+
 
 class Simulation:
-    """ODE's worlds of one skeleton, kept for the next run."""
+    """ODE's worlds of one multibody, kept for the next run."""
 
-    def __init__(self, skeleton: Skeleton, settings: Ode, timestep: float) -> None:
-        self.skeleton = skeleton
-        self._torques = Torques(skeleton, timestep)
-        self._worlds = Worlds(load(), skeleton, settings, timestep, self._torques.resisted)
-        self._near = Nearness(skeleton)
+    def __init__(self, multibody: Multibody, settings: Ode, timestep: float) -> None:
+        self.multibody = multibody
+        self._torques = Torques(multibody, timestep)
+        self._worlds = Worlds(load(), multibody, settings, timestep, self._torques.resisted)
+        self._broad_phase = BroadPhase(multibody)
         self._timestep = timestep
-        self._angles = Angles(skeleton)
+        self._angles = Angles(multibody)
 
     def run(
         self,
@@ -78,21 +90,28 @@ class Simulation:
         geoms: Sequence[int] = (),
         bodies: Sequence[int] = (),
     ) -> Record:
-        """Simulate n trials from one state of the model under desired hinge angles and speeds, (n, steps, J).
+        """Simulate n trials.
 
-        geoms, bodies: of the model, whose contact forces are recorded.
+        Args:
+            qpos: Where they start, in the model's order, shape (1 or n, nq).
+            qvel: Likewise, shape (1 or n, nv).
+            act: Likewise, shape (1 or n, na).
+            position: Desired hinge angles [rad], shape (n, steps, J).
+            velocity: Desired hinge speeds [rad/s], shape (n, steps, J).
+            geoms: Geoms of the model whose contact forces are recorded.
+            bodies: Bodies of the model whose contact forces are recorded.
         """
         with np.errstate(all="ignore"):  # of simulations that break down
             return self._run(qpos, qvel, act, position, velocity, list(geoms), list(bodies))
 
     def state_after(self, record: Record, trial: int) -> tuple[Array, Array, Array]:
         """qpos, qvel, act of the model at the end of a trial."""
-        s, model = self.skeleton, self.skeleton.model
+        s, model = self.multibody, self.multibody.model
         qpos, qvel, act = model.qpos0.copy(), np.zeros(model.nv), np.zeros(model.na)
         last = (trial, -1)
         qpos[s.root_qpos : s.root_qpos + 7] = [*record.position[last], *record.quaternion[last]]
         qvel[s.root_qvel : s.root_qvel + 3] = record.linear[last]
-        inverse = record.quaternion[last] * np.array([1.0, -1.0, -1.0, -1.0])
+        inverse = conjugate(record.quaternion[last])
         qvel[s.root_qvel + 3 : s.root_qvel + 6] = rotate(inverse, record.angular[last])
         qpos[s.hinges.qpos], qvel[s.hinges.qvel] = record.angle[last], record.speed[last]
         lagging = s.drives.act >= 0
@@ -109,18 +128,28 @@ class Simulation:
         geoms: list[int],
         bodies: list[int],
     ) -> Record:
-        worlds, drives = self._worlds, self.skeleton.drives
+        worlds, drives = self._worlds, self.multibody.drives
         n, steps, joints = position.shape
         worlds.grow(n)
-        links = link_motion(self.skeleton, qpos, qvel)
-        worlds.place(range(n), *links)
-        self._near.forget()
+        starts = [link_motion(self.multibody, *row) for row in zip(qpos, qvel, strict=True)]
+        qpos, qvel, act = (np.broadcast_to(part, (n, part.shape[1])) for part in (qpos, qvel, act))
+
+        def place(trials: Sequence[int]) -> None:
+            """Put trials where they start."""
+            if len(starts) == 1:
+                worlds.place(trials, *starts[0])
+            else:
+                for i in trials:
+                    worlds.place([i], *starts[i])
+            self._broad_phase.forget()
+
+        place(range(n))
         state = worlds.read(n)
-        angle = np.repeat(qpos[None, self.skeleton.hinges.qpos], n, axis=0)
+        angle = qpos[:, self.multibody.hinges.qpos]
         angle, speed = self._angles(state, angle)
         lag = np.zeros((n, joints))
-        if act.size:
-            lag += np.where(drives.act >= 0, drives.gain * act[drives.act], 0.0)
+        if act.shape[1]:
+            lag += np.where(drives.act >= 0, drives.gain * act[:, drives.act], 0.0)
         angles, speeds, torques = (np.zeros((n, steps, joints)) for _ in range(3))
         trunk = np.zeros((n, steps, 4 + 3 * 3))
         geom_force, body_force = (np.zeros((n, steps, len(of), 3)) for of in (geoms, bodies))
@@ -132,7 +161,7 @@ class Simulation:
         for k in range(steps):
             torque, pushed, resistance, target = self._torques(lag, angle, speed, position[:, k], velocity[:, k])
             still = [i for i, sound in zip(running, _sound(pushed, _TORQUE, running), strict=True) if sound]
-            pairs = self._near(state, self._timestep)
+            pairs = self._broad_phase(state, self._timestep)
             if touching is not None:
                 touching.clear()
                 worlds.make_room(CONTACTS * sum(map(len, pairs)))
@@ -147,8 +176,7 @@ class Simulation:
             if len(still) < len(running):
                 broken = sorted(set(running) - set(still))
                 until[broken] = k
-                worlds.place(broken, *links)
-                self._near.forget()
+                place(broken)
                 state = worlds.read(n)
             running = still
             angle, speed = self._angles(state, angle)
@@ -163,14 +191,14 @@ class Simulation:
             diverged=until < steps,
         )
         for i in np.flatnonzero(out.diverged):
-            _repeat(out, int(i), int(until[i]), self.skeleton, qpos, qvel)
+            _repeat(out, int(i), int(until[i]), self.multibody, qpos[i], qvel[i])
         return out
 
     def _trunk(self, row: Array) -> tuple[Array, Array, Array, Array]:
         """Position, quaternion, velocity and angular velocity of the trunk's frame from those of its centre of mass."""
         quaternion, centre, linear, angular = np.split(row, [4, 7, 10], axis=-1)
         quaternion = quaternion / np.sqrt(np.sum(quaternion**2, axis=-1, keepdims=True))
-        lever = rotate(quaternion, self.skeleton.com[0])
+        lever = rotate(quaternion, self.multibody.com[0])
         return centre - lever, quaternion, linear - np.cross(angular, lever), angular.copy()
 
     def _add_forces(
@@ -185,8 +213,8 @@ class Simulation:
         """Sum the contacts' forces by geom, and those of the world by body."""
         force = self._worlds.forces(len(touching))
         trial, pair = np.array(touching).T
-        shapes = self.skeleton.shapes
-        one, other = ([shapes[i] for i in self.skeleton.pairs[pair, side]] for side in (0, 1))
+        shapes = self.multibody.shapes
+        one, other = ([shapes[i] for i in self.multibody.pairs[pair, side]] for side in (0, 1))
         for column, geom in enumerate(geoms):
             for sign, side in ((1.0, one), (-1.0, other)):
                 of = np.array([shape.geom == geom for shape in side])
@@ -201,14 +229,14 @@ def _sound(values: Array, limit: float, trials: list[int]) -> list[bool]:
     return np.all(np.abs(values).reshape(len(values), -1) < limit, axis=1)[trials].tolist()
 
 
-def _repeat(out: Record, trial: int, row: int, skeleton: Skeleton, qpos: Array, qvel: Array) -> None:
+def _repeat(out: Record, trial: int, row: int, multibody: Multibody, qpos: Array, qvel: Array) -> None:
     """From a row on, repeat the row before it, or the start."""
     start = {
-        "angle": qpos[skeleton.hinges.qpos],
-        "speed": qvel[skeleton.hinges.qvel],
-        "position": qpos[skeleton.root_qpos : skeleton.root_qpos + 3],
-        "quaternion": qpos[skeleton.root_qpos + 3 : skeleton.root_qpos + 7],
-        "linear": qvel[skeleton.root_qvel : skeleton.root_qvel + 3],
+        "angle": qpos[multibody.hinges.qpos],
+        "speed": qvel[multibody.hinges.qvel],
+        "position": qpos[multibody.root_qpos : multibody.root_qpos + 3],
+        "quaternion": qpos[multibody.root_qpos + 3 : multibody.root_qpos + 7],
+        "linear": qvel[multibody.root_qvel : multibody.root_qvel + 3],
     }
     names = ("angle", "speed", "torque", "position", "quaternion", "linear", "angular", "geom_force", "body_force")
     for name in names:

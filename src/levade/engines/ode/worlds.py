@@ -1,4 +1,4 @@
-"""ODE worlds: one for every trial, all of the same skeleton, stepped one after the other.
+"""ODE worlds: one for every trial, all of the same multibody, stepped one after the other.
 
 ODE hands out pointers to where a body keeps its pose and velocity. Those of all bodies of all worlds are gathered in
 one numpy call per step, so that Python calls ODE only to collide, to push and to step.
@@ -14,12 +14,12 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from levade.arrays import Array
 from levade.engines.ode import library
 from levade.engines.ode.library import Library
+from levade.engines.ode.multibody import Multibody
 from levade.engines.ode.shapes import Shape
-from levade.engines.ode.skeleton import Skeleton
 from levade.engines.physics import Ode
-from levade.trajectory import Array
 
 CONTACTS = 8
 """At most, of one pair of shapes: a box on a plane has four."""
@@ -29,18 +29,18 @@ _ROTATION = [0, 1, 2, 4, 5, 6, 8, 9, 10]  # of a dMatrix3, whose rows have a fou
 
 
 class Worlds:
-    """Worlds of one skeleton. Body l of a world is link l, its centre of mass the body's origin.
+    """Worlds of one multibody. Body l of a world is link l, its centre of mass the body's origin.
 
     resisted: (J,) bool, hinges with a motor that resists their motion (`resist`).
     """
 
     def __init__(
-        self, ode: Library, skeleton: Skeleton, settings: Ode, timestep: float, resisted: NDArray[np.bool_]
+        self, ode: Library, multibody: Multibody, settings: Ode, timestep: float, resisted: NDArray[np.bool_]
     ) -> None:
-        self._ode, self._skeleton, self._settings, self._timestep = ode, skeleton, settings, timestep
+        self._ode, self._multibody, self._settings, self._timestep = ode, multibody, settings, timestep
         self._resisted = [int(j) for j in np.flatnonzero(resisted)]
         self._step = ode.dWorldQuickStep if settings.solver == "quick" else ode.dWorldStep
-        hinges = skeleton.hinges
+        hinges = multibody.hinges
         limited = np.isfinite(hinges.lower) & np.isfinite(hinges.upper)
         self._middle = hinges.zero.copy()
         self._middle[limited] = (hinges.lower[limited] + hinges.upper[limited]) / 2
@@ -50,8 +50,8 @@ class Worlds:
         self._hinges: list[list[int]] = []
         self._motors: list[list[int]] = []
         self._sides: list[list[tuple[int, int, int, int]]] = []
-        self._static = {i: self._geom(shape) for i, shape in enumerate(skeleton.shapes) if shape.link < 0}
-        self._friction = [float(mu) for mu in skeleton.friction]
+        self._static = {i: self._geom(shape) for i, shape in enumerate(multibody.shapes) if shape.link < 0}
+        self._friction = [float(mu) for mu in multibody.friction]
         self._contacts = (ode.contact * CONTACTS)()
         for contact in self._contacts:
             contact.surface.mode = library.APPROXIMATE_PYRAMID
@@ -73,9 +73,9 @@ class Worlds:
         """Have at least n worlds."""
         if len(self) >= n:
             return
-        data = mujoco.MjData(self._skeleton.model)
-        data.qpos[self._skeleton.hinges.qpos] = self._middle
-        mujoco.mj_kinematics(self._skeleton.model, data)
+        data = mujoco.MjData(self._multibody.model)
+        data.qpos[self._multibody.hinges.qpos] = self._middle
+        mujoco.mj_kinematics(self._multibody.model, data)
         while len(self) < n:
             self._add(data)
         ode = self._ode
@@ -166,7 +166,7 @@ class Worlds:
             self._feedback = np.zeros((contacts, 16), self._ode.dtype)
 
     def _add(self, data: mujoco.MjData) -> None:
-        ode, s, settings = self._ode, self._skeleton, self._settings
+        ode, s, settings = self._ode, self._multibody, self._settings
         world = ode.dWorldCreate()
         ode.dWorldSetGravity(world, *s.gravity)
         ode.dWorldSetERP(world, settings.erp)
@@ -205,8 +205,8 @@ class Worlds:
         self._motors.append(motors)
 
     def _hinge(self, world: int, bodies: list[int], j: int, data: mujoco.MjData) -> int:
-        ode, hinges = self._ode, self._skeleton.hinges
-        root = self._skeleton.body[j + 1]
+        ode, hinges = self._ode, self._multibody.hinges
+        root = self._multibody.body[j + 1]
         rotation = data.xmat[root].reshape(3, 3)
         hinge = ode.dJointCreateHinge(world, None)
         ode.dJointAttach(hinge, bodies[j + 1], bodies[hinges.parent[j]])
@@ -221,11 +221,11 @@ class Worlds:
 
     def _motor(self, world: int, bodies: list[int], j: int, data: mujoco.MjData, torque: float) -> int:
         """A motor about a hinge's axis that wants it at rest, with at most so much torque."""
-        ode, hinges = self._ode, self._skeleton.hinges
+        ode, hinges = self._ode, self._multibody.hinges
         motor = ode.dJointCreateAMotor(world, None)
         ode.dJointAttach(motor, bodies[j + 1], bodies[hinges.parent[j]])
         ode.dJointSetAMotorNumAxes(motor, 1)
-        rotation = data.xmat[self._skeleton.body[j + 1]].reshape(3, 3)
+        rotation = data.xmat[self._multibody.body[j + 1]].reshape(3, 3)
         ode.dJointSetAMotorAxis(motor, 0, 1, *(rotation @ hinges.axis[j]))
         ode.dJointSetAMotorParam(motor, library.VELOCITY, 0.0)
         ode.dJointSetAMotorParam(motor, library.MAX_FORCE, torque)
@@ -252,7 +252,7 @@ class Worlds:
             ode.dGeomSetQuaternion(geom, ode.vector(*quaternion))
         else:
             ode.dGeomSetBody(geom, body)
-            ode.dGeomSetOffsetPosition(geom, *(shape.position - self._skeleton.com[shape.link]))
+            ode.dGeomSetOffsetPosition(geom, *(shape.position - self._multibody.com[shape.link]))
             ode.dGeomSetOffsetQuaternion(geom, ode.vector(*quaternion))
         return geom
 

@@ -1,0 +1,142 @@
+"""Where the robot's quantities are in the vectors of an engine's model, and the sensors that record contact forces."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from levade.arrays import Array
+from levade.embodiment import Embodiment
+from levade.engines.state import State
+from levade.robots.addresses import Addresses, Index, compact
+from levade.trajectory import JointReference, Trajectories
+
+FOOT_CONTACT_FORCE = "foot_contact_force"
+"""In what a roll-out records: the contact force on each foot. Every other name is that of a body."""
+
+_FOOT_SENSOR, _BODY_SENSOR = "_contact_force", "_scene_force"
+"""What follows the name of a foot's geom, or of a body, in the name of its sensor."""
+
+
+@dataclass(frozen=True, eq=False)
+class Layout(Addresses):
+    """Addresses of a robot in the model of an engine, with its actuators and contact sensors.
+
+    Attributes:
+        embodiment: The robot.
+        actuators: Where the joints' torques are in actuator_force.
+        ctrl_position: Where the joints' position references are in ctrl.
+        ctrl_velocity: Where their velocity references are.
+        foot_sensors: Where the force on each foot is in sensordata.
+        body_sensors: Where the force on each body is in sensordata, by the body's name.
+    """
+
+    embodiment: Embodiment
+    actuators: Index
+    ctrl_position: Index
+    ctrl_velocity: Index
+    foot_sensors: tuple[int, ...]
+    body_sensors: Mapping[str, int]
+
+    @classmethod
+    def of_model(cls, model: mujoco.MjModel, embodiment: Embodiment) -> Layout:
+        """Look up a robot in a model whose actuators are named after its joints and which has `add_contact_sensors`.
+
+        Raises:
+            KeyError: If the model lacks one of the names.
+        """
+        actuators = [model.actuator(name).id for name in embodiment.joint_names]
+        ctrl = [int(model.actuator_ctrladr[i]) for i in actuators]
+        sensors = {model.sensor(i).name: int(model.sensor(i).adr[0]) for i in range(model.nsensor)}
+        return cls(
+            **vars(Addresses.of(model, embodiment.trunk, embodiment.joint_names)),
+            embodiment=embodiment,
+            actuators=compact([int(model.actuator_outadr[i]) for i in actuators]),
+            ctrl_position=compact(ctrl),
+            ctrl_velocity=compact([address + 1 for address in ctrl]),
+            foot_sensors=tuple(sensors[foot + _FOOT_SENSOR] for foot in embodiment.feet),
+            body_sensors={
+                name.removesuffix(_BODY_SENSOR): address
+                for name, address in sensors.items()
+                if name.endswith(_BODY_SENSOR)
+            },
+        )
+
+    def state(self, qpos: Array, qvel: Array, act: Array, *, joint_reference: Array | None = None) -> State:
+        """Make a state of the model's vectors, copied.
+
+        Args:
+            qpos: Positions, shape (nq,) or (rows, nq).
+            qvel: Velocities, shape (nv,) or (rows, nv).
+            act: States of the actuators, shape (na,) or (rows, na).
+            joint_reference: What the joints were commanded last [rad], shape (joints,) or (rows, joints). Defaults to
+                where they are.
+        """
+        joint_position = np.asarray(qpos)[..., self.joint_qpos]
+        parts = (qpos, qvel, act, joint_position, joint_position if joint_reference is None else joint_reference)
+        return State(*(np.array(np.atleast_2d(part), dtype=float) for part in parts))
+
+    def trajectories(
+        self,
+        out: Mapping[str, Array],
+        reference: JointReference,
+        *,
+        diverged: NDArray[np.bool_],
+        record: Sequence[str] = (),
+    ) -> Trajectories:
+        """Make trajectories of what MuJoCo recorded.
+
+        Args:
+            out: qpos, qvel, actuator_force, and sensordata if forces are asked for; each (n, steps, ...).
+            reference: What was asked of the joints in the same n trials.
+            diverged: Trials that broke down, shape (n,).
+            record: Forces to include: `FOOT_CONTACT_FORCE`, and bodies whose contact force with the scene is meant.
+        """
+        qpos, qvel = out["qpos"], out["qvel"]
+        return Trajectories(
+            joint_position=qpos[..., self.joint_qpos],
+            joint_velocity=qvel[..., self.joint_qvel],
+            joint_torque=out["actuator_force"][..., self.actuators],
+            trunk_position=qpos[..., self.trunk_position],
+            trunk_quaternion=qpos[..., self.trunk_quaternion],
+            trunk_linear_velocity=qvel[..., self.trunk_linear_velocity],
+            trunk_angular_velocity=qvel[..., self.trunk_angular_velocity],
+            reference=reference,
+            embodiment=self.embodiment,
+            timestep=reference.timestep,
+            horizon_steps=reference.horizon_steps,
+            diverged=diverged,
+            foot_contact_force=self.foot_forces(out["sensordata"]) if FOOT_CONTACT_FORCE in record else None,
+            body_contact_force={
+                body: self.force_on(body, out["sensordata"]) for body in record if body != FOOT_CONTACT_FORCE
+            },
+        )
+
+    def foot_forces(self, sensordata: Array) -> Array:
+        """Forces on the feet [N], shape (n, steps, feet, 3), in world axes."""
+        return np.stack([-sensordata[..., a : a + 3] for a in self.foot_sensors], axis=2)
+
+    def force_on(self, body: str, sensordata: Array) -> Array:
+        """Magnitude of the scene's force on a body [N], shape (n, steps)."""
+        address = self.body_sensors[body]
+        return np.linalg.norm(sensordata[..., address : address + 3], axis=-1)
+
+
+def add_contact_sensors(spec: mujoco.MjSpec, feet: Sequence[str]) -> None:
+    """Add sensors of the net force of each foot's contacts, and of each body's with the scene, in world axes."""
+    data_force = 1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE)
+    netforce = 3
+
+    def add(name: str, **match) -> None:
+        sensor = spec.add_sensor(name=name, type=mujoco.mjtSensor.mjSENS_CONTACT, **match)
+        sensor.intprm[:3] = [data_force, netforce, 1]
+
+    geom, body = mujoco.mjtObj.mjOBJ_GEOM, mujoco.mjtObj.mjOBJ_BODY
+    for foot in feet:
+        add(foot + _FOOT_SENSOR, objtype=geom, objname=foot)
+    for element in spec.bodies[1:]:
+        add(element.name + _BODY_SENSOR, objtype=body, objname=element.name, reftype=body, refname="world")

@@ -1,0 +1,124 @@
+"""How a robot is put into a scene: the model's text, the engine made of it, and the state that a motion starts from.
+
+engine = make_engine(load_robot("hyq2max"), Scene(), Physics())
+state = start_state(engine, robot, Scene(), Settled("neutral"))
+"""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+
+from levade.arrays import Array
+from levade.engines.engine import Engine
+from levade.engines.layout import add_contact_sensors
+from levade.engines.physics import Physics
+from levade.engines.start import Settled, Start
+from levade.engines.state import State
+from levade.engines.table import engine_kind
+from levade.errors import LevadeError, located
+from levade.robots import Robot
+from levade.scenes import Scene, compose
+
+_OVERLAP = 0.003
+"""[m]: what may overlap before the start; contacts at rest sink in by less."""
+
+
+def model_xml(robot: Robot, scene: Scene, physics: Physics, *, gain_scale: float = 1.0) -> str:
+    """Write the model of a robot in a scene: MJCF with actuators, contact sensors and the numerical settings.
+
+    Args:
+        robot: The robot. Its ``assets`` are the files that the text names.
+        scene: Ground and obstacles.
+        physics: Numerical settings.
+        gain_scale: Factor on the gains of the joints.
+    """
+    spec = compose(robot, scene, gain_scale=gain_scale)
+    option = spec.option
+    option.timestep = physics.timestep
+    option.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{physics.integrator.upper()}")
+    option.cone = getattr(mujoco.mjtCone, f"mjCONE_{physics.cone.upper()}")
+    option.impratio = physics.impratio
+    option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
+    add_contact_sensors(spec, robot.feet)
+    return spec.to_xml()
+
+
+def make_engine(robot: Robot, scene: Scene, physics: Physics, *, threads: int = 0) -> Engine:
+    """Put a robot into a scene, in the engine that ``physics.engine`` names.
+
+    Args:
+        robot: The robot.
+        scene: Ground and obstacles.
+        physics: Engine and numerical settings.
+        threads: Number of threads or processes, 0 for one per core. Results do not depend on it.
+
+    Raises:
+        LevadeError: If the engine needs what is not installed, or cannot simulate the robot.
+    """
+    xml = model_xml(robot, scene, physics)
+    return engine_kind(physics.engine).make(xml, robot.assets, robot.embodiment, physics, threads=threads)
+
+
+def start_state(engine: Engine, robot: Robot, scene: Scene, start: Start) -> State:
+    """Simulate how the robot comes to where a motion starts.
+
+    Args:
+        engine: The engine of the robot in the scene.
+        robot: The robot.
+        scene: The scene.
+        start: How the motion starts.
+
+    Returns:
+        The state at the start of the motion, one row.
+
+    Raises:
+        LevadeError: If the robot overlaps the scene, or itself, before it is let go, or the simulation breaks down.
+    """
+    if isinstance(start, Settled):
+        with located("start.settled.posture: "):
+            posture = robot.posture(start.posture)
+        feet = robot.foot_positions(posture)
+        ground = scene.ground_height(start.x + feet[:, 0], start.y + feet[:, 1])
+        height = robot.standing_height(start.posture) + float(ground.max())
+        data = _release(engine, engine.model, (start.x, start.y, height), (0.0, 0.0, 0.0), posture)
+        return engine.hold(engine.model, data, posture, start.time)
+    generator = np.random.default_rng(start.seed)
+    attitude = np.array([start.roll, start.pitch, start.yaw]) + start.spread * generator.standard_normal(3)
+    with located("start.fall.posture: "):
+        posture = robot.posture(start.posture)
+    posture += start.spread * generator.standard_normal(posture.size)
+    posture = np.clip(posture, robot.limits.lower, robot.limits.upper)
+    xml = model_xml(robot, scene, engine.physics, gain_scale=start.gain)
+    model = mujoco.MjModel.from_xml_string(xml, engine.assets)
+    data = _release(engine, model, (start.x, start.y, start.height), tuple(attitude), posture)
+    return engine.hold(model, data, posture, start.time)
+
+
+def _release(
+    engine: Engine,
+    model: mujoco.MjModel,
+    position: tuple[float, float, float],
+    attitude: tuple[float, float, float],
+    posture: Array,
+) -> mujoco.MjData:
+    """The robot as it is put down. attitude: roll, pitch and yaw [rad]."""
+    data, layout = mujoco.MjData(model), engine.layout
+    data.qpos[layout.trunk_position] = position
+    roll, pitch, yaw = attitude
+    mujoco.mju_euler2Quat(data.qpos[layout.trunk_quaternion], np.array([yaw, pitch, roll]), "zyx")
+    data.qpos[layout.joint_qpos] = posture
+    mujoco.mj_forward(model, data)
+    for contact in data.contact:
+        if contact.dist < -_OVERLAP and not contact.exclude:
+            one, other = (_geom_name(model, int(geom)) for geom in contact.geom)
+            raise LevadeError(
+                f"start: {one} and {other} overlap by {-contact.dist:.3f} m where the robot is put down;"
+                " move the robot (start) or the obstacle (scene)"
+            )
+    return data
+
+
+def _geom_name(model: mujoco.MjModel, geom: int) -> str:
+    name = model.geom(geom).name
+    return name or f"a part of {model.body(int(model.geom_bodyid[geom])).name}"

@@ -1,0 +1,339 @@
+"""A motion: the result of a search, in one self-contained file that anyone with only mujoco and numpy can replay.
+
+    motion = Motion.load("motion.npz")
+    motion                                             # Motion(rearing on hyq2max: success, T = 0.3 s, 512 trials)
+    motion.result.success, motion.result.errors["pitch"]
+    motion["joint_position"]                           # (steps, joints) [rad]
+    motion.task.success, motion.embodiment.limits      # the task, and the robot as the file knows it
+    motion.save("copy.npz")
+
+`levade.search.recording.record` makes one of what a search found. docs/motion-file.md documents the file, and replaying
+it needs none of levade:
+
+    data = np.load("motion.npz")
+    assets = {name[6:]: data[name].tobytes() for name in data if name.startswith("asset:")}
+    model = mujoco.MjModel.from_xml_string(str(data["model_xml"]), assets)
+    state = mujoco.MjData(model)
+    state.qpos[:], state.qvel[:], state.act[:] = data["qpos0"], data["qvel0"], data["act0"]
+    for ctrl in data["ctrl"]:
+        state.ctrl[:] = ctrl
+        mujoco.mj_step(model, state)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from levade.arrays import Array
+from levade.embodiment import Embodiment
+from levade.engines import State
+from levade.errors import LevadeError, did_you_mean
+from levade.feedback import Feedback
+from levade.feedback import names as sensed_names
+from levade.motions import file
+from levade.motions.facts import actuator_lines, embodiment_of, legs_of
+from levade.policies import Policy, policy_from_dict
+from levade.robots import Leg
+from levade.robots.addresses import Addresses
+from levade.tasks import Task, task_from_dict
+from levade.trajectory import JointReference
+
+
+class UnknownArray(LevadeError, KeyError):
+    """A motion has no array of that name; also a KeyError."""
+
+    __str__ = Exception.__str__  # a KeyError would put the message in quotes
+
+
+@dataclass(frozen=True)
+class Result:
+    """How well a motion does, and what it took to find it.
+
+    Attributes:
+        success: Whether it meets its task's criteria: on the model, and for a robust task on enough perturbed models.
+        diverged: Whether its simulation broke down.
+        errors: Criterion -> error [SI], as `levade.costs.Criterion.error` has it.
+        cost: Weighted sum of the terms.
+        cost_terms: Cost -> value of its term.
+        cost_weights: Cost -> weight that ``cost`` was taken with: the task's, unless they were changed on the way.
+        trials: Trials of the search.
+        trials_to_success: Trials until the first success; None if there was none.
+        stopped: What ended the search.
+    """
+
+    success: bool
+    diverged: bool
+    errors: Mapping[str, float]
+    cost: float
+    cost_terms: Mapping[str, float]
+    cost_weights: Mapping[str, float]
+    trials: int
+    trials_to_success: int | None
+    stopped: str
+
+
+@dataclass(frozen=True)
+class Provenance:
+    """Where a motion comes from.
+
+    Attributes:
+        engine: The engine that simulated it.
+        versions: Library -> version; they decide the bits.
+        seed: The search's random seed.
+        schema: Version of the file's layout.
+    """
+
+    engine: str
+    versions: Mapping[str, str]
+    seed: int
+    schema: int
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Motion:
+    """What was sent to the actuators, what the robot then did, and the model that says so. Never changed.
+
+    Attributes:
+        meta: The file's JSON, for those who want all of it; the attributes and properties below are what to use.
+        model_xml: The model's MJCF, robot and scene.
+        arrays: Name -> array, see `levade.motions.ARRAYS`; rows as in `levade.trajectory`.
+        assets: Files that the model needs, by name.
+    """
+
+    meta: Mapping[str, Any]
+    model_xml: str
+    arrays: Mapping[str, Array]
+    assets: Mapping[str, bytes]
+
+    @classmethod
+    def load(cls, path: str | Path) -> Motion:
+        """Load a motion file. Raises LevadeError if it is missing, damaged, or something else."""
+        content = file.read(path)
+        return cls(content.meta, content.model_xml, content.arrays, content.assets)
+
+    def save(self, path: str | Path) -> None:
+        """Write the motion to a file, all of it or nothing. Raises OSError."""
+        file.write(path, file.Content(self.meta, self.model_xml, self.arrays, self.assets))
+
+    def __getitem__(self, name: str) -> Array:
+        """Look up an array by name. Raises `UnknownArray`, which names the nearest one."""
+        try:
+            return self.arrays[name]
+        except KeyError:
+            raise UnknownArray(f"motion: no array {name!r}; {did_you_mean(str(name), self.arrays)}") from None
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.arrays
+
+    def __repr__(self) -> str:
+        found = "diverged" if self.result.diverged else "success" if self.result.success else "no success"
+        hold = f" and {self.hold:g} s of hold" if self.hold > 1e-9 else ""
+        return f"Motion({self.task_name} on {self.robot}: {found}, T = {self.horizon:g} s{hold}, {self.result.trials} trials)"
+
+    # what was asked for
+
+    @cached_property
+    def task(self) -> Task:
+        """The task, with every default filled in. A cost that was Python code is a `levade.tasks.code.MissingCode`.
+
+        Raises LevadeError if this version of levade does not take it.
+        """
+        return task_from_dict(self.meta["task"], where="the motion's task", code=True)
+
+    @property
+    def task_name(self) -> str:
+        """The task's name; cheaper than `task`."""
+        return str(self.meta["task"]["name"])
+
+    @cached_property
+    def policy(self) -> Policy | None:
+        """The policy whose weights are ``motion["weights"]``; None if the file does not hold it, as those of layout 1.
+
+        `levade.motions.ReferenceCurve` finds it for these, too.
+        """
+        content = self.meta.get("policy")
+        return None if content is None else policy_from_dict(content)
+
+    # the robot
+
+    @property
+    def robot(self) -> str:
+        """The robot's name."""
+        return str(self.meta["robot"])
+
+    @property
+    def trunk(self) -> str:
+        """Name of the trunk's body."""
+        return str(self.meta["trunk"])
+
+    @cached_property
+    def joint_names(self) -> tuple[str, ...]:
+        """The joints, in the order of every array."""
+        return tuple(str(name) for name in self["joint_names"])
+
+    @cached_property
+    def legs(self) -> tuple[Leg, ...]:
+        """The legs: names of joints and feet, and where they are."""
+        return legs_of(self.meta)
+
+    @property
+    def held(self) -> Mapping[str, float]:
+        """Joints that the model holds fixed -> their position [rad], of slides [m]; empty in files of early versions."""
+        return self.meta.get("held", {})
+
+    @property
+    def model_joints(self) -> tuple[str, ...]:
+        """All joints of the robot's own file in its order, held ones too; empty in files of early versions."""
+        return tuple(self.meta.get("model_joints", ()))
+
+    @cached_property
+    def embodiment(self) -> Embodiment:
+        """The robot as simulations and costs know it. Its ``legs`` are empty in files of early versions."""
+        return embodiment_of(self.meta, self.joint_names, lambda: actuator_lines(self.compiled(), self.joint_names))
+
+    def compiled(self) -> mujoco.MjModel:
+        """Compile the model, each time a new one.
+
+        Raises:
+            LevadeError: If MuJoCo does not take it, or the arrays are not of it.
+        """
+        try:
+            model = mujoco.MjModel.from_xml_string(self.model_xml, dict(self.assets))
+        except ValueError as error:
+            what = " ".join(str(error).split())
+            raise LevadeError(
+                f"motion: MuJoCo {mujoco.__version__} does not take its model: {what}; the file is damaged"
+            ) from None
+        for name, size in (("qpos0", model.nq), ("qvel0", model.nv), ("act0", model.na), ("ctrl", model.nu)):
+            if self[name].shape[-1] != size:
+                raise LevadeError(
+                    f"motion: {name} has {self[name].shape[-1]} numbers, its model {size}; the file is damaged"
+                )
+        return model
+
+    def addresses(self, model: mujoco.MjModel) -> Addresses:
+        """Look up the trunk and the joints in the motion's model."""
+        return Addresses.of(model, self.trunk, self.joint_names)
+
+    # what the robot did
+
+    @property
+    def timestep(self) -> float:
+        """[s]."""
+        return float(self.meta["timestep"])
+
+    @property
+    def horizon(self) -> float:
+        """T [s]."""
+        return float(self.meta["horizon"])
+
+    @property
+    def horizon_steps(self) -> int:
+        """Rows up to the horizon; later ones are the hold."""
+        return int(self.meta["horizon_steps"])
+
+    @property
+    def steps(self) -> int:
+        """Rows of every array over time."""
+        return len(self["time"])
+
+    @property
+    def duration(self) -> float:
+        """[s], with the hold."""
+        return float(self["time"][-1])
+
+    @property
+    def hold(self) -> float:
+        """[s], after the horizon."""
+        return max(0.0, self.duration - self.horizon)
+
+    @cached_property
+    def start(self) -> State:
+        """The state at the start, one row. Files of early versions do not say what the joints were commanded last: there
+        it is where they are.
+        """
+        joint_position = self["qpos0"][self.addresses(self.compiled()).joint_qpos]
+        commanded = self.arrays.get("joint_position_reference0", joint_position)
+        parts = (self["qpos0"], self["qvel0"], self["act0"], joint_position, commanded)
+        return State(*(np.array(part, dtype=float)[None] for part in parts))
+
+    @cached_property
+    def reference(self) -> JointReference:
+        """What was asked of the joints, as a reference of one trial."""
+        return JointReference(
+            self["joint_position_reference"][None],
+            self["joint_velocity_reference"][None],
+            self.timestep,
+            self.horizon_steps,
+            self.arrays.get("joint_position_reference0"),
+        )
+
+    @cached_property
+    def result(self) -> Result:
+        """How well it does."""
+        meta = self.meta
+        weights = meta.get("cost_weights") or {name: cost["weight"] for name, cost in meta["task"]["costs"].items()}
+        return Result(
+            success=bool(meta["success"]),
+            diverged=bool(meta["diverged"]),
+            errors=meta["errors"],
+            cost=float(meta["cost"]),
+            cost_terms=meta["cost_terms"],
+            cost_weights=weights,
+            trials=int(meta["trials"]),
+            trials_to_success=meta["trials_to_success"],
+            stopped=meta["stopped"],
+        )
+
+    @cached_property
+    def provenance(self) -> Provenance:
+        """Where it comes from."""
+        meta = self.meta
+        return Provenance(str(meta["engine"]), meta["versions"], meta["seed"], int(meta["schema"]))
+
+    def meets(self, criterion: str) -> bool:
+        """Whether the motion meets a criterion of its task on the model, by the numbers in its file."""
+        return abs(self.result.errors[criterion]) <= (self.task.success[criterion].tolerance or 0.0)
+
+    @property
+    def met_on_the_model_only(self) -> bool:
+        """Whether it meets every criterion on the model and still is no success: a motion of a robust search."""
+        result = self.result
+        return not (result.success or result.diverged) and all(self.meets(name) for name in self.task.success)
+
+    # the stabiliser
+
+    @cached_property
+    def feedback(self) -> Feedback | None:
+        """The stabiliser, if the motion has one; what is recorded is the motion without disturbance, where it does nothing."""
+        return None if self.stabiliser is None else Feedback.of(self.stabiliser, self.arrays)
+
+    @property
+    def stabiliser(self) -> Mapping[str, Any] | None:
+        """What the file says about the stabiliser, as JSON; None if there is none."""
+        return self.meta.get("feedback")
+
+    def stabilised(self, feedback: Feedback | None, **about: Any) -> Motion:
+        """The same motion with a stabiliser, or without. about: what its meta says next to what it is."""
+        arrays = {
+            name: self.arrays[name] for name in (*file.ARRAYS, *file.LATER_ARRAYS) if name in self.arrays
+        }  # but not those of another stabiliser
+        meta = {key: value for key, value in self.meta.items() if key != "feedback"}
+        if feedback is not None:
+            arrays |= feedback.arrays()
+            meta["feedback"] = {
+                "rate": 1.0 / feedback.period,
+                "period_steps": feedback.steps(self.timestep),
+                "latency": feedback.period,
+                "bound": feedback.bound,
+                "sensed": sensed_names(self.joint_names),
+                **about,
+            }
+        return Motion(meta, self.model_xml, arrays, self.assets)

@@ -1,0 +1,229 @@
+"""A recorded motion as a simulation: by its file alone, as it was recorded, on models that differ, and in other engines.
+
+simulation = RecordedSimulation(Motion.load("motion.npz"))
+sample = Perturbation().draw(simulation.model, simulation.joints, n=64, seed=0)
+trajectories = simulation.rollout(sample)                    # of 64 perturbed models
+replay_in("ode", motion).errors["pitch"]                     # the same references, another physics
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import mujoco
+import numpy as np
+
+from levade.arrays import Array
+from levade.costs import Criterion, errors, success
+from levade.embodiment import Embodiment
+from levade.engines import (
+    FOOT_CONTACT_FORCE,
+    Engine,
+    Layout,
+    Models,
+    MujocoEngine,
+    Ode,
+    Perturbation,
+    Sample,
+    State,
+    engine_kind,
+    perturbed_models,
+)
+from levade.errors import LevadeError
+from levade.feedback import Feedback
+from levade.motions.motion import Motion
+from levade.motions.reference import ReferenceCurve
+from levade.tasks import Task
+from levade.trajectory import JointReference, Trajectories
+
+
+class RecordedSimulation:
+    """A motion, ready to be simulated: in MuJoCo, whichever engine made it, unless another engine is given.
+
+    Args:
+        motion: The motion.
+        criteria: What success means. Defaults to the criteria of the motion's task.
+        threads: Number of threads (0: one per core). Results do not depend on it.
+        engine: What simulates it, with the motion's model or a version of it whose time step is a whole fraction of the
+            motion's. Defaults to MuJoCo with its own model.
+
+    Attributes:
+        model: MuJoCo's model.
+        layout: Where the robot is in the model.
+
+    Raises:
+        LevadeError: If the file's model or task is damaged.
+    """
+
+    def __init__(
+        self,
+        motion: Motion,
+        *,
+        criteria: Mapping[str, Criterion] | None = None,
+        threads: int = 0,
+        engine: Engine | None = None,
+    ) -> None:
+        self.motion, self.threads = motion, threads
+        self.task: Task = motion.task
+        self.criteria = dict(self.task.success if criteria is None else criteria)
+        self.embodiment: Embodiment = motion.embodiment
+        self.timestep = motion.timestep
+        self.engine = _mujoco(motion, threads) if engine is None else engine
+        self.model, self.layout = self.engine.model, self.engine.layout
+
+    @property
+    def joints(self) -> int:
+        """Number of joints."""
+        return self.embodiment.joints
+
+    @cached_property
+    def start(self) -> State:
+        """Where the motion starts, one row."""
+        return _start(self.motion, self.layout)
+
+    @cached_property
+    def curve(self) -> ReferenceCurve:
+        """The motion's reference as a function of time."""
+        return ReferenceCurve.of(self.motion)
+
+    @cached_property
+    def reference(self) -> JointReference:
+        """What is asked of the joints, of one trial, at the time steps of `model`."""
+        parts = round(self.timestep / self.model.opt.timestep)
+        return self.curve.divided(parts) if parts > 1 else self.motion.reference
+
+    def model_copy(self) -> mujoco.MjModel:
+        """A copy of the model, to be changed and given to `with_model`."""
+        return copy.deepcopy(self.model)
+
+    def with_model(self, model: mujoco.MjModel) -> RecordedSimulation:
+        """The same motion with another version of its model. A shorter time step goes with the reference at these steps.
+
+        Raises:
+            LevadeError: If it is simulated in another engine than MuJoCo, which takes no changed model.
+        """
+        if not isinstance(self.engine, MujocoEngine):
+            raise LevadeError(f"simulation: the engine {self.engine.name} takes no changed model; only mujoco does")
+        engine = self.engine.with_model(model)
+        other = RecordedSimulation(self.motion, criteria=self.criteria, threads=self.threads, engine=engine)
+        if "curve" in vars(self):  # found once
+            vars(other)["curve"] = self.curve
+        return other
+
+    def divided(self, parts: int) -> RecordedSimulation:
+        """The same motion at time steps shorter by a whole factor."""
+        if parts == 1:
+            return self
+        model = self.model_copy()
+        model.opt.timestep /= parts
+        return self.with_model(model)
+
+    def rollout(
+        self,
+        sample: Sample | None = None,
+        *,
+        feedback: Feedback | None = None,
+        sensor_errors: Array | None = None,
+    ) -> Trajectories:
+        """Simulate the motion.
+
+        Args:
+            sample: Perturbed models, a run of each. Defaults to one run of the model as it is.
+            feedback: Corrects the reference in every run.
+            sensor_errors: What is added to what the feedback senses, shape (n, ticks, sensed).
+        """
+        starts, models = self._models(self.nominal if sample is None else sample)
+        return self.engine.rollout(
+            starts, self.reference, models=models, feedback=feedback, sensor_errors=sensor_errors
+        )
+
+    def states(self, sample: Sample, fields: Sequence[str]) -> dict[str, Array]:
+        """Simulate the motion on perturbed models, and record arrays of `mujoco.MjData`: name -> (n, steps, ...).
+
+        Raises:
+            LevadeError: If it is simulated in another engine than MuJoCo, which has no such arrays.
+        """
+        if not isinstance(self.engine, MujocoEngine):
+            raise LevadeError(f"simulation: the engine {self.engine.name} has no arrays of MuJoCo's; only mujoco has")
+        starts, models = self._models(sample)
+        return self.engine.states(starts, self.reference, fields, models=models)[0]
+
+    @property
+    def nominal(self) -> Sample:
+        """A sample of one model, the one that is not perturbed."""
+        return Perturbation().nominal(self.model, self.joints)
+
+    def _models(self, sample: Sample) -> tuple[State, Models]:
+        return perturbed_models(self.model, self.layout, sample, self.start)
+
+
+def _mujoco(motion: Motion, threads: int) -> MujocoEngine:
+    physics = replace(motion.task.physics, engine="mujoco", timestep=motion.timestep)
+    model = motion.compiled()
+    return MujocoEngine(motion.model_xml, motion.assets, motion.embodiment, physics, threads=threads, model=model)
+
+
+def _start(motion: Motion, layout: Layout) -> State:
+    commanded = motion.arrays.get("joint_position_reference0")
+    return layout.state(motion["qpos0"], motion["qvel0"], motion["act0"], joint_reference=commanded)
+
+
+@dataclass(frozen=True, eq=False)
+class Replay:
+    """What came of a replay.
+
+    Attributes:
+        engine: Its engine.
+        trajectories: Those of one trial, with foot forces.
+        errors: Criterion of the motion's task -> error [SI].
+        success: Whether all of them are met.
+    """
+
+    engine: str
+    trajectories: Trajectories
+    errors: Mapping[str, float]
+    success: bool
+
+
+def replay_in(engine: str, motion: Motion, *, ode: Ode | None = None) -> Replay:
+    """Simulate a motion's references from its start in an engine.
+
+    The replay begins in the file's own state, wherever the engine itself would have the robot settle. In the engine that made
+    the motion, with the same versions, it is the motion itself, to the bit.
+
+    Args:
+        engine: A name in `levade.engines.ENGINES`.
+        motion: The motion.
+        ode: Settings of the engine ode. Defaults to those of the motion's task.
+
+    Raises:
+        LevadeError: If the engine is not there, or cannot simulate the motion's model.
+    """
+    kind = engine_kind(engine)
+    motion.compiled()  # what is wrong with the model is told as of a motion
+    physics = motion.task.physics
+    physics = replace(physics, engine=engine, timestep=motion.timestep, ode=ode or physics.ode)
+    simulated = kind.make(motion.model_xml, motion.assets, motion.embodiment, physics, threads=1)
+    start = _start(motion, simulated.layout)
+    trajectories = simulated.rollout(start, motion.reference, record=[FOOT_CONTACT_FORCE])
+    off = errors(motion.task.success, trajectories)
+    return Replay(
+        engine=engine,
+        trajectories=trajectories,
+        errors={name: float(error[0]) for name, error in off.items()},
+        success=bool(success(motion.task.success, trajectories)[0]),
+    )
+
+
+def configurations(motion: Motion, model: mujoco.MjModel) -> Array:
+    """The robot's poses as recorded, shape (steps + 1, nq): the start, and the end of each step."""
+    at = motion.addresses(model)
+    qpos = np.tile(motion["qpos0"], (motion.steps + 1, 1))
+    qpos[1:, at.trunk_position] = motion["trunk_position"]
+    qpos[1:, at.trunk_quaternion] = motion["trunk_quaternion"]
+    qpos[1:, at.joint_qpos] = motion["joint_position"]
+    sound = np.isfinite(qpos).all(axis=1)  # a trial that diverged stays where it last was
+    return qpos[np.maximum.accumulate(np.where(sound, np.arange(len(qpos)), 0))]

@@ -1,0 +1,90 @@
+"""Trials of a recorded motion on perturbed models, and what comes of each.
+
+sample = Perturbation().draw(simulation.model, simulation.joints, n=500, seed=0)
+trials = run_trials(simulation, sample, feedback=motion.feedback, seed=0)
+trials.success.mean(), trials.errors["pitch"]
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from levade.arrays import Array
+from levade.costs import DIVERGED, errors, success
+from levade.engines import Sample
+from levade.feedback import Feedback, SensorErrors
+from levade.motions.simulation import RecordedSimulation
+
+_AT_ONCE = 64
+"""Runs simulated together: what they record has to fit into memory."""
+
+_SENSING = 7933
+"""Keeps the sensors' errors apart from what is drawn with the same seed."""
+
+
+@dataclass(frozen=True, eq=False)
+class Trials:
+    """What came of n trials.
+
+    Attributes:
+        errors: Criterion -> error [SI], shape (n,).
+        success: Whether every criterion is met, shape (n,).
+        diverged: Trials whose simulation broke down, shape (n,).
+        miss: The largest error, in tolerances; for a criterion with a bound, as a share of the bound. Shape (n,).
+    """
+
+    errors: Mapping[str, Array]
+    success: NDArray[np.bool_]
+    diverged: NDArray[np.bool_]
+    miss: Array
+
+    def __len__(self) -> int:
+        return len(self.success)
+
+    def part(self, first: int, last: int) -> Trials:
+        """Those from ``first`` to before ``last``."""
+        at = slice(first, last)
+        off = {name: values[at] for name, values in self.errors.items()}
+        return Trials(off, self.success[at], self.diverged[at], self.miss[at])
+
+
+def run_trials(
+    simulation: RecordedSimulation,
+    sample: Sample,
+    *,
+    feedback: Feedback | None = None,
+    seed: int = 0,
+    stopping: Callable[[], bool] | None = None,
+) -> Trials:
+    """Simulate a motion on all models of a sample.
+
+    Args:
+        simulation: The motion, and the criteria.
+        sample: The perturbed models.
+        feedback: The stabiliser, whose sensors err (`levade.feedback.SensorErrors`).
+        seed: Seed of the sensors' errors.
+        stopping: Asked on the way; once it says so, the trials made by then are the result, some at least.
+    """
+    criteria, reference, parts = simulation.criteria, simulation.reference, []
+    for first in range(0, len(sample), _AT_ONCE):
+        if parts and stopping is not None and stopping():
+            break
+        part = Sample({name: values[first : first + _AT_ONCE] for name, values in sample.values.items()})
+        wrong = None
+        if feedback is not None:
+            ticks = -(-reference.steps // feedback.steps(reference.timestep))
+            wrong = SensorErrors().draw(_AT_ONCE, ticks, simulation.joints, seed=(seed, first, _SENSING))[: len(part)]
+        trajectories = simulation.rollout(part, feedback=feedback, sensor_errors=wrong)
+        parts.append((errors(criteria, trajectories), success(criteria, trajectories), trajectories.diverged))
+    off = {name: np.concatenate([part[0][name] for part in parts]) for name in criteria}
+    met, diverged = (np.concatenate([part[i] for part in parts]) for i in (1, 2))
+    miss = np.zeros(len(met))
+    for name, criterion in criteria.items():
+        bound = next((abs(end) for end in (criterion.minimum, criterion.maximum) if end), 1.0)
+        np.maximum(miss, np.abs(off[name]) / (criterion.tolerance or bound), out=miss)
+    miss[diverged] = DIVERGED
+    return Trials(off, met, diverged, miss)

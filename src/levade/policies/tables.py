@@ -1,0 +1,90 @@
+"""A policy as plain tables, so that a file can hold it: kernels, groups of joints, ends and times.
+
+content = policy_to_dict(policy)        # JSON
+policy = policy_from_dict(content)      # the same policy, to the bit
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from levade.arrays import Array
+from levade.errors import LevadeError
+from levade.policies.ends import Ends
+from levade.policies.groups import Follower, Group
+from levade.policies.kernels import GaussianKernels
+from levade.policies.policy import Policy
+
+
+def policy_to_dict(policy: Policy) -> dict[str, Any]:
+    """Write a policy as plain tables.
+
+    Returns:
+        Tables that JSON can hold. ``groups`` has joint indices and mirror signs, ``ends`` is None where the weights decide
+        where a reference starts and ends; times in s, angles in rad.
+    """
+    ends = policy.ends
+    return {
+        "kernels": policy.kernels.kernels,
+        "variance": policy.kernels.variance,
+        "time": policy.kernels.time,
+        "groups": [
+            {
+                "leader": list(group.leader),
+                "followers": [
+                    {"joints": list(follower.joints), "signs": list(follower.signs)} for follower in group.followers
+                ],
+            }
+            for group in policy.groups
+        ],
+        "horizon": policy.horizon,
+        "timestep": policy.timestep,
+        "hold_steps": policy.hold_steps,
+        "ends": None
+        if ends is None
+        else {
+            "start": np.asarray(ends.start).tolist(),
+            "goal": np.asarray(ends.goal).tolist(),
+            "depart": ends.depart,
+            "settle": ends.settle,
+        },
+    }
+
+
+def policy_from_dict(content: Mapping[str, Any]) -> Policy:
+    """Read a policy from the tables of `policy_to_dict`.
+
+    Raises:
+        LevadeError: If something is missing, or makes no policy.
+    """
+    try:
+        ends = content["ends"]
+        policy = Policy(
+            kernels=GaussianKernels(content["kernels"], content["variance"], content["time"]),
+            groups=tuple(
+                Group(
+                    tuple(group["leader"]),
+                    tuple(Follower(tuple(one["joints"]), tuple(one["signs"])) for one in group["followers"]),
+                )
+                for group in content["groups"]
+            ),
+            horizon=content["horizon"],
+            timestep=content["timestep"],
+            hold_steps=content["hold_steps"],
+            ends=None
+            if ends is None
+            else Ends(_angles(ends["start"]), _angles(ends["goal"]), ends["depart"], ends["settle"]),
+        )
+    except (LookupError, TypeError, ValueError, AttributeError) as error:
+        raise LevadeError(f"policy: its tables cannot be read ({type(error).__name__}: {error})") from None
+    for name, angles in (("start", policy.ends.start), ("goal", policy.ends.goal)) if policy.ends else ():
+        if angles.shape != (policy.joints,):
+            raise LevadeError(f"policy.ends.{name}: {angles.size} angles for {policy.joints} joints")
+    return policy
+
+
+def _angles(values: Any) -> Array:
+    return np.array(values, dtype=float)

@@ -1,0 +1,112 @@
+"""Where a search begins that does not begin from nothing: earlier motions, weights, or a distribution.
+
+guess = initial_guess(objective, [Motion.load("rearing/motion.npz")])
+solution = solve(objective, initial=guess)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from levade.arrays import Array
+from levade.errors import LevadeError
+from levade.motions import Motion
+from levade.optimizers import SearchSpace
+from levade.policies import Policy
+
+
+@dataclass(frozen=True, eq=False)
+class InitialGuess:
+    """Weights to begin around. All of them are tried first; the optimizer begins around the best.
+
+    Attributes:
+        candidates: Policy weights [rad], shape (k, d).
+        step: Factor on the optimizer's initial step size.
+        factor: Square root of the initial covariance up to the step, shape (d, m). None keeps the task's own.
+    """
+
+    candidates: Array
+    step: float = 1.0
+    factor: Array | None = None
+
+    def __post_init__(self) -> None:
+        if self.candidates.ndim != 2 or not len(self.candidates) or not np.isfinite(self.candidates).all():
+            raise LevadeError(
+                f"initial: weights should be finite numbers of shape (motions, d), got shape {self.candidates.shape}"
+            )
+        if not (np.isfinite(self.step) and self.step > 0):
+            raise LevadeError(f"initial: a factor of {self.step} on the step makes no sense; give a positive number")
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain lists; floats survive JSON to the bit."""
+        factor = None if self.factor is None else self.factor.tolist()
+        return {"candidates": self.candidates.tolist(), "step": self.step, "factor": factor}
+
+    @classmethod
+    def from_json(cls, content: Mapping[str, Any]) -> InitialGuess:
+        """The guess that `to_json` wrote."""
+        factor = None if content["factor"] is None else np.array(content["factor"], dtype=float)
+        return cls(np.array(content["candidates"], dtype=float), float(content["step"]), factor)
+
+    def space(self, space: SearchSpace, mean: Array) -> SearchSpace:
+        """The search space around one of the candidates."""
+        factor = space.factor if self.factor is None else self.factor
+        return replace(space, mean=mean, step=space.step * self.step, factor=factor)
+
+
+AROUND = 0.5
+"""Factor on the initial step size around motions: they are near, so the search looks nearer."""
+
+
+def initial_guess(policy: Policy, given: Motion | Array | InitialGuess | Sequence[Motion | Array]) -> InitialGuess:
+    """Make an initial guess of what a caller gives.
+
+    Args:
+        policy: The policy of the search that is to begin there.
+        given: Motions, whatever their kernels, horizon and groups; policy weights [rad], shape (size,) or (k, size); several
+            of these; or an `InitialGuess`, which is returned as it is.
+
+    Raises:
+        LevadeError: If a motion moves other joints than the policy's robot, or weights have another shape.
+    """
+    if isinstance(given, InitialGuess):
+        return given
+    several = [given] if isinstance(given, Motion | np.ndarray) else list(given)
+    if not several:
+        raise LevadeError("initial: there are no motions to begin around; leave it out to begin from nothing")
+    rows = []
+    for one in several:
+        weights = fitted(policy, one) if isinstance(one, Motion) else np.atleast_2d(np.asarray(one, dtype=float))
+        if weights.ndim != 2 or weights.shape[1] != policy.size:
+            raise LevadeError(f"initial: weights have the shape {weights.shape}, should be (k, {policy.size})")
+        rows.append(weights)
+    return InitialGuess(np.concatenate(rows), step=AROUND)
+
+
+def fitted(policy: Policy, motion: Motion) -> Array:
+    """Policy weights whose reference is nearest to a motion's [rad], shape (1, size).
+
+    A motion of another duration is stretched to the policy's horizon. Weights that give the motion itself are kept as they are.
+
+    Raises:
+        LevadeError: If the motion moves another number of joints.
+    """
+    position = motion["joint_position_reference"][: motion.horizon_steps]
+    if position.shape[1] != policy.joints:
+        raise LevadeError(
+            f"initial: the motion moves {position.shape[1]} joints, the task's robot has {policy.joints}; give a motion of"
+            " the same robot"
+        )
+    weights = motion["weights"][None]
+    if weights.shape[1] == policy.size and len(position) == policy.horizon_steps:
+        same = policy.reference(weights, hold_steps=0).position[0]
+        if np.array_equal(same, position):
+            return weights
+    share = np.arange(1, policy.horizon_steps + 1) / policy.horizon_steps * len(position)
+    rows = np.arange(1, len(position) + 1)
+    stretched = np.stack([np.interp(share, rows, angle) for angle in position.T], axis=1)
+    return policy.imitate(stretched[None])

@@ -1,0 +1,159 @@
+"""Driving searches to their end: `solve` one, `solve_many` several in lockstep.
+
+    solution = solve(load_task("rearing"), seed=0)
+    solution.success, solution.trials_to_success, solution.best.errors
+
+Everything is deterministic: the same task, seed and versions give the same solution to the bit, for any number of threads, and
+in lockstep with any other searches. Weights that a caller changes on the way (``steer``) are part of the solution, as
+`levade.tasks.Change`: a task with these changes gives it again. Given the records of an interrupted solve, the loop answers the
+search from these first, and goes on to the same end.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
+
+from levade.errors import LevadeError
+from levade.optimizers.blas import single_threaded
+from levade.search.evaluation import Evaluation, Record, Trials
+from levade.search.initial import InitialGuess
+from levade.search.objective import Objective, evaluate_many, make_objective
+from levade.search.outcome import Generation, Solution, Stopped
+from levade.search.search import Search, Steer
+from levade.tasks import Task
+
+Observe = Callable[[Generation], "Stopped | None"]
+"""Called after each generation. `Stopped.INTERRUPTED` ends the search with the best motion so far."""
+
+
+@single_threaded()
+def solve(
+    task: Task | Objective,
+    *,
+    seed: int = 0,
+    threads: int = 0,
+    initial: InitialGuess | None = None,
+    observe: Observe | None = None,
+    steer: Steer | None = None,
+    records: Iterable[Record] = (),
+    keep: Callable[[Record], object] | None = None,
+) -> Solution:
+    """Search for a motion that does the task.
+
+    Args:
+        task: The task, or an objective that was made of one.
+        seed: Seed of all random numbers.
+        threads: Engine threads; 0 for one per core. Results do not depend on it.
+        initial: Weights to begin around.
+        observe: See `Observe`. Ctrl-C ends the search in the same way.
+        steer: See `levade.search.search.Steer`. Not called for generations that records answer.
+        records: Records of an earlier solve of the same task and seed, in order; the search goes on after them.
+        keep: Called with each new record.
+
+    Raises:
+        LevadeError: If the task does not fit together, the records are not of this search, or ``steer`` names a cost that
+            the task does not have.
+    """
+    objective = task if isinstance(task, Objective) else make_objective(task, threads=threads)
+    answers = _Answers(records, keep)
+    live = None if steer is None else lambda number: None if answers.left else steer(number)
+    search = Search(objective.task, objective.space, seed=seed, initial=initial, steer=live)
+    while (trials := search.ask()) is not None:
+        try:
+            evaluation = answers.recorded(trials) or answers.kept(trials, objective.evaluate(trials))
+        except KeyboardInterrupt:
+            if trials.closing:
+                raise
+            search.stop()
+            continue
+        _observed(search, search.tell(evaluation), answers, observe)
+    return search.solution
+
+
+@single_threaded()
+def solve_many(
+    objectives: Sequence[Objective],
+    *,
+    seeds: Sequence[int] | None = None,
+    initial: Sequence[InitialGuess | None] | None = None,
+    observe: Callable[[int, Generation], Stopped | None] | None = None,
+) -> list[Solution]:
+    """Drive several searches in lockstep: the trials that they ask for are simulated in common batches.
+
+    Args:
+        objectives: What to search for; those of one simulation share batches, from whatever starts.
+        seeds: Seed of each search. Defaults to 0 for all.
+        initial: Weights that each begins around, if any.
+        observe: Called with the number of a search and each of its generations; may end that search.
+
+    Returns:
+        A solution for each objective, with the same bits as `solve` gives for it alone.
+    """
+    n = len(objectives)
+    seeds, initial = seeds or [0] * n, initial or [None] * n
+    if not n == len(seeds) == len(initial):
+        raise LevadeError(f"solve_many: {n} objectives, {len(seeds)} seeds, {len(initial)} initial; give one of each")
+    searches = [
+        Search(one.task, one.space, seed=seed, initial=guess)
+        for one, seed, guess in zip(objectives, seeds, initial, strict=True)
+    ]
+    while asked := {i: trials for i, search in enumerate(searches) if (trials := search.ask()) is not None}:
+        try:
+            evaluations = evaluate_many([(objectives[i], trials) for i, trials in asked.items()])
+        except KeyboardInterrupt:
+            if all(trials.closing for trials in asked.values()):
+                raise
+            for i in asked:
+                searches[i].stop()
+            continue
+        for i, evaluation in zip(asked, evaluations, strict=True):
+            generation = searches[i].tell(evaluation)
+            if generation is not None and observe is not None and (wish := observe(i, generation)) is not None:
+                searches[i].stop(wish)
+    return [search.solution for search in searches]
+
+
+def _observed(search: Search, generation: Generation | None, answers: _Answers, observe: Observe | None) -> None:
+    """Show a generation to the observer, if one is complete, and do what it wants."""
+    if generation is None:
+        return
+    generation, answers.fresh = replace(generation, replayed=not answers.fresh), False
+    if observe is None:
+        return
+    try:
+        wish = observe(generation)
+    except KeyboardInterrupt:
+        wish = Stopped.INTERRUPTED
+    if wish is not None:
+        search.stop(wish)
+
+
+class _Answers:
+    """Answers from records, in order, while there are any; new ones are handed to ``keep``."""
+
+    def __init__(self, records: Iterable[Record], keep: Callable[[Record], object] | None) -> None:
+        self.left = deque(records)
+        self.fresh = False
+        self._keep, self._count = keep, 0
+
+    def recorded(self, trials: Trials) -> Evaluation | None:
+        """The record that answers trials, if any is left."""
+        if trials.closing or not self.left:
+            return None
+        record = self.left.popleft()
+        self._count += 1
+        if record.checksum != trials.checksum:
+            raise LevadeError(
+                f"record {self._count} is of another search: the task, the seed or a library has changed since;"
+                " start again in an empty directory"
+            )
+        return record.evaluation
+
+    def kept(self, trials: Trials, evaluation: Evaluation) -> Evaluation:
+        """A new evaluation, recorded."""
+        self.fresh = True
+        if self._keep is not None and not trials.closing:
+            self._keep(Record(trials.checksum, evaluation))
+        return evaluation

@@ -1,0 +1,310 @@
+"""From weights to what they achieve: a `Simulation` is built once, an `Objective` is a simulation and a task.
+
+    objective = make_objective(load_task("rearing"))
+    evaluation = objective.evaluate(Trials(weights, hold_steps=0))
+    other = objective.with_task(task)               # the same simulation, other costs or policy: cheap
+
+`evaluate_many` evaluates the trials of several objectives of one simulation in common batches.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from levade.arrays import Array
+from levade.costs import evaluate
+from levade.engines import FOOT_CONTACT_FORCE, Engine, Models, State, make_engine, perturbed_models, start_state
+from levade.errors import LevadeError, did_you_mean
+from levade.optimizers import SearchSpace
+from levade.policies import Policy, smoothness_factor
+from levade.robots import Robot, load_robot
+from levade.search.evaluation import Evaluation, Trials
+from levade.search.optimizing import make_attempt
+from levade.tasks import Task, looks_at_hold
+from levade.tasks.policy import goal_posture, make_policy
+from levade.tasks.reach import check_reach
+from levade.trajectory import JointReference, Trajectories
+
+ENDING = 0.25
+"""Share of the horizon in which an optimizer may finish a motion, without a change to what comes before."""
+
+AT_ONCE = 128
+"""Roll-outs in one batch: what they record has to fit into memory."""
+
+_TAG = 1_380_930_130
+"""Keeps perturbed models apart from those that `levade check` draws with the same seed."""
+
+
+@dataclass(frozen=True, eq=False)
+class Simulation:
+    """A robot in a scene, in an engine, at the start of a motion.
+
+    Attributes:
+        robot: The robot.
+        engine: The engine, which has the scene in its model.
+        start: Where roll-outs start.
+    """
+
+    robot: Robot
+    engine: Engine
+    start: State
+
+    @classmethod
+    def of(cls, task: Task, *, threads: int = 0) -> Simulation:
+        """Build the simulation of a task.
+
+        Args:
+            task: Names the robot, scene, physics and start.
+            threads: Engine threads; 0 for one per core. Results do not depend on it.
+
+        Raises:
+            LevadeError: If they do not fit together, or the robot cannot be put down where the start says.
+        """
+        choice = asdict(task.robot)
+        robot = load_robot(choice.pop("name"), **choice)
+        engine = make_engine(robot, task.scene, task.physics, threads=threads)
+        return cls(robot, engine, start_state(engine, robot, task.scene, task.start.choice))
+
+    def starting(self, start: State) -> Simulation:
+        """The same simulation from another start."""
+        return replace(self, start=start)
+
+
+@dataclass(frozen=True, eq=False)
+class Rollouts:
+    """What an engine is asked to simulate: `levade.engines.Engine.rollout` says what each is."""
+
+    starts: State
+    reference: JointReference
+    models: Models | None
+
+    def __getitem__(self, rows: slice) -> Rollouts:
+        if rows == slice(0, len(self.reference.position)):
+            return self  # a search starts all its trials from one state, which the engine knows again
+        starts = self.starts if len(self.starts) == 1 else self.starts[rows]
+        return Rollouts(starts, self.reference[rows], None if self.models is None else self.models[rows])
+
+    @classmethod
+    def joined(cls, parts: Sequence[Rollouts]) -> Rollouts:
+        """Several, one after another; all on perturbed models, or none."""
+        first = parts[0]
+        if len(parts) == 1:
+            return first
+        rows = [len(part.reference.position) for part in parts]
+        if all(part.starts is first.starts for part in parts) and len(first.starts) == 1:
+            starts = first.starts
+        else:
+            starts = State.stacked([part.starts.repeated(n) for part, n in zip(parts, rows, strict=True)])
+        models = [part.models for part in parts if part.models is not None]
+        reference = JointReference.stacked([part.reference for part in parts])
+        return cls(starts, reference, Models.stacked(models) if models else None)
+
+
+class Objective:
+    """A task on a simulation: policy, roll-out and costs.
+
+    Args:
+        simulation: Built for a task with the same robot, scene, physics and start.
+        task: What to achieve.
+
+    Raises:
+        LevadeError: If they do not fit together.
+    """
+
+    def __init__(self, simulation: Simulation, task: Task) -> None:
+        self.simulation, self.task = simulation, task
+        self.robot, self.engine, self.state = simulation.robot, simulation.engine, simulation.start
+        self.terms = {name: cost.term for name, cost in task.costs.items()}
+        self.bodies = _bodies(task, simulation)
+        check_reach(task, self.robot, self.engine.model)
+        self.policy = make_policy(task, self.robot, start=self.state.joint_reference[0])
+        self._drawn: dict[tuple[int, int], tuple[State, Models]] = {}
+
+    def with_task(self, task: Task) -> Objective:
+        """Another task with the same robot, scene, physics and start, on the same simulation."""
+        return Objective(self.simulation, task)
+
+    @cached_property
+    def space(self) -> SearchSpace:
+        """Where the task's search begins."""
+        search, policy, choice = self.task.search, self.policy, self.task.policy
+        if choice.initial == "hold":
+            mean = policy.hold(self.state.joint_reference[0])
+        else:
+            mean = policy.interpolate(self.state.joint_position[0], goal_posture(choice, self.robot))
+        if search.smoothness > 0 or search.modes is not None:
+            smooth = smoothness_factor(policy.kernels, search.smoothness, policy.independent_joints, modes=search.modes)
+        else:
+            smooth = np.eye(policy.size)
+        return SearchSpace(
+            mean,
+            smooth,
+            step=search.step,
+            population=search.population,
+            ending=_ending(policy),
+            one_sided=np.array([criterion.target is None for criterion in self.task.success.values()], dtype=bool),
+        )
+
+    def rollout(self, weights: Array, *, hold_steps: int | None = None, feet: bool = False) -> Trajectories:
+        """Simulate candidates on the nominal model.
+
+        Args:
+            weights: Policy weights [rad], shape (n, d).
+            hold_steps: How many steps of the hold to simulate. None for all of it.
+            feet: Whether to record the contact forces on the feet.
+        """
+        reference = self.policy.reference(weights, hold_steps=hold_steps)
+        record = (FOOT_CONTACT_FORCE, *self.bodies) if feet else self.bodies
+        return self.engine.rollout(self.state, reference, record=record)
+
+    def evaluate(self, trials: Trials | Array) -> Evaluation:
+        """Simulate trials and judge them.
+
+        Args:
+            trials: What a search asks for; or policy weights [rad], shape (n, d), to be tried on the nominal model through the
+                whole hold.
+        """
+        if not isinstance(trials, Trials):
+            trials = Trials(trials, self.task.hold_steps)
+        return evaluate_many([(self, trials)])[0]
+
+    def check(self) -> None:
+        """Simulate one trial, so that terms which cannot be evaluated say so now.
+
+        Raises:
+            LevadeError: If a term cannot be evaluated.
+        """
+        self.evaluate(self.space.mean[None])
+
+    def rollouts(self, trials: Trials) -> Rollouts:
+        """What an engine needs to simulate trials, one row a roll-out."""
+        reference = self.policy.reference(trials.weights, hold_steps=trials.hold_steps)
+        if trials.draw is None or trials.pairs is None:
+            return Rollouts(self.state, reference, None)
+        candidates, models = trials.pairs
+        starts, drawn = self._models(trials.seed, trials.draw)
+        # perturbed models have latency: until the first reference arrives, the joints have what they were commanded last
+        reference = replace(reference[candidates], before=self.state.joint_reference[0])
+        return Rollouts(starts[models], reference, drawn[models])
+
+    def judge(self, trajectories: Trajectories, hold_steps: int) -> Evaluation:
+        """Judge trajectories of which ``hold_steps`` of the hold were simulated.
+
+        Without any of the hold, values that look at it are NaN. With part of it, they use that part, except speeds at the
+        end, which are for the whole hold only: a robot comes to rest on the way there.
+        """
+        terms, criteria, n = self.terms, self.task.success, trajectories.n
+        if 0 == hold_steps < self.task.hold_steps:
+            terms = {name: term for name, term in terms.items() if not looks_at_hold(term)}
+            criteria = {name: criterion for name, criterion in criteria.items() if not looks_at_hold(criterion)}
+        elif hold_steps < self.task.hold_steps:
+            criteria = {name: one for name, one in criteria.items() if one.at != "end" or not one.is_speed}
+        values, met = evaluate(terms, trajectories), ~trajectories.diverged
+        unknown = np.full(n, np.nan)
+        judged = {name: criterion.judge(trajectories) for name, criterion in criteria.items()}
+        for name, (off, _) in judged.items():
+            met &= criteria[name].met(off)
+        off, slack = ({name: judged.get(name, (unknown, unknown))[i] for name in self.task.success} for i in (0, 1))
+        return Evaluation(
+            {name: values.get(name, unknown) for name in self.terms},
+            off,
+            met,
+            trajectories.diverged.copy(),
+            slack={name: slack[name] for name, criterion in self.task.success.items() if criterion.target is None},
+        )
+
+    def _models(self, seed: int, draw: int) -> tuple[State, Models]:
+        """A draw of perturbed models and where each starts. The latest is kept, and the models that stay the same."""
+        robust, engine, key = self.task.robust, self.engine, (seed, draw)
+        assert robust is not None
+        if key not in self._drawn:
+            n = robust.samples if draw else robust.fixed
+            sample = robust.perturb.spread(engine.model, engine.embodiment.joints, n=n, seed=(seed, draw, _TAG))
+            kept = {other: models for other, models in self._drawn.items() if other[1] == 0}
+            self._drawn = {**kept, key: perturbed_models(engine.model, engine.layout, sample, self.state)}
+        return self._drawn[key]
+
+
+def make_objective(task: Task, *, threads: int = 0) -> Objective:
+    """Build a task's simulation and objective, and try one trial.
+
+    Raises:
+        LevadeError: For whatever does not fit together.
+    """
+    objective = Objective(Simulation.of(task, threads=threads), task)
+    objective.check()
+    make_attempt(task, objective.space, seed=0)  # settings that its optimizer does not take say so now
+    return objective
+
+
+def evaluate_many(asked: Sequence[tuple[Objective, Trials]]) -> list[Evaluation]:
+    """Evaluate the trials of several objectives; those of one engine that last as long share batches.
+
+    Each has the same bits as alone.
+    """
+    found: list[Evaluation | None] = [None] * len(asked)
+    together: dict[tuple[int, int, bool, tuple[str, ...]], list[int]] = {}
+    for i, (objective, trials) in enumerate(asked):
+        steps = objective.policy.horizon_steps + trials.hold_steps
+        key = (id(objective.engine), steps, trials.draw is None, objective.bodies)
+        together.setdefault(key, []).append(i)
+    for members in together.values():
+        for i, evaluation in zip(members, _evaluate_together([asked[i] for i in members]), strict=True):
+            found[i] = evaluation
+    return [evaluation for evaluation in found if evaluation is not None]
+
+
+def _evaluate_together(asked: Sequence[tuple[Objective, Trials]]) -> Iterator[Evaluation]:
+    """Evaluate trials of one engine, of one length, all on the nominal model or all on perturbed ones."""
+    engine, record = asked[0][0].engine, asked[0][0].bodies
+    rollouts = Rollouts.joined([objective.rollouts(trials) for objective, trials in asked])
+    owner = np.repeat(np.arange(len(asked)), [trials.n for _, trials in asked])
+    parts: list[list[Evaluation]] = [[] for _ in asked]
+    for first in range(0, len(owner), AT_ONCE):
+        rows = slice(first, min(first + AT_ONCE, len(owner)))
+        part = rollouts[rows]
+        trajectories = engine.rollout(part.starts, part.reference, models=part.models, record=record)
+        for i in np.unique(owner[rows]):
+            objective, trials = asked[i]
+            own = np.flatnonzero(owner[rows] == i)
+            judged = trajectories if len(own) == trajectories.n else trajectories[slice(own[0], own[-1] + 1)]
+            parts[i].append(objective.judge(judged, trials.hold_steps))
+    return map(_joined, parts)
+
+
+def _joined(parts: Sequence[Evaluation]) -> Evaluation:
+    if len(parts) == 1:
+        return parts[0]
+
+    def tables(name: str) -> Mapping[str, Array]:
+        return {key: np.concatenate([getattr(part, name)[key] for part in parts]) for key in getattr(parts[0], name)}
+
+    success, diverged = (np.concatenate([getattr(part, name) for part in parts]) for name in ("success", "diverged"))
+    return Evaluation(tables("terms"), tables("errors"), success, diverged, tables("slack"))
+
+
+def _bodies(task: Task, simulation: Simulation) -> tuple[str, ...]:
+    """Bodies whose contact forces the task's costs look at."""
+    named: set[str] = set()
+    for name, cost in task.costs.items():
+        for body in getattr(cost.term, "bodies", ()):
+            if body not in simulation.engine.bodies:
+                hint = did_you_mean(body, simulation.engine.bodies)
+                raise LevadeError(f"costs.{name}.bodies: no body {body!r} in {simulation.robot.name}; {hint}")
+            named.add(body)
+    return tuple(sorted(named))
+
+
+def _ending(policy: Policy) -> Array | None:
+    """One direction for each independent joint, shape (q, d): a ramp over the last quarter of its weights, up to 1.
+
+    None where the motion ends as it must, whatever the weights (`levade.policies.Ends`).
+    """
+    if policy.ends is not None and policy.ends.settle > 0:
+        return None
+    ramp = np.clip(1.0 - (1.0 - np.linspace(0.0, 1.0, policy.kernels.kernels)) / ENDING, 0.0, 1.0)
+    return np.kron(np.eye(policy.independent_joints), ramp)

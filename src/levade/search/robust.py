@@ -1,0 +1,159 @@
+"""How candidates are judged: on the nominal model, and on perturbed models where the task asks for it.
+
+    judge = Judge(task, seed=0)
+    evaluation = yield from judge.evaluate(candidates, level, generation=3, racing=weights)
+
+The methods are generators: they yield the `Trials` that they need and are sent the `Evaluation` of each, so that who drives
+them decides how roll-outs are made, one search at a time or hundreds in one batch. A judge keeps no state.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from levade.arrays import Array
+from levade.search.evaluation import Evaluation, Index, Samples, Trials
+from levade.search.schedule import Level, level_of
+from levade.tasks import Robust, Task
+
+Judging = Generator[Trials, Evaluation, Evaluation]
+
+_AT_ONCE = 20
+"""Models together on which a candidate is simulated through the hold: no more of them than it takes to tell."""
+
+FIXED = 0
+"""Number of the draw of perturbed models that stay the same."""
+
+
+@dataclass(frozen=True)
+class Judge:
+    """Judges candidates for one search.
+
+    Attributes:
+        task: The task.
+        seed: Seed of the search, from which perturbed models follow.
+        closing: Whether this judges at the end of the search: see `Trials`.
+    """
+
+    task: Task
+    seed: int
+    closing: bool = False
+
+    def evaluate(
+        self,
+        candidates: Array,
+        level: Level,
+        *,
+        generation: int = FIXED,
+        racing: Mapping[str, float] | None = None,
+    ) -> Judging:
+        """Judge candidates as a stage does.
+
+        Args:
+            candidates: Policy weights [rad], shape (n, d).
+            level: How to simulate.
+            generation: Generation whose perturbed models to use; `FIXED` for the models that stay the same.
+            racing: Cost weights by which candidates are left behind after a few of the models. None runs all on all.
+        """
+        robust = self.task.robust
+        if robust is None:
+            return (yield from self.nominal(candidates, level.hold_steps, verify=True))
+        if not level.robust:  # what is yet to be tried on perturbed models has not succeeded
+            evaluation = yield from self.nominal(candidates, level.hold_steps, verify=False)
+            return evaluation.with_success(np.zeros(len(candidates), dtype=bool))
+        # only candidates on models that stay the same may count as successes
+        contend = generation == FIXED or robust.redraw == "never"
+        draw = FIXED if robust.redraw == "never" else generation
+        nominal = yield from self.nominal(candidates, level.hold_steps, verify=contend)
+        return (yield from self._on_models(robust, nominal, candidates, level.hold_steps, draw, racing))
+
+    def nominal(self, candidates: Array, hold_steps: int, *, verify: bool) -> Judging:
+        """Judge candidates on the nominal model.
+
+        With less than the whole hold, trials that meet every criterion so far are simulated again through all of it to see
+        whether they succeed; without ``verify`` none does.
+        """
+        evaluation = yield self._trials(candidates, hold_steps)
+        if hold_steps >= self.task.hold_steps:
+            return evaluation
+        success = np.zeros(len(candidates), dtype=bool)
+        promising = np.flatnonzero(evaluation.success) if verify else np.empty(0, dtype=np.intp)
+        if promising.size:
+            whole = yield self._trials(candidates[promising], self.task.hold_steps)
+            success[promising] = whole.success
+        verified = len(promising) if self.task.robust is not None else 0
+        return replace(evaluation.with_success(success), verified=verified)
+
+    def most(self, population: int, level: Level) -> int:
+        """Roll-outs that a generation may take, and looking at the best trial once more after it."""
+        robust = self.task.robust
+        if robust is None:
+            return population
+        validated = 1 + robust.fixed
+        if not level.robust:
+            partial = any(
+                level_of(self.task, stage).hold_steps < self.task.hold_steps
+                for stage in self.task.stages
+                if stage.robust
+            )
+            return population + validated * ((robust.starts > 1) + 1 + partial)
+        through = validated if level.hold_steps < self.task.hold_steps else 0  # a contender, through the whole hold
+        if robust.redraw == "never":
+            return robust.rollouts(population) + robust.kept(population) * through + through
+        return robust.rollouts(population) + validated + through + through
+
+    def _on_models(
+        self,
+        robust: Robust,
+        nominal: Evaluation,
+        candidates: Array,
+        hold_steps: int,
+        draw: int,
+        racing: Mapping[str, float] | None,
+    ) -> Judging:
+        """Try the same candidates on perturbed models, too."""
+        models = robust.samples if draw else robust.fixed
+        columns, everyone = np.arange(models), np.arange(len(candidates))
+        samples = Samples.none(nominal.terms, len(candidates), models)
+        first = models if racing is None or robust.racing is None else robust.racing.first
+        samples = yield from self._run(samples, candidates, hold_steps, draw, everyone, columns[:first])
+        result = replace(nominal, samples=samples)
+        if racing is not None and first < models:
+            order = np.argsort(result.cost(racing, robust), kind="stable")
+            kept = np.sort(order[: robust.kept(len(candidates))])
+            samples = yield from self._run(samples, candidates, hold_steps, draw, kept, columns[first:])
+        success, verified = nominal.success & robust.enough(samples.share), nominal.verified
+        for trial in np.flatnonzero(success).tolist() if hold_steps < self.task.hold_steps else ():
+            success[trial], made = yield from self._verify(robust, candidates, draw, trial, columns, nominal.terms)
+            verified += made
+        return replace(nominal.with_success(success), samples=samples, verified=verified)
+
+    def _verify(
+        self, robust: Robust, candidates: Array, draw: int, trial: int, columns: Index, terms: Iterable[str]
+    ) -> Generator[Trials, Evaluation, tuple[bool, int]]:
+        """Whether a candidate succeeds on enough models through the whole hold, and how many roll-outs it took to tell."""
+        whole, made = Samples.none(dict.fromkeys(terms), len(candidates), len(columns)), 0
+        for first in range(0, len(columns), _AT_ONCE):
+            part = columns[first : first + _AT_ONCE]
+            whole = yield from self._run(whole, candidates, self.task.hold_steps, draw, np.array([trial]), part)
+            made += len(part)
+            if not robust.enough(whole.attainable)[trial]:
+                return False, made
+        return True, made
+
+    def _run(
+        self, samples: Samples, candidates: Array, hold_steps: int, draw: int, rows: Index, columns: Index
+    ) -> Generator[Trials, Evaluation, Samples]:
+        """Roll out every one of some candidates on every one of some models, and add what came of it to the samples."""
+        if not (len(rows) and len(columns)):
+            return samples
+        rows_of, columns_of = (axis.ravel() for axis in np.meshgrid(np.arange(len(rows)), columns, indexing="ij"))
+        asked = self._trials(candidates[rows], hold_steps)
+        found = yield replace(asked, draw=draw, pairs=(rows_of, columns_of))
+        return samples.updated((rows[rows_of], columns_of), found)
+
+    def _trials(self, candidates: Array, hold_steps: int) -> Trials:
+        return Trials(candidates, hold_steps, seed=self.seed, closing=self.closing)

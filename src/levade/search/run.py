@@ -1,0 +1,266 @@
+"""A run: a search that keeps a directory, so that nothing it computed is lost.
+
+outcome = run(load_task("rearing"), seed=0, directory=Path("rearing"))
+outcome = resume(Path("rearing"))
+
+DIR/task.yaml         the task with every default filled in, and what was changed on the way; solving it again with the
+                      same seed gives the same motion
+DIR/motion.npz        the best motion: written at the end, and on the way whenever there is a better one (at most every
+                      few seconds)
+DIR/progress.csv      a line per generation
+DIR/checkpoint.jsonl  a line per evaluation: see `levade.search.checkpoint`
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import IO
+
+from levade.document import read_yaml
+from levade.errors import LevadeError
+from levade.motions import Motion, versions
+from levade.search import checkpoint as checkpoints
+from levade.search.checkpoint import CHECKPOINT, Checkpoint, Header
+from levade.search.evaluation import Record
+from levade.search.initial import InitialGuess
+from levade.search.loop import Observe, solve
+from levade.search.objective import Objective, make_objective
+from levade.search.outcome import Generation, Solution, Stopped, Trial
+from levade.search.progress import PROGRESS, Progress
+from levade.search.recording import record
+from levade.search.search import Steer
+from levade.search.storage import closing, storing, write_text
+from levade.tasks import Change, Task, task_checksum, task_from_dict, task_to_yaml
+
+TASK, MOTION = "task.yaml", "motion.npz"
+
+_SAVE_EVERY = 5.0
+"""[s], between motions that are written on the way."""
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """What a run came to.
+
+    Attributes:
+        objective: What was searched.
+        solution: What the search found.
+        motion: The best motion, as written.
+        directory: Where it was written.
+        seed: Seed of the run.
+        wall: Duration of the search alone [s].
+    """
+
+    objective: Objective
+    solution: Solution
+    motion: Motion
+    directory: Path
+    seed: int
+    wall: float
+
+
+def run(
+    task: Task | Objective,
+    *,
+    seed: int = 0,
+    threads: int = 0,
+    directory: Path,
+    initial: InitialGuess | None = None,
+    observe: Observe | None = None,
+    steer: Steer | None = None,
+) -> Outcome:
+    """Search for a motion and keep everything in a directory, which is made if need be. It replaces an earlier run there.
+
+    Args:
+        task: The task, or an objective that was made of one.
+        seed: Seed of all random numbers.
+        threads: Engine threads; 0 for one per core.
+        directory: Where to write.
+        initial: Weights to begin around.
+        observe: As in `solve`.
+        steer: As in `solve`. task.yaml takes in what it changes, before that is simulated.
+
+    Raises:
+        LevadeError: Before anything is written, if the task does not fit together or the directory cannot be written.
+    """
+    objective = task if isinstance(task, Objective) else make_objective(task, threads=threads)
+    task = objective.task
+    made = versions(task.physics.engine)
+    header = Header(task.name, seed, made, _checksum(task), None if initial is None else initial.to_json())
+    new = not directory.exists()
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        write_text(directory / TASK, task_to_yaml(task))
+        file = checkpoints.begin(directory, header)
+    except OSError as error:
+        if new:
+            with suppress(OSError):
+                directory.rmdir()
+        raise LevadeError(f"{directory}: cannot be written ({error.strerror}); give another directory") from None
+    with closing(file):
+        with storing(directory / MOTION, then="give another directory"):
+            (directory / MOTION).unlink(missing_ok=True)  # only now: a full disk has not cost an earlier motion
+        return _Run(objective, header, directory, file).go([], initial, observe, steer)
+
+
+def resume(
+    directory: Path,
+    *,
+    objective: Objective | None = None,
+    threads: int = 0,
+    observe: Observe | None = None,
+    steer: Steer | None = None,
+) -> Outcome:
+    """Go on with a run that was interrupted, to exactly the motion that it would have come to.
+
+    Args:
+        directory: Where the run is.
+        objective: An objective of the run's task, if there is one already.
+        threads: Engine threads; 0 for one per core.
+        observe: As in `solve`.
+        steer: As in `solve`.
+
+    Raises:
+        LevadeError: If there is no run in the directory, its task has been changed since, or other versions of the
+            libraries made it.
+    """
+    task, checkpoint = read_run(directory)
+    header = checkpoint.header
+    assert objective is None or objective.task == task
+    now = versions(task.physics.engine)
+    for name, version in header.versions.items():
+        if now.get(name) != version:
+            raise LevadeError(
+                f"{directory}: was started with {name} {version}, this is {now.get(name)}: going on would give another"
+                f" motion; install {name}=={version}, or start again"
+            )
+    if header.task_checksum != _checksum(task):
+        raise LevadeError(
+            f"{directory / TASK}: has changed since the run began, so that it cannot go on; put it back, or start again:"
+            f" levade solve {directory / TASK} --force"
+        )
+    objective = objective or make_objective(task, threads=threads)
+    initial = None if header.initial is None else InitialGuess.from_json(header.initial)
+    try:
+        # a line that was cut off in the middle is written again
+        file = checkpoints.begin(directory, header, checkpoint.records)
+    except OSError as error:
+        raise LevadeError(f"{directory}: cannot be written ({error.strerror})") from None
+    with closing(file):
+        return _Run(objective, header, directory, file).go(checkpoint.records, initial, observe, steer)
+
+
+def read_run(directory: Path) -> tuple[Task, Checkpoint]:
+    """Read the task and the checkpoint of a run.
+
+    Raises:
+        LevadeError: If there is no run in the directory.
+    """
+    if not (directory / CHECKPOINT).is_file() or not (directory / TASK).is_file():
+        raise LevadeError(
+            f"{directory}: no run to resume, {TASK} or {CHECKPOINT} is missing; give the --out of a solve"
+        )
+    task = task_from_dict(read_yaml(directory / TASK), where=str(directory / TASK))
+    return task, checkpoints.read(directory)
+
+
+def check_replaceable(directory: Path) -> None:
+    """Raise LevadeError if a run in the directory would replace an interrupted one, or files that belong to no run."""
+    if not (directory / CHECKPOINT).exists():
+        for name in (TASK, MOTION, PROGRESS):
+            if (directory / name).exists():
+                raise LevadeError(
+                    f"{directory / name}: exists but does not belong to a run, and would be overwritten; write elsewhere:"
+                    " --out DIR, or replace it: --force"
+                )
+    try:
+        _, checkpoint = read_run(directory)
+    except LevadeError:
+        return
+    if (checkpoint.records or checkpoint.damage) and not checkpoint.finished:
+        raise LevadeError(
+            f"{directory}: holds an interrupted run (seed {checkpoint.header.seed}); go on with it:"
+            f" levade solve --resume {directory}, replace it: --force, or write elsewhere: --out DIR"
+        )
+
+
+class _Run:
+    """A run in progress: what is written, and when."""
+
+    def __init__(self, objective: Objective, header: Header, directory: Path, file: IO[str]) -> None:
+        self._objective, self._seed, self._directory, self._file = objective, header.seed, directory, file
+        self._room = f"make room, then: levade solve --resume {directory}"
+        self._saved = time.perf_counter()
+        self._best: Trial | None = None
+
+    def go(
+        self,
+        records: list[Record],
+        initial: InitialGuess | None,
+        observe: Observe | None,
+        steer: Steer | None,
+    ) -> Outcome:
+        began = time.perf_counter()
+        objective, directory = self._objective, self._directory
+        with storing(directory / PROGRESS, then=self._room):
+            progress = Progress(objective.task, directory)
+
+        def watch(generation: Generation) -> Stopped | None:
+            with storing(directory, then=f"{generation.trials} trials are kept; {self._room}"):
+                progress.write(generation)
+                self._save_interim(generation)
+            return None if observe is None else observe(generation)
+
+        with progress:
+            solution = solve(
+                objective,
+                seed=self._seed,
+                initial=initial,
+                observe=watch,
+                steer=None if steer is None else self._steering(steer),
+                records=records,
+                keep=self._keep,
+            )
+        wall = time.perf_counter() - began
+        motion = record(objective, solution, seed=self._seed)
+        with storing(directory / MOTION, then=self._room):
+            motion.save(directory / MOTION)
+            if solution.stopped is not Stopped.INTERRUPTED:
+                checkpoints.finish(self._file)
+        return Outcome(objective, solution, motion, directory, self._seed, wall)
+
+    def _keep(self, new: Record) -> None:
+        with storing(self._directory, then=self._room):
+            checkpoints.add(self._file, new)
+
+    def _save_interim(self, generation: Generation) -> None:
+        """Save the best motion on the way, not too often."""
+        if generation.replayed or generation.best is self._best or time.perf_counter() - self._saved <= _SAVE_EVERY:
+            return
+        self._best = generation.best
+        record(self._objective, generation.solution(), seed=self._seed).save(self._directory / MOTION)
+        self._saved = time.perf_counter()
+
+    def _steering(self, steer: Steer) -> Steer:
+        """The same, with every change written to the task before it takes effect."""
+        task = self._objective.task
+
+        def steering(generation: int) -> Mapping[str, float] | Stopped | None:
+            nonlocal task
+            factors = steer(generation)
+            if factors and not isinstance(factors, Stopped):
+                task = task.changed(Change(generation, dict(factors)))
+                with storing(self._directory / TASK, then=self._room):
+                    write_text(self._directory / TASK, task_to_yaml(task))
+            return factors
+
+        return steering
+
+
+def _checksum(task: Task) -> int:
+    """Checksum of the task without the changes that a run makes in it on the way."""
+    return task_checksum(replace(task, search=replace(task.search, changes=())))

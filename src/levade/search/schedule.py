@@ -1,0 +1,193 @@
+"""The order of a search: stages, attempts, and rounds of motions to start robust stages from.
+
+    schedule = Schedule(task)
+    schedule.stage, schedule.level                  # what the next generation is, and how it is simulated
+    move = schedule.after(Report(spent=23, ...))    # what follows, already entered
+
+A schedule knows no robot, no optimizer and no simulation: it counts trials. The moves:
+
+    GO_ON             the same stage goes on
+    NEXT_STAGE        the stage has ended, by its trials or because a trial was promoted
+    RESTART           from the first stage with other random numbers: no success for too long, or a motion to start
+                      from was found and others are wanted
+    FROM_BEST_START   the robust stages begin, around the best of the motions to start from
+    NEW_ROUND         the robust stages spent their trials in vain: as many motions again are looked for
+    STOP              a success has been polished for as long as the task says
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from levade.search.evaluation import Evaluation
+from levade.tasks import Stage, Task
+
+
+class Move(StrEnum):
+    """What follows a generation."""
+
+    GO_ON = "go on"
+    NEXT_STAGE = "next stage"
+    RESTART = "restart"
+    FROM_BEST_START = "from best start"
+    NEW_ROUND = "new round"
+    STOP = "stop"
+
+
+@dataclass(frozen=True)
+class Level:
+    """How trials are simulated: how many steps of the hold, and whether on perturbed models."""
+
+    hold_steps: int
+    robust: bool
+
+
+@dataclass(frozen=True)
+class Report:
+    """What a schedule needs to know of a generation.
+
+    Attributes:
+        spent: Roll-outs that it took.
+        trials: Roll-outs of the whole search so far, these included.
+        trials_to_success: Trials at the first success. None while there is none.
+        promoted: Whether a trial is within the tolerances that end the stage.
+        found_start: Whether it ended the nominal stages with a motion that is one of several to start from.
+    """
+
+    spent: int
+    trials: int
+    trials_to_success: int | None = None
+    promoted: bool = False
+    found_start: bool = False
+
+
+class Schedule:
+    """Where a search is in its order."""
+
+    def __init__(self, task: Task) -> None:
+        self._task = task
+        self._number = 0
+        self._stage_trials = 0
+        self._attempt_trials = 0
+        self._rounds = 1
+        self._starts = 0
+        self.attempt = 0
+
+    @property
+    def number(self) -> int:
+        """Number of the current stage, from 0."""
+        return self._number
+
+    @property
+    def stage(self) -> Stage:
+        """The current stage."""
+        return self._task.stages[self._number]
+
+    @property
+    def level(self) -> Level:
+        """How the current stage simulates."""
+        return level_of(self._task, self.stage)
+
+    @property
+    def wanted_starts(self) -> int:
+        """Motions of the nominal model to find before the robust stages begin; 1 if the stages simply follow."""
+        return 1 if self._task.robust is None else self._task.robust.starts
+
+    def ends(self, *, promoted: bool, spent: int = 0) -> bool:
+        """Whether the current stage ends once ``spent`` more trials are counted."""
+        stage = self.stage
+        if stage.trials is not None and self._stage_trials + spent >= stage.trials:
+            return True
+        return promoted
+
+    def finds_start(self, *, promoted: bool, spent: int) -> bool:
+        """Whether a generation ends the nominal stages of a search that begins the robust ones from several motions."""
+        if self.wanted_starts == 1 or self.level.robust or self._number + 1 != self._first_robust:
+            return False
+        return self.ends(promoted=promoted, spent=spent)
+
+    def after(self, report: Report) -> Move:
+        """Count a generation, decide what follows, and enter it."""
+        self._stage_trials += report.spent
+        self._attempt_trials += report.spent
+        self._starts += report.found_start
+        if self._polished(report):
+            return Move.STOP
+        if report.found_start or self._hopeless(report):
+            if self._starts and self.attempt + 1 >= self.wanted_starts * self._rounds:
+                return self._enter(self._first_robust, Move.FROM_BEST_START)
+            return self._restart(Move.RESTART)
+        if self._in_vain(report):
+            self._rounds += 1
+            self._starts = max(self._starts - 1, 0)
+            return self._restart(Move.NEW_ROUND)
+        if self._number + 1 < len(self._task.stages) and self.ends(promoted=report.promoted):
+            return self._enter(self._number + 1, Move.NEXT_STAGE)
+        return Move.GO_ON
+
+    @property
+    def _first_robust(self) -> int:
+        return next(i for i, stage in enumerate(self._task.stages) if stage.robust)
+
+    def _enter(self, number: int, move: Move) -> Move:
+        self._number, self._stage_trials = number, 0
+        return move
+
+    def _restart(self, move: Move) -> Move:
+        self.attempt, self._attempt_trials = self.attempt + 1, 0
+        return self._enter(0, move)
+
+    def _polished(self, report: Report) -> bool:
+        polish = self._task.search.polish
+        if report.trials_to_success is None or polish is None:
+            return False
+        return report.trials - report.trials_to_success >= polish
+
+    def _hopeless(self, report: Report) -> bool:
+        """Whether the search has gone on for so long without a success that it had better restart.
+
+        A search that has reached perturbed models has a motion of the nominal model: it goes on from there.
+        """
+        restart = self._task.search.restart
+        if restart is None or report.trials_to_success is not None or self.level.robust:
+            return False
+        return self._attempt_trials >= restart
+
+    def _in_vain(self, report: Report) -> bool:
+        """Whether the last stage of a search from several starts used up its trials without a success, and the budget
+        lasts for another round of the same length.
+        """
+        stage, budget = self.stage, self._task.search.trials
+        if self.wanted_starts == 1 or self._number + 1 < len(self._task.stages) or stage.trials is None:
+            return False
+        spent = report.trials_to_success is None and self._stage_trials >= stage.trials
+        return spent and budget - report.trials >= report.trials / self._rounds
+
+
+def level_of(task: Task, stage: Stage) -> Level:
+    """How a stage of a task simulates."""
+    share = stage.hold * task.hold_steps if isinstance(stage.hold, bool) else stage.hold / task.physics.timestep
+    return Level(min(round(share), task.hold_steps), task.robust is not None and stage.robust)
+
+
+def full_level(task: Task) -> Level:
+    """How a motion is judged in the end: through the whole hold, on perturbed models if the task asks for it."""
+    return Level(task.hold_steps, task.robust is not None)
+
+
+def promoted(stage: Stage, evaluation: Evaluation) -> NDArray[np.bool_]:
+    """Which trials are within the tolerances that end a stage, shape (n,); none if the stage names no tolerance."""
+    within = ~evaluation.diverged if stage.promote else np.zeros(len(evaluation.success), dtype=bool)
+    for name, tolerance in stage.promote.items():
+        within = within & (np.abs(evaluation.errors[name]) <= tolerance)  # NaN, for what was not simulated, never is
+    return within
+
+
+def first_to_end(stage: Stage, cost: NDArray[np.floating], evaluation: Evaluation) -> int:
+    """The cheapest of the trials that end a stage; of all trials if it ended for another reason."""
+    within = promoted(stage, evaluation)
+    return int(np.argmin(np.where(within, cost, np.inf) if within.any() else cost))

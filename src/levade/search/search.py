@@ -1,0 +1,401 @@
+"""A search as an object: `Search.ask` says what to simulate, `Search.tell` takes what came of it.
+
+    search = Search(task, space, seed=0)
+    while (trials := search.ask()) is not None:
+        generation = search.tell(objective.evaluate(trials))    # a Generation where one is complete, else None
+    search.solution.best.weights
+
+A search knows no engine and no robot: optimizer, schedule and judge meet here and nowhere else. The same task, space, seed and
+answers give the same questions to the bit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Mapping
+from dataclasses import replace
+from typing import cast
+
+import numpy as np
+
+from levade.arrays import Array
+from levade.costs import DIVERGED
+from levade.errors import LevadeError
+from levade.optimizers import Optimizer, SearchSpace, UsesErrors
+from levade.search.evaluation import Evaluation, Trials
+from levade.search.initial import InitialGuess
+from levade.search.optimizing import make_attempt
+from levade.search.outcome import Generation, Solution, Stopped, Trial, better
+from levade.search.robust import Judge
+from levade.search.schedule import Level, Move, Report, Schedule, first_to_end, full_level, level_of, promoted
+from levade.tasks import Change, Task, looks_at_hold
+
+Steer = Callable[[int], "Mapping[str, float] | Stopped | None"]
+"""Called before a generation with its number. What it returns, cost -> factor on its weight, holds from this generation on;
+`Stopped.INTERRUPTED` ends the search."""
+
+_Asking = Generator["Trials | Generation", Evaluation, None]
+
+INSIDE_BOUND = 0.015
+"""[SI: m, rad, ...], as far inside a bound as the middle of a tolerance is inside the tolerance."""
+
+
+class _Halt(Exception):
+    """Ends the loop from outside, at whatever is being asked for."""
+
+    def __init__(self, reason: Stopped) -> None:
+        super().__init__(reason)
+        self.reason = reason
+
+
+class Search:
+    """One search for a motion.
+
+    Args:
+        task: What to achieve, and how to look for it.
+        space: Where the optimizer begins.
+        seed: Seed of all random numbers.
+        initial: Motions or weights to begin around, instead of the space's mean.
+        steer: See `Steer`.
+
+    Raises:
+        LevadeError: If the optimizer's settings are wrong, or the initial guess has another number of weights.
+    """
+
+    def __init__(
+        self,
+        task: Task,
+        space: SearchSpace,
+        *,
+        seed: int = 0,
+        initial: InitialGuess | None = None,
+        steer: Steer | None = None,
+    ) -> None:
+        if initial is not None and initial.candidates.shape[1] != space.size:
+            raise LevadeError(f"initial: weights of shape {initial.candidates.shape}, should be (k, {space.size})")
+        self._task, self._space, self._seed, self._initial, self._steer = task, space, seed, initial, steer
+        self._schedule = Schedule(task)
+        self._judge = Judge(task, seed)
+        self._optimizer: Optimizer = make_attempt(task, space, seed=seed)
+        self._weights = _cost_weights(task, 0)
+        self._best: Trial | None = None
+        self._kept: Trial | None = None  # the best of earlier rounds
+        self._starts: list[Trial] = []  # motions of the nominal model to start robust stages from
+        self._trials = self._generations = self._diverged = 0
+        self._trials_to_success: int | None = None
+        self._stopped = Stopped.RUNNING
+        self._asking: _Asking = self._run()
+        self._event: Trials | Generation | None = None
+        self._begun = False
+
+    @property
+    def task(self) -> Task:
+        """The task, with the changes of cost weights so far."""
+        return self._task
+
+    @property
+    def solution(self) -> Solution:
+        """What was found; an interim solution while the search goes on.
+
+        Raises:
+            LevadeError: If no trial has been told yet.
+        """
+        if self._best is None:
+            raise LevadeError("search: no trial has been told yet; ask and tell first")
+        return Solution(
+            best=better(self._kept, self._best),
+            trials=self._trials,
+            generations=self._generations,
+            trials_to_success=self._trials_to_success,
+            diverged=self._diverged,
+            stopped=self._stopped,
+            cost_weights=self._weights,
+            changes=self._task.search.changes,
+        )
+
+    def ask(self) -> Trials | None:
+        """The trials to simulate next; the same again until they are told. None once the search has ended."""
+        if not self._begun or isinstance(self._event, Generation):
+            self._advance(lambda: next(self._asking))
+        assert not isinstance(self._event, Generation)
+        return self._event
+
+    def tell(self, evaluation: Evaluation) -> Generation | None:
+        """Take what came of the trials just asked for.
+
+        Returns:
+            The state of the search if this completes a generation.
+
+        Raises:
+            RuntimeError: If nothing was asked for.
+            ValueError: If the evaluation is of another number of trials.
+        """
+        asked = self._event
+        if not isinstance(asked, Trials):
+            raise RuntimeError("tell: there are no trials to tell about; ask first")
+        if len(evaluation.success) != asked.n:
+            raise ValueError(f"tell: {asked.n} trials were asked for, the evaluation has {len(evaluation.success)}")
+        self._advance(lambda: self._asking.send(evaluation))
+        return self._event if isinstance(self._event, Generation) else None
+
+    def stop(self, reason: Stopped = Stopped.INTERRUPTED) -> None:
+        """End the search. Trials that it still asks for judge its best motion as the task does."""
+        if not self._begun:
+            self.ask()
+        if self._stopped is Stopped.RUNNING:
+            self._advance(lambda: self._asking.throw(_Halt(reason)))
+
+    def _advance(self, step: Callable[[], Trials | Generation]) -> None:
+        self._begun = True
+        try:
+            self._event = step()
+        except StopIteration:
+            self._event = None
+
+    def _run(self) -> _Asking:
+        try:
+            yield from self._begin()
+            while self._affordable():
+                yield from self._reweigh()
+                report = yield from self._generation()
+                before = self._schedule.level
+                yield from self._follow(self._schedule.after(report), before)
+            self._stopped = Stopped.BUDGET
+        except _Halt as halt:
+            self._stopped = halt.reason
+        except KeyboardInterrupt:
+            self._stopped = Stopped.INTERRUPTED
+        yield from self._close()
+
+    def _begin(self) -> _Asking:
+        """Enter the first stage, around the initial guess if there is one."""
+        if self._initial is not None:
+            yield from self._try_initial(self._initial)
+        self._scale_step()
+
+    def _try_initial(self, initial: InitialGuess) -> _Asking:
+        """Try the motions to begin around; the best of them is where the optimizer begins."""
+        candidates = initial.candidates
+        evaluation = yield from self._judge.evaluate(candidates, self._schedule.level)
+        self._trials += evaluation.trials
+        self._diverged += int(evaluation.diverged.sum())
+        if evaluation.success.any():
+            self._trials_to_success = self._trials
+        cost = evaluation.cost({**self._weights, **_stage_weights(self._task, self._schedule, 0)}, self._task.robust)
+        self._keep_best(candidates, evaluation)
+        first = np.lexsort((cost, ~evaluation.success))[0]
+        if self._trials_to_success is not None and self._task.search.polish == 0:
+            raise _Halt(Stopped.SUCCESS)
+        space = initial.space(self._space, candidates[first])
+        self._optimizer = make_attempt(self._task, space, seed=self._seed)
+
+    def _affordable(self) -> bool:
+        """Whether the budget lasts for another generation, whatever it may need; it always does for the first."""
+        most = self._judge.most(self._optimizer.population, self._schedule.level)
+        return self._trials + most <= max(self._task.search.trials, most)
+
+    def _reweigh(self) -> _Asking:
+        """Take in changed cost weights, from the task or from whoever steers, before a generation."""
+        number = self._generations + 1
+        factors = None if self._steer is None else self._steer(number)
+        if isinstance(factors, Stopped):
+            raise _Halt(factors)
+        if factors:
+            self._task = self._task.changed(Change(number, dict(factors)))
+        before, self._weights = self._weights, _cost_weights(self._task, number)
+        if self._weights != before:
+            yield from self._weigh_best_again()
+            self._forget_costs()
+
+    def _generation(self) -> Generator[Trials | Generation, Evaluation, Report]:
+        """Ask for the candidates of a generation, tell the optimizer, keep the best, and report."""
+        task, schedule, optimizer = self._task, self._schedule, self._optimizer
+        number, stage, level = self._generations + 1, schedule.stage, schedule.level
+        candidates = optimizer.ask()
+        weights = {**self._weights, **_stage_weights(task, schedule, number)}
+        mean = optimizer.mean if task.robust is not None and task.robust.contender == "mean" else None
+        evaluation = yield from self._judge.evaluate(candidates, level, generation=number, racing=weights)
+        cost = evaluation.cost(weights, task.robust)
+        ends = bool(promoted(stage, evaluation).any())
+        validated, contenders, start = None, candidates, None
+        if level.robust and task.robust is not None and task.robust.redraw == "generation":
+            contenders = (candidates[np.argmin(cost)] if mean is None else mean)[None]
+            validated = yield from self._judge.evaluate(contenders, level)
+        elif schedule.finds_start(promoted=ends, spent=evaluation.trials):
+            first = first_to_end(stage, cost, evaluation)
+            found = candidates[first : first + 1]
+            validated = yield from self._judge.evaluate(found, full_level(task))
+            start = Trial.of(found[0], float(validated.cost(self._weights, task.robust)[0]), validated, 0)
+            contenders = found if start.success else candidates
+        _tell(optimizer, task, cost, evaluation)
+
+        spent = evaluation.trials + (0 if validated is None else validated.trials)
+        self._generations += 1
+        self._trials += spent
+        self._diverged += int(evaluation.diverged.sum())
+        judged = validated if validated is not None and (start is None or start.success) else evaluation
+        if self._trials_to_success is None and judged.success.any():
+            self._trials_to_success = self._trials
+        self._starts += [start] if start is not None else []
+        self._keep_best(contenders, judged)
+        yield self._state(cost, evaluation, validated)
+        return Report(spent, self._trials, self._trials_to_success, promoted=ends, found_start=start is not None)
+
+    def _state(self, cost: Array, evaluation: Evaluation, validated: Evaluation | None) -> Generation:
+        assert self._best is not None
+        return Generation(
+            generation=self._generations,
+            stage=self._schedule.number,
+            stage_name=self._schedule.stage.name,
+            trials=self._trials,
+            cost=cost,
+            step=self._optimizer.step,
+            diverged=int(evaluation.diverged.sum()),
+            best=better(self._kept, self._best),
+            trials_to_success=self._trials_to_success,
+            cost_weights=self._weights,
+            changes=self._task.search.changes,
+            starts=tuple(start.share or 0.0 for start in self._starts),
+            evaluation=evaluation,
+            validated=validated,
+            total_diverged=self._diverged,
+        )
+
+    def _follow(self, move: Move, before: Level) -> _Asking:
+        """Do what a move of the schedule asks for. The schedule has entered its stage; ``before`` is the level it left."""
+        if move is Move.STOP:
+            raise _Halt(Stopped.SUCCESS)
+        if move is Move.GO_ON:
+            return
+        if move is Move.FROM_BEST_START:
+            self._best = min(self._starts, key=_rank)
+            space = replace(self._space, mean=self._best.weights)
+            self._optimizer = make_attempt(
+                self._task, space, seed=self._seed, attempt=self._schedule.attempt + 1, around=True
+            )
+        elif move in (Move.RESTART, Move.NEW_ROUND):
+            if move is Move.NEW_ROUND:
+                assert self._best is not None
+                self._kept = better(self._kept, self._best)
+                self._starts = sorted(self._starts, key=_rank)[1:]
+            self._optimizer = make_attempt(self._task, self._space, seed=self._seed, attempt=self._schedule.attempt)
+        self._scale_step()
+        level = self._schedule.level
+        self._forget_costs(hold=level.hold_steps != before.hold_steps)
+        if level != before:
+            self._trials += yield from self._judge_best_again(self._judge, level)
+        if level.robust:
+            assert self._best is not None
+            self._best = better(self._kept, self._best)
+
+    def _close(self) -> _Asking:
+        """Judge the best motion as the task does, whatever the last stage simulated."""
+        judge = replace(self._judge, closing=True)
+        level, full = self._schedule.level, full_level(self._task)
+        if self._best is None:
+            candidate = self._space.mean[None]
+            self._keep_best(candidate, (yield from judge.evaluate(candidate, level)))
+        elif self._starts and not level.robust and not self._best.success:
+            self._best = min(self._starts, key=_rank)
+        if level != full:
+            self._trials += yield from self._judge_best_again(judge, full)
+        assert self._best is not None
+        if self._trials_to_success is None and self._best.success:  # as it turns out at the end
+            self._trials_to_success = self._trials
+
+    def _judge_best_again(self, judge: Judge, level: Level) -> Generator[Trials | Generation, Evaluation, int]:
+        """Judge the best trial as those that it will be compared with.
+
+        Returns the roll-outs to count: those on perturbed models; of one model none, since it was a trial already.
+        """
+        assert self._best is not None
+        candidate = self._best.weights[None]
+        evaluation = yield from judge.evaluate(candidate, level)
+        self._best = None
+        self._keep_best(candidate, evaluation)
+        return 0 if evaluation.samples is None else evaluation.trials
+
+    def _weigh_best_again(self) -> _Asking:
+        """Recompute the cost of the best trials with the new weights, so that later comparisons are fair."""
+        task, level, full = self._task, self._schedule.level, full_level(self._task)
+        current = level if level.robust else full
+        if self._best is not None:
+            self._best = yield from self._weighed(self._best, current)
+        if self._kept is not None:
+            self._kept = yield from self._weighed(self._kept, level_of(task, task.stages[-1]))
+        starts = []
+        for start in self._starts:
+            starts.append((yield from self._weighed(start, full)))
+        self._starts = starts
+
+    def _weighed(self, trial: Trial, level: Level) -> Generator[Trials | Generation, Evaluation, Trial]:
+        """A trial with its cost by the current weights. One that was tried on many models has to be simulated again."""
+        if trial.share is not None:
+            on_models = Level(level.hold_steps, robust=True)
+            evaluation = yield from self._judge.evaluate(trial.weights[None], on_models)
+        else:
+            terms = {name: np.array([value]) for name, value in trial.terms.items()}
+            diverged = np.array([any(value >= DIVERGED for value in trial.terms.values())])
+            evaluation = Evaluation(terms, {}, np.array([trial.success]), diverged)
+        return replace(trial, cost=float(evaluation.cost(self._weights, self._task.robust)[0]))
+
+    def _keep_best(self, candidates: Array, evaluation: Evaluation) -> None:
+        """Keep the best trial of all, by its rank."""
+        cost = evaluation.cost(self._weights, self._task.robust)
+        share = np.zeros(len(cost)) if evaluation.samples is None else evaluation.samples.share
+        first = int(np.lexsort((cost, -share, ~evaluation.success))[0])
+        trial = Trial.of(candidates[first], float(cost[first]), evaluation, first)
+        if self._best is None or trial.rank < self._best.rank:
+            self._best = trial
+
+    def _scale_step(self) -> None:
+        """Scale the optimizer's step as the stage says that begins."""
+        if self._schedule.stage.step != 1.0:
+            self._optimizer.scale_step(self._schedule.stage.step)
+
+    def _forget_costs(self, *, hold: bool = False) -> None:
+        """Tell the optimizer that costs mean something else from now on.
+
+        Args:
+            hold: Whether another part of the hold is simulated, too, so that errors that look at it change.
+        """
+        if isinstance(self._optimizer, UsesErrors):
+            criteria = self._task.success.values()
+            self._optimizer.forget_costs(np.array([hold and looks_at_hold(criterion) for criterion in criteria]))
+
+
+def _rank(trial: Trial) -> tuple[bool, float, float]:
+    return trial.rank
+
+
+def _tell(optimizer: Optimizer, task: Task, cost: Array, evaluation: Evaluation) -> None:
+    if isinstance(optimizer, UsesErrors):
+        cast(UsesErrors, optimizer).tell(cost, _missed(task, evaluation))
+    else:
+        optimizer.tell(cost)
+
+
+def _cost_weights(task: Task, generation: int) -> dict[str, float]:
+    """Cost -> weight in a generation, by the task's own weights."""
+    factors = task.search.factors(generation)
+    return {name: cost.weight * factors.get(name, 1.0) for name, cost in task.costs.items()}
+
+
+def _stage_weights(task: Task, schedule: Schedule, generation: int) -> dict[str, float]:
+    """Cost -> weight in a generation, for those costs that the current stage weighs itself."""
+    factors = task.search.factors(generation)
+    return {name: weight * factors.get(name, 1.0) for name, weight in schedule.stage.weights.items()}
+
+
+def _missed(task: Task, evaluation: Evaluation) -> Array:
+    """Errors as a share of what is allowed, shape (n, criteria); NaN where unknown, all of a trial that diverged.
+
+    For a criterion with bounds, 1 is the bound, and what is farther inside is less.
+    """
+    shares = [
+        1.0 - evaluation.slack[name] / INSIDE_BOUND
+        if name in evaluation.slack
+        else off / (task.success[name].tolerance or 1.0)
+        for name, off in evaluation.errors.items()
+    ]
+    missed = np.stack(shares, axis=1) if shares else np.empty((len(evaluation.success), 0))
+    return np.where(evaluation.diverged[:, None], np.nan, missed)
