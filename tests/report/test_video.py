@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import mujoco
 import numpy as np
 import pytest
 
@@ -79,7 +80,19 @@ def test_the_robot_is_in_the_picture_and_nothing_touches_its_edge(motion: Motion
 
 @pytest.mark.usefixtures("gl")
 def test_only_what_is_for_looking_at_is_drawn(motion: Motion) -> None:
-    assert rendering.visible_groups(replay(motion).model) == [1, 1, 1, 0, 0, 0]
+    model = replay(motion).model
+    assert (rendering.drawn_geoms(model) == (model.geom_group <= 2)).all()
+
+
+def test_a_part_that_has_nothing_to_look_at_shows_what_collides() -> None:
+    """Also where other parts have: body by body, those that are fixed to each other taken together."""
+    model = mujoco.MjModel.from_xml_string(
+        """<mujoco><worldbody><geom group="3" size="1"/><body><freejoint/><geom group="3" size="1"/>
+        <body><joint/><geom group="3" size="1"/><body><geom group="2" size="1"/></body></body>
+        <body><joint/><geom group="3" size="1"/><geom group="4" size="1"/></body></body></worldbody></mujoco>"""
+    )
+    # in the model's order: the world's, the trunk's, the first link's and its fixed shell, the second link's two
+    assert rendering.drawn_geoms(model).tolist() == [False, True, False, True, True, False]
 
 
 @pytest.mark.usefixtures("gl")

@@ -89,12 +89,13 @@ def test_a_frame_that_does_not_point_forward_is_suspected(examine) -> None:
     assert said.startswith(
         "leg lf: its joints' names (rh_haa) say right hind, the kinematics left front; does x of trunk"
     )
-    (said,) = examine(
+    said, falls = examine(
         "mjcf", ('pos="-?0.2 ', 'pos="0.05 '), legs=(("a", 1, 1), ("b", 1, -1), ("c", 0, 1), ("d", 0, -1))
     )
     assert said.startswith(
         "trunk trunk: hips 0.16 m apart from left to right, but 0.05 m from front to hind; does its x"
     )
+    assert falls.startswith("robot: does not stand in its neutral posture: ")
 
 
 def test_legs_that_overlap_are_warned_of(examine) -> None:

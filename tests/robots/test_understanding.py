@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 from dataclasses import replace
@@ -13,7 +14,7 @@ import pytest
 
 from levade.errors import LevadeError
 from levade.robots import Robot, load_robot, mirror_signs
-from levade.robots.doctor import Patient
+from levade.robots.doctor import Patient, inspect
 
 FRONT, HIND = (("lf", 1, 1), ("rf", 1, -1)), (("lh", -1, 1), ("rh", -1, -1))
 MIDDLE = (("lm", 0, 1), ("rm", 0, -1))
@@ -302,3 +303,52 @@ def test_a_torque_limit_of_the_description_is_what_a_joint_gets(quadruped: type,
     assert (abs(model.jnt_actfrcrange[1:][limited]) == 35).all()
     (tmp_path / "robot.yaml").write_text("model: toy.urdf\nlimits: {torque: 5}\n")
     assert load_robot(path).limits.torque.tolist() == [5.0] * 12
+
+
+@pytest.mark.parametrize("description", ["with.yaml", "with2.yaml"])
+def test_legs_described_by_hand_may_have_other_roles(description: str) -> None:
+    """A hexapod: no joint of it is an abduction; gains come from the length of its links, all of them."""
+    robot = load_robot(Path(__file__).parent / "cases" / "hexa" / description)
+    assert (len(robot.legs), len(robot.joint_names)) == (6, 18)
+    assert [leg.roles for leg in robot.legs[::3]] != [("haa", "hfe", "kfe")] * 2
+    assert not [finding for finding in inspect(robot) if finding.kind == "warning"]
+    length = Patient(robot).leg_length
+    assert length == pytest.approx(0.06 + 0.12 + 0.16, abs=1e-6)
+    if description == "with.yaml":
+        np.testing.assert_allclose(robot.actuation.kp, robot.mass * 9.81 * 0.5 * length / (4 * 0.1))
+
+
+TURNS = [
+    (order, signs)
+    for order in itertools.permutations(range(3))
+    for signs in itertools.product((1, -1), repeat=3)
+    if np.linalg.det(np.eye(3)[list(order)] * np.array(signs)) > 0
+]
+
+
+@pytest.mark.parametrize(("order", "signs"), TURNS)
+def test_a_model_in_another_frame_is_told_which_way_is_up(build, quadruped: type, order, signs) -> None:
+    """All 24 turns of a robot of balls: x of the file is axis order[0] of the robot, and so on."""
+    turn = np.array(signs)[:, None] * np.eye(3)[list(order)]
+    text = quadruped().urdf()
+
+    def turned(match: re.Match[str]) -> str:
+        return 'xyz="{:g} {:g} {:g}"'.format(*turn @ np.array([float(value) for value in match[1].split()]))
+
+    changes = [(text, re.sub(r'xyz="([^"]+)"', turned, text))]
+    forward, up = turn[:, 0], turn[:, 2]
+    if up[2] > 0 and forward[0] != 0:  # also turned by half a turn about z: nothing tells front from hind
+        assert len(build("urdf", *changes).joint_names) == 12
+        return
+    along, high = "xyz"[int(np.argmax(np.abs(forward)))], "xyz"[int(np.argmax(np.abs(up)))]
+    sign = "-" if up.sum() < 0 else ""
+    if up[2] == 0:
+        message = rf"it seems that {sign}?{high} is up and {along} along the robot there"
+    else:
+        message = (
+            "it seems that -z is up there; turn"
+            if up[2] < 0 and forward[0]
+            else f"it seems that {along} is forward there"
+        )
+    with pytest.raises(LevadeError, match=message):
+        build("urdf", *changes)

@@ -259,8 +259,7 @@ def test_joints_that_mimic_others_and_a_world_link_are_no_trouble(file: Path, qu
     robot = load(file, quadruped().urdf(), ("</robot>", f"{world}{tail}</robot>"))
     assert robot.trunk == "trunk"
     assert robot.mass == pytest.approx(quadruped().mass + 0.3)
-    assert any("joint wag: mimics another joint" in said for said in findings(robot, "note"))
-    assert robot.held == {"wag": 0.0}
+    assert any("joint wag: follows other joints (wag = 1 lf_haa)" in said for said in findings(robot, "warning"))
 
 
 def test_light_links_get_armature_for_stable_servos(file: Path, quadruped: type) -> None:
@@ -274,3 +273,35 @@ def test_light_links_get_armature_for_stable_servos(file: Path, quadruped: type)
     assert (np.diag(inertia)[6:] >= robot.actuation.kd * 0.002 * (1 - 1e-5)).all()
     assert any("reflected rotor inertia (armature)" in said for said in findings(robot, "note"))
     assert not load(file, quadruped().urdf()).model.dof_armature.any()
+
+
+CASES = Path(__file__).parent / "cases"
+CAMERA = (
+    '<link name="cam"/><joint name="camj" type="fixed"><parent link="world"/><child link="cam"/></joint>'
+    '<link name="lens"/><joint name="lensj" type="fixed"><parent link="cam"/><child link="lens"/></joint>'
+)
+
+
+def test_a_world_with_a_camera_is_no_robot(file: Path, quadruped: type) -> None:
+    robot = load_robot(CASES / "world" / "world-camera.urdf")
+    assert (robot.trunk, robot.mass) == ("base", pytest.approx(12.4))
+    assert findings(robot, "note")[0] == "link cam: fixed to the world, left out: no part of the robot"
+    for shape in ("", f"<collision><geometry>{SHAPE}</geometry></collision>"):  # a floor, perhaps
+        tie = '<joint name="f" type="fixed"><parent link="world"/><child link="trunk"/></joint>'
+        world = f'<link name="world">{shape}</link>{tie}'
+        robot = load(file, quadruped().urdf(), ("</robot>", f"{world}{CAMERA}</robot>"))
+        assert (robot.trunk, robot.mass) == ("trunk", pytest.approx(quadruped().mass))
+        assert findings(robot, "note")[0].startswith("links cam, lens: fixed to the world, left out")
+
+
+def test_a_robot_that_a_joint_moves_against_the_world_is_refused_with_the_reason(file: Path, quadruped: type) -> None:
+    rail = '<link name="world"/><joint name="lift" type="prismatic"><parent link="world"/><child link="trunk"/></joint>'
+    with pytest.raises(
+        LevadeError, match="joint lift moves the robot against the link world, so that it does not float"
+    ):
+        load(file, quadruped().urdf(), ("</robot>", f"{rail}</robot>"))
+
+
+def test_a_trunk_may_be_called_world(file: Path, quadruped: type) -> None:
+    robot = load(file, quadruped().urdf(), ('"trunk"', '"world"'))
+    assert (robot.trunk, robot.mass) == ("world_link", pytest.approx(quadruped().mass))

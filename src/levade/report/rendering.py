@@ -134,7 +134,9 @@ class Renderer:
         _furnish(self.model, size)
         self._data = mujoco.MjData(self.model)
         self._option = mujoco.MjvOption()
-        self._option.geomgroup[:] = visible_groups(self.model)
+        drawn = drawn_geoms(self.model)
+        self.model.geom_group[drawn & (self.model.geom_group == 3)] = 2
+        self._option.geomgroup[:] = [1, 1, 1, 0, 0, 0]
         self._scene = mujoco.MjvScene(self.model, maxgeom=10_000)
         self._camera = mujoco.MjvCamera()
         self._gl: Any = None
@@ -205,8 +207,7 @@ def replay(motion: Motion) -> Poses:
 
 def outline(model: Any, qpos: Array) -> Array:
     """(n, 3) [m] corners of what is drawn of the robot, in each configuration (rows, nq), and of small obstacles."""
-    groups = np.array(visible_groups(model), dtype=bool)
-    seen = groups[model.geom_group] & (model.geom_type != mujoco.mjtGeom.mjGEOM_PLANE)
+    seen = drawn_geoms(model) & (model.geom_type != mujoco.mjtGeom.mjGEOM_PLANE)
     seen &= model.geom_type != mujoco.mjtGeom.mjGEOM_HFIELD
     fixed = model.geom_bodyid == 0
     seen &= ~fixed | (model.geom_rbound < _LARGE)
@@ -222,10 +223,20 @@ def outline(model: Any, qpos: Array) -> Array:
     return np.concatenate(points)
 
 
-def visible_groups(model: Any) -> list[int]:
-    """Groups 0 to 2, where models keep what is for looking at; also 3, where a robot has nothing else."""
-    of_robot = model.geom_group[model.geom_bodyid != 0]
-    return [1, 1, 1, int(not (of_robot <= 2).any()), 0, 0]
+def drawn_geoms(model: Any) -> NDArray[np.bool_]:
+    """Which geoms are drawn: groups 0 to 2, where models keep what is for looking at.
+
+    Args:
+        model: `mujoco.MjModel`.
+
+    Returns:
+        Shape (ngeom,). Group 3 counts, too, on parts of the robot that have nothing else, bodies that are fixed to each
+        other taken together.
+    """
+    drawn = model.geom_group <= 2
+    part = model.body_weldid[model.geom_bodyid]
+    bare = np.setdiff1d(part[~drawn], part[drawn])
+    return drawn | ((model.geom_group == 3) & np.isin(part, bare) & (part != 0))
 
 
 def _furnish(model: Any, size: tuple[int, int]) -> None:

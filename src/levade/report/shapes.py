@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from levade.arrays import Array
 from levade.report.packing import pack
-from levade.report.rendering import visible_groups
+from levade.report.rendering import drawn_geoms
 from levade.scenes.scene import GROUND
 
 TRIANGLES = 60_000
@@ -50,13 +50,13 @@ _PLAIN = ("#c9ced4", "#3c434b")
 
 
 def shapes_of(model: Any) -> dict[str, Any]:
-    """The drawn geoms of a model, by the rule of `levade.report.rendering.visible_groups`, and its collision shapes.
+    """The drawn geoms of a model, by the rule of `levade.report.rendering.drawn_geoms`, and its collision shapes.
 
     Has ``bodies``, ``geoms``, ``materials``, ``meshes`` and ``key``, which is the same for the same shapes only.
     """
     bodies = moving_bodies(model)
     places = {body: place for place, body in enumerate(bodies)}
-    shown = np.array(visible_groups(model), dtype=bool)[model.geom_group]
+    shown = drawn_geoms(model)
     touching = (model.geom_contype | model.geom_conaffinity) != 0
     materials: dict[tuple[Any, ...], int] = {}
     meshes: dict[tuple[str, int], int] = {}

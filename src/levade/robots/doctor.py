@@ -20,9 +20,11 @@ from numpy.typing import NDArray
 
 from levade.arrays import Array
 from levade.errors import LevadeError
+from levade.robots.dimensions import dimensions
 from levade.robots.findings import Finding, named, note, some, warning
 from levade.robots.preparing import TIMESTEP
 from levade.robots.robot import Robot
+from levade.robots.settling import doubt_standing
 from levade.robots.shapes import support
 from levade.robots.standing import Bare
 from levade.robots.symmetry import mirror_signs
@@ -31,7 +33,9 @@ from levade.robots.understanding import Leg, joint_positions, moved_bodies
 _MASS = (0.2, 500.0)  # kg, of a robot
 _DOWN = np.array([0.0, 0.0, -1.0])
 _ANGLES = 11
-"""Angles of each joint at which a leg is tried for how high it reaches."""
+"""Angles of each joint at which a leg is tried for how high it reaches, of legs of three joints."""
+_TRIES = 1500
+"""About the most combinations of angles that are tried, where a description names more joints."""
 
 
 @dataclass(frozen=True)
@@ -79,6 +83,7 @@ def inspect(robot: Robot) -> list[Finding]:
     found = list(robot.findings)
     for check in (_masses, _ranges, _torques, _feet, _shapes, _back, _servos, _symmetry, _frame, _physics):
         found += check(patient)
+    found += doubt_standing(robot)
     return sorted(dict.fromkeys(found), key=lambda finding: finding.kind != "warning")
 
 
@@ -174,7 +179,8 @@ def _feet(patient: Patient) -> Iterator[Finding]:
     data = robot.data_at(robot.postures["neutral"])
     depth = {leg.foot: _lowest(model, data, model.geom(leg.foot).id) for leg in robot.legs}
     ground = min(depth.values())
-    uneven = [foot for foot, z in depth.items() if z > ground + 0.02 * robot.neutral_height]
+    height = max(dimensions(robot).height, 0.25 * patient.leg_length)
+    uneven = [foot for foot, z in depth.items() if z > ground + 0.02 * height]
     if uneven:
         what = f"up to {max(depth.values()) - ground:.2g} m above the lowest one in the neutral posture"
         yield note(named("foot", uneven), what, "robot.yaml, postures: {neutral: ...}")
@@ -184,7 +190,7 @@ def _feet(patient: Patient) -> Iterator[Finding]:
         for g in range(model.ngeom)
         if g not in feet
         and (model.geom_contype[g] or model.geom_conaffinity[g])
-        and _lowest(model, data, g) < ground - 0.01 * robot.neutral_height
+        and _lowest(model, data, g) < ground - 0.01 * height
     ]
     if lower:
         what = "below the feet in the neutral posture: the robot stands on that"
@@ -237,7 +243,9 @@ def _back(patient: Patient) -> Iterator[Finding]:
     feet = [model.geom(leg.foot).id for leg in robot.legs]
     angles = robot.postures["neutral"].copy()
     addresses = joint_positions(model, robot.joint_names)
-    for shares in itertools.product(np.linspace(0.0, 1.0, _ANGLES), repeat=max(map(len, legs))):
+    most = max(map(len, legs))
+    angles_tried = max(2, min(_ANGLES, int(_TRIES ** (1 / most))))
+    for shares in itertools.product(np.linspace(0.0, 1.0, angles_tried), repeat=most):
         for leg in legs:
             angles[leg] = lower[leg] + np.array(shares[: len(leg)]) * (upper[leg] - lower[leg])
         data.qpos[addresses] = angles
@@ -257,6 +265,8 @@ def _servos(patient: Patient) -> Iterator[Finding]:
     mujoco.mj_makeM(model, data)
     inertia = np.zeros((model.nv, model.nv))
     mujoco.mj_fullM(model, data, inertia)
+    if not np.isfinite(inertia).all() or not np.isfinite(np.linalg.inv(inertia)).all():
+        return  # masses beyond all measure, which are said elsewhere
     dofs = [int(model.joint(joint).dofadr[0]) for joint in robot.joint_names]
     stiffness, damping = np.zeros(model.nv), np.zeros(model.nv)
     stiffness[dofs], damping[dofs] = robot.actuation.kp, robot.actuation.kd
@@ -265,12 +275,17 @@ def _servos(patient: Patient) -> Iterator[Finding]:
     ratio, dof = _largest(inertia, damping)
     if ratio * TIMESTEP > 2.0:
         where = f"joint {robot.joint_names[dofs.index(dof)]}"
-        what = f"its damping is {ratio * TIMESTEP / 2:.2g} times what is stable at {step} once its torque saturates"
+        what = f"its damping is {_times(ratio * TIMESTEP / 2)} what is stable at {step} once its torque saturates"
         yield warning(where, what, remedy)
     ratio, dof = _largest(inertia + np.diag(TIMESTEP * damping), stiffness)
     if ratio * TIMESTEP**2 > 4.0:
         where = f"joint {robot.joint_names[dofs.index(dof)]}"
-        yield warning(where, f"its stiffness is {ratio * TIMESTEP**2 / 4:.2g} times what is stable at {step}", remedy)
+        yield warning(where, f"its stiffness is {_times(ratio * TIMESTEP**2 / 4)} what is stable at {step}", remedy)
+
+
+def _times(ratio: float) -> str:
+    """How messages write a ratio above one: 4 % above, 3 times."""
+    return f"{100 * (ratio - 1):.2g} % above" if ratio < 2 else f"{ratio:.2g} times"
 
 
 def _largest(inertia: Array, diagonal: Array) -> tuple[float, int]:

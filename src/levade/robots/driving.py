@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 SERVO = "servo"
 """Name of the actuation of a robot whose description names none."""
 
+_FASTEST = 100.0
+"""[rad/s]; above it, a number stands for "no limit": the fastest joints of legs reach about half of it."""
 _NO_LIMIT = 4
 """Times the torque that could carry the robot; above it, a number in a file stands for "no limit"."""
 
@@ -39,6 +41,14 @@ def find_limits(draft: Draft, bare: Bare, path: Path, form: RobotForm) -> tuple[
     else:
         velocity = np.array([draft.velocity.get(joint, np.inf) for joint in joints])
         draft.origins["velocity"] = file if np.isfinite(velocity).any() else "no limit"
+    fast = np.isfinite(velocity) & (velocity > _FASTEST)
+    if fast.any():
+        what = f"speed limits of up to {velocity[fast].max():.3g} rad/s are none: not believed"
+        names = [joint for joint, gone in zip(joints, fast, strict=True) if gone]
+        where = "all joints" if fast.all() else named("joint", names)
+        draft.findings.append(warning(where, what, "robot.yaml, limits: {velocity: ...} gives the real one"))
+        velocity = np.where(fast, np.inf, velocity)
+        draft.origins["velocity"] = "no limit" if fast.all() else draft.origins["velocity"]
     if form.limits.torque:
         draft.origins["torque"] = "robot.yaml"
         return joint_array(form.limits.torque, joints, f"{path}: limits.torque"), velocity

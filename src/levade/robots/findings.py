@@ -44,3 +44,8 @@ def named(kind: str, names: Sequence[str]) -> str:
     """Where a finding is that several joints, links or bodies share, such as "joints a, b, c, d and 8 more"."""
     plural = kind if len(names) == 1 else {"body": "bodies", "foot": "feet"}.get(kind, f"{kind}s")
     return f"{plural} {some(names)}"
+
+
+def counted(number: int, noun: str) -> str:
+    """The number and the noun in its plural, such as "1 geom" and "2 geoms"."""
+    return f"{number} {noun}{'' if number == 1 else 's'}"

@@ -6,34 +6,26 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import mujoco
 import numpy as np
 
-from levade.arrays import Array
 from levade.embodiment import JointLimits, TorqueCurve
 from levade.errors import LevadeError, did_you_mean
 from levade.robots.actuation import DCMotor
+from levade.robots.anatomy import understand
 from levade.robots.driving import SERVO, find_actuation, find_limits
-from levade.robots.findings import note, some
+from levade.robots.files import is_model
+from levade.robots.inertias import survive_text
 from levade.robots.packages import find_package_robot, package_robots
+from levade.robots.posing import pose
 from levade.robots.preparing import (
     exclude_overlaps,
-    fix_joints,
     float_freely,
     lift_joint_limits,
     lighten,
     support_servos,
 )
-from levade.robots.reading import Draft, Keyframe, read_model
+from levade.robots.reading import Draft, read_model
 from levade.robots.robot import Robot
-from levade.robots.standing import (
-    CROUCHED_EXTENSION,
-    NEUTRAL_EXTENSION,
-    STRETCHED_EXTENSION,
-    Bare,
-    neutral_from,
-)
-from levade.robots.understanding import Leg, NoFootError, find_legs, find_trunk, roles
 from levade.robots.visuals import thin_visuals
 
 if TYPE_CHECKING:
@@ -88,14 +80,14 @@ def load_robot(
     place = path.parent / form.model
     if not place.is_file():
         raise LevadeError(f"{path}: model: no file {place}")
-    draft = read_model(place)
+    draft = read_model(place, trunk=form.trunk, joints=[joint for leg in form.legs.values() for joint in leg.joints])
     if form.trunk is not None:
         float_freely(draft, form.trunk, path)
     if variant is not None:
         _apply_variant(draft, path, form, variant)
-    bare = _understand(draft, path, form)
+    bare, followers = understand(draft, path, form)
     torque, velocity = find_limits(draft, bare, path, form)
-    postures = _postures(draft, bare, path, form, torque)
+    bare, postures = pose(draft, bare, followers, path, form, torque)
     joints = bare.joints
     ranges = np.array([bare.ranges[joint] for joint in joints])
     neutral = dict(zip(joints, postures["neutral"].tolist(), strict=True))
@@ -109,7 +101,7 @@ def load_robot(
         support_servos(draft, bare, neutral, chosen)
     thin_visuals(draft, bare.model)
     lighten(draft)
-    model = draft.compile()
+    model = survive_text(draft)
     return Robot(
         name=form.name,
         mjcf=draft.spec.to_xml(),
@@ -156,119 +148,14 @@ def _describe(path: Path) -> RobotForm:
     """The description at a path; for a model, the robot.yaml beside it that describes it, or else a bare one."""
     from levade.robots.description import RobotForm, read_description
 
-    if path.suffix.lower() not in _MODELS:
+    if path.suffix.lower() not in _MODELS and not is_model(path):
         return read_description(path)
     beside = path.with_name("robot.yaml")
-    if beside.is_file():
+    if beside.is_file() and not is_model(beside):
         form = read_description(beside)
         if Path(form.model).name == path.name:
             return form
     return RobotForm(name=path.stem, model=path.name)
-
-
-def _understand(draft: Draft, path: Path, form: RobotForm) -> Bare:
-    """Trunk and legs, as described or found; whatever else moves is fixed."""
-    from levade.robots.description import per_joint
-
-    model = draft.compile()
-    where = str(path)
-    trunk = find_trunk(model, where)
-    if form.trunk is not None and model.body(trunk).name != form.trunk:
-        raise LevadeError(
-            f"{path}: trunk: {form.trunk} is not the body that floats freely, {model.body(trunk).name} is"
-        )
-    free = int(model.body_jntadr[trunk])
-    movable = [model.joint(j).name for j in range(model.njnt) if j != free]
-    draft.joints = movable
-    fixed = per_joint(form.fixed, movable, f"{path}: fixed", all_joints=False)
-    if fixed:
-        fix_joints(draft, fixed, path)
-        model = draft.compile()
-        trunk = find_trunk(model, where)
-        draft.origins["fixed"] = f"{some(list(fixed))} (robot.yaml)"
-    if form.legs:
-        legs, others = _described_legs(model, trunk, path, form), []
-        used = {joint for leg in legs for joint in leg.joints}
-        for joint in movable:
-            if joint not in used and joint not in fixed:
-                raise LevadeError(
-                    f"{path}: legs: joint {joint} of {form.model} is in no leg; add it to one, or: fixed: {{{joint}: 0}}"
-                )
-    else:
-        try:
-            legs, others = find_legs(model, trunk, where)
-        except NoFootError as error:  # most often since its meshes are not there
-            lost = next((f.what for f in draft.findings if f.what.startswith("collides with nothing")), "")
-            raise LevadeError(f"{error}{lost and f' ({lost})'}") from None
-    draft.origins["legs"] = "robot.yaml" if form.legs else "found in the kinematics"
-    if others:
-        frame = draft.keyframes[0] if draft.keyframes else None
-        fix_joints(draft, {joint: _resting(model, joint, frame) for joint in others}, path)
-        model = draft.compile()
-        trunk = find_trunk(model, where)
-        how = (
-            f"as in keyframe {frame.name}".rstrip() if frame else "at zero, or at the end of the range that is nearest"
-        )
-        draft.findings.append(
-            note(some(others), f"in no leg: held fixed {how}", "robot.yaml, fixed: {joint: angle} holds them elsewhere")
-        )
-        earlier = [draft.origins["fixed"]] if fixed else []
-        draft.origins["fixed"] = ", ".join([*earlier, f"{some(others)} ({'keyframe' if frame else 'zero'})"])
-    ranges = {}
-    for joint in (joint for leg in legs for joint in leg.joints):
-        handle = model.joint(joint)
-        limited = bool(handle.limited[0])
-        # the digits of the XML text, which is what is simulated
-        ranges[joint] = (
-            (float(f"{handle.range[0]:.6g}"), float(f"{handle.range[1]:.6g}")) if limited else (-np.inf, np.inf)
-        )
-    return Bare(model, trunk, legs, ranges)
-
-
-def _resting(model: mujoco.MjModel, joint: str, frame: Keyframe | None) -> float:
-    """Where a joint of no leg is held: as in the keyframe, else at zero, or as near to it as its range allows."""
-    if frame is not None and joint in frame.angles:
-        return frame.angles[joint]
-    handle = model.joint(joint)
-    return float(np.clip(0.0, *handle.range)) if handle.limited[0] else 0.0
-
-
-def _described_legs(model: mujoco.MjModel, trunk: int, path: Path, form: RobotForm) -> tuple[Leg, ...]:
-    """The legs that the description names, checked against the model."""
-    joints = {model.joint(j).name: j for j in range(model.njnt)}
-    geoms = [model.geom(g).name for g in range(model.ngeom)]
-    used: set[str] = set()
-    legs = []
-    for name, leg in form.legs.items():
-        where = f"{path}: legs.{name}.joints"
-        for joint in leg.joints:
-            if joint not in joints:
-                raise LevadeError(f"{where}: no joint {joint!r} in {form.model}; {did_you_mean(joint, joints)}")
-            if model.jnt_type[joints[joint]] != mujoco.mjtJoint.mjJNT_HINGE:
-                raise LevadeError(f"{where}: joint {joint} should be a hinge")
-            if joint in used:
-                raise LevadeError(f"{where}: joint {joint} is there twice")
-            used.add(joint)
-        bodies = [int(model.jnt_bodyid[joints[joint]]) for joint in leg.joints]
-        for inner, outer, body, further in zip(leg.joints, leg.joints[1:], bodies, bodies[1:], strict=False):
-            if body not in _ancestors(model, further):
-                raise LevadeError(f"{where}: {inner} should be nearer to the trunk than {outer}")
-        if trunk not in _ancestors(model, bodies[0]):
-            raise LevadeError(f"{where}: {leg.joints[0]} does not hang on the trunk {model.body(trunk).name}")
-        if leg.foot not in geoms:
-            hint = did_you_mean(leg.foot, filter(None, geoms))
-            raise LevadeError(f"{path}: legs.{name}.foot: no geom {leg.foot!r} in {form.model}; {hint}")
-        ordered = tuple(leg.joints)
-        legs.append(Leg(name, ordered, leg.foot, leg.side, leg.end, roles(model, ordered)))
-    return tuple(legs)
-
-
-def _ancestors(model: mujoco.MjModel, body: int) -> set[int]:
-    """Ids of the bodies between this one and the world, without either."""
-    found = set()
-    while (body := int(model.body_parentid[body])) != 0:
-        found.add(body)
-    return found
 
 
 def _apply_variant(draft: Draft, path: Path, form: RobotForm, variant: str) -> None:
@@ -299,58 +186,3 @@ def _curves(joints: tuple[str, ...], path: Path, form: RobotForm) -> dict[int, T
 
     curves = per_joint(form.linkage, joints, f"{path}: linkage", all_joints=False)
     return {joints.index(joint): TorqueCurve(c.peak, c.rate, c.centre) for joint, c in curves.items()}
-
-
-def _postures(draft: Draft, bare: Bare, path: Path, form: RobotForm, torque: Array) -> dict[str, Array]:
-    """The description's postures, and those that every robot has: neutral, crouched, stretched."""
-    from levade.robots.description import joint_array
-
-    joints = bare.joints
-    postures: dict[str, Array] = {}
-    for name, table in form.postures.items():
-        angles = postures[name] = joint_array(table, joints, f"{path}: postures.{name}")
-        for joint, angle in zip(joints, angles, strict=True):
-            lower, upper = bare.ranges[joint]
-            if not lower <= angle <= upper:
-                where = f"{path}: postures.{name}: {joint} = {angle:g} rad"
-                raise LevadeError(f"{where} is outside its range {lower:.4g} .. {upper:.4g} rad")
-    understood = all({"hfe", "kfe"} <= set(leg.roles) for leg in bare.legs)
-    draft.origins["neutral"] = "robot.yaml"
-    if "neutral" not in postures:
-        if not understood:
-            raise LevadeError(f"{path}: postures: neutral is missing; give the angles of the standing robot")
-        found = _neutral(draft, bare, path, torque)
-        postures = {"neutral": np.array([found[joint] for joint in joints]), **postures}
-    for name, extension in (("crouched", CROUCHED_EXTENSION), ("stretched", STRETCHED_EXTENSION)):
-        derived = bare.posture(extension) if understood and name not in postures else None
-        if derived is not None:
-            postures[name] = np.array([derived[joint] for joint in joints])
-    return postures
-
-
-def _neutral(draft: Draft, bare: Bare, path: Path, torque: Array) -> dict[str, float]:
-    keyframe = neutral_from(bare, draft.keyframes)
-    if keyframe is not None:
-        angles, name = keyframe
-        draft.origins["neutral"] = f"keyframe {name or 'without a name'} of the model"
-        draft.findings.append(note("posture neutral", f"is {draft.origins['neutral']}"))
-        return angles
-    reachable = None
-    for extension in NEUTRAL_EXTENSION:
-        angles = bare.posture(extension)
-        if angles is None:
-            continue
-        reachable = angles, extension  # at last the straightest, which is the easiest to hold
-        needed = bare.static_torque(angles)
-        if all(abs(needed[joint]) <= limit for joint, limit in zip(bare.joints, torque, strict=True)):
-            break
-    else:
-        if reachable is None:
-            raise LevadeError(
-                f"{path}: no standing posture within the joints' ranges has the feet under the hips; give one:"
-                " robot.yaml, postures: {neutral: {joint: angle}}"
-            )
-        angles, extension = reachable
-    draft.origins["neutral"] = f"found by search: feet under the hips, {extension:.0%} of the leg's length below"
-    draft.findings.append(note("posture neutral", draft.origins["neutral"]))
-    return angles

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from io import BytesIO
 from pathlib import Path, PurePosixPath
 
@@ -11,6 +11,7 @@ import numpy as np
 
 from levade.arrays import Array
 from levade.errors import LevadeError
+from levade.robots.files import is_pointer, pointer_problem
 
 READABLE = (".stl", ".obj", ".msh")
 """Suffixes that MuJoCo reads."""
@@ -26,15 +27,17 @@ _CELLS = 40
 """Along the longest edge of a mesh; vertices in one cell of the grid become one."""
 
 
-def find_mesh(reference: str, beside: Path) -> Path | None:
+def find_mesh(reference: str, beside: Path, also: Iterable[Path] = ()) -> Path | None:
     """The file that a URDF or MJCF names; None if there is none.
 
     reference: a path relative to ``beside``, the folder of the robot's file, or absolute; ``file://...``; or
     ``package://NAME/...``, where NAME is a folder above the robot's file, or in the ROS paths (ROS_PACKAGE_PATH,
     AMENT_PREFIX_PATH). Of paths that another machine wrote down, the tail counts: the file below the nearest folder
     above that has it.
+    also: where MuJoCo would look, which counts more than such a tail.
     """
-    for place in _places(reference, beside):
+    beside = beside.resolve()
+    for place in (*_places(reference, beside), *also, *_tails(reference, beside)):
         try:
             if place.is_file():
                 return place
@@ -44,7 +47,6 @@ def find_mesh(reference: str, beside: Path) -> Path | None:
 
 
 def _places(reference: str, beside: Path) -> Iterator[Path]:
-    beside = beside.resolve()
     scheme, separator, rest = reference.partition("://")
     if separator and scheme in ("package", "model"):
         package, _, inside = rest.partition("/")
@@ -59,11 +61,15 @@ def _places(reference: str, beside: Path) -> Iterator[Path]:
         ):
             for root in filter(None, os.environ.get(variable, "").split(os.pathsep)):
                 yield Path(root) / middle / rest
-        tail = PurePosixPath(inside)
     else:
-        path = rest if separator else reference
-        yield beside / path  # an absolute path stays what it is
-        tail = PurePosixPath(path.replace("\\", "/"))
+        yield beside / (rest if separator else reference)  # an absolute path stays what it is
+
+
+def _tails(reference: str, beside: Path) -> Iterator[Path]:
+    scheme, separator, rest = reference.partition("://")
+    if separator and scheme in ("package", "model"):
+        rest = rest.partition("/")[2]
+    tail = PurePosixPath((rest if separator else reference).replace("\\", "/"))
     parts = [part for part in tail.parts if part not in ("/", ".", "..")]
     for folder in (beside, *list(beside.parents)[:3]):
         for first in range(len(parts)):
@@ -76,6 +82,9 @@ def read_mesh(path: Path) -> tuple[str, bytes]:
     Raises LevadeError if the form is unknown, needs the extra `meshes`, or the file is broken.
     """
     suffix = path.suffix.lower()
+    with path.open("rb") as file:
+        if is_pointer(file.read(64)):
+            raise LevadeError(pointer_problem(path.name))
     if suffix in READABLE:
         content = path.read_bytes()
         return (".stl", _binary_stl(path)) if suffix == ".stl" and _is_text_stl(content) else (suffix, content)

@@ -35,54 +35,6 @@ def float_freely(draft: Draft, trunk: str, path: Path) -> None:
         body.add_freejoint(name="root")
 
 
-def fix_joints(draft: Draft, angles: Mapping[str, float], path: Path) -> None:
-    """Take joints out of the model, their bodies staying where the angles [rad] (or, of slides, [m]) put them."""
-    if not draft.urdf:  # as text, frames and Euler angles are gone, and angles are in radians
-        draft.spec.compile()
-        draft.spec = mujoco.MjSpec.from_string(draft.spec.to_xml(), assets=draft.assets)
-        draft.spec.assets = draft.assets
-    spec = draft.spec
-    _loosen(spec, set(angles))
-    for name, angle in angles.items():
-        joint = spec.joint(name)
-        value = angle - float(joint.ref)
-        body = joint.parent
-        axis = np.asarray(joint.axis, dtype=float)
-        quaternion, turn = np.asarray(body.quat, dtype=float), np.empty(4)
-        if not np.isclose(np.linalg.norm(quaternion), 1.0) or len(body.joints) > 1:
-            raise LevadeError(
-                f"{path}: joint {name} cannot be held fixed: its body has several joints; fix it in the model"
-            )
-        turned = np.empty(3)
-        if joint.type == mujoco.mjtJoint.mjJNT_HINGE:
-            mujoco.mju_axisAngle2Quat(turn, axis / np.linalg.norm(axis), value)
-            anchor, moved = np.asarray(joint.pos, dtype=float), np.empty(3)
-            mujoco.mju_rotVecQuat(moved, anchor, turn)
-            mujoco.mju_rotVecQuat(turned, anchor - moved, quaternion)
-            product = np.empty(4)
-            mujoco.mju_mulQuat(product, quaternion, turn)
-            body.quat = product
-        elif joint.type == mujoco.mjtJoint.mjJNT_SLIDE:
-            mujoco.mju_rotVecQuat(turned, axis / np.linalg.norm(axis) * value, quaternion)
-        else:
-            raise LevadeError(f"{path}: joint {name} cannot be held fixed: it is neither a hinge nor a slide")
-        body.pos = np.asarray(body.pos, dtype=float) + turned
-        spec.delete(joint)
-        draft.held[name] = float(angle)
-
-
-def _loosen(spec: mujoco.MjSpec, joints: set[str]) -> None:
-    """Delete the tendons that run over joints, and the equalities that bind them."""
-    kinds = mujoco.mjtWrap.mjWRAP_JOINT
-    tendons = [t for t in spec.tendons if any(w.type == kinds and w.target.name in joints for w in t.path)]
-    names = joints | {tendon.name for tendon in tendons}
-    coupling = (mujoco.mjtEq.mjEQ_JOINT, mujoco.mjtEq.mjEQ_TENDON)
-    for equality in [e for e in spec.equalities if e.type in coupling and names & {e.name1, e.name2}]:
-        spec.delete(equality)
-    for tendon in tendons:
-        spec.delete(tendon)
-
-
 def exclude_overlaps(draft: Draft, bare: Bare, neutral: Mapping[str, float]) -> None:
     """Let bodies that touch in the neutral posture pass through each other: their shapes are wider than the robot."""
     data = bare.data_at(neutral)

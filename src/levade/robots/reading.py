@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 import xml.etree.ElementTree as ET
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import count
@@ -18,10 +19,16 @@ import numpy as np
 
 from levade.arrays import Array
 from levade.errors import LevadeError
-from levade.robots.findings import Finding, named, note, warning
-from levade.robots.meshes import find_mesh, read_mesh
+from levade.robots.assets import compile_readable, read_assets
+from levade.robots.files import parts, read_xml
+from levade.robots.findings import Finding, named, warning
+from levade.robots.inertias import lift_explicit
+from levade.robots.loops import Coupling, Loop, take_couplings, take_loops
+from levade.robots.quiet import quiet
+from levade.robots.ranges import check_ranges, doubt_ranges
 from levade.robots.servos import Servo, read_servos
 from levade.robots.urdf import read_urdf
+from levade.robots.world import collide_as_paired, float_alone, leave_only, robot_root
 
 _UNITS = "kg and kg m2"
 _FUSED = " The static bodies of the spec were fused before this error, and remain so."
@@ -29,11 +36,15 @@ _FUSED = " The static bodies of the spec were fused before this error, and remai
 
 @dataclass(frozen=True)
 class Keyframe:
-    """A pose that an MJCF comes with. quaternion: of the trunk. angles: joint -> [rad]."""
+    """A pose that an MJCF comes with.
+
+    quaternion: of the trunk. angles: joint -> [rad] of hinges, [m] of slides. balls: joint -> quaternion (4,).
+    """
 
     name: str
     quaternion: Array
     angles: dict[str, float]
+    balls: dict[str, Array] = field(default_factory=dict)
 
 
 @dataclass
@@ -41,8 +52,9 @@ class Draft:
     """A robot's file, read.
 
     effort [Nm], velocity [rad/s]: joint -> limit, of those that have one. servos: joint -> position servo.
-    driven: joints of an MJCF that an actuator drives. origins: what of the robot came from where, see `Robot`.
-    joints: of the file except the free one, in its order. held: those taken out of the model -> where [rad], slides [m].
+    driven: joints of an MJCF that an actuator drives. couplings: joints that follow others. loops: bodies that were
+    held together. held: joint that was taken out -> its angle [rad], or [m]. origins: what of the robot came from where,
+    see `Robot`. joints: of the file except the free one, in its order.
     """
 
     path: Path
@@ -54,10 +66,12 @@ class Draft:
     servos: dict[str, Servo] = field(default_factory=dict)
     driven: set[str] = field(default_factory=set)
     keyframes: list[Keyframe] = field(default_factory=list)
+    couplings: list[Coupling] = field(default_factory=list)
+    loops: list[Loop] = field(default_factory=list)
+    held: dict[str, float] = field(default_factory=dict)
     findings: list[Finding] = field(default_factory=list)
     origins: dict[str, str] = field(default_factory=dict)
     joints: list[str] = field(default_factory=list)
-    held: dict[str, float] = field(default_factory=dict)
 
     def compile(self) -> mujoco.MjModel:
         """The model. Raises LevadeError in one line."""
@@ -67,28 +81,47 @@ class Draft:
             raise LevadeError(f"{self.path}: {_explain(error)}") from None
 
 
-def read_model(path: Path) -> Draft:
-    """Read an MJCF or URDF file. Raises LevadeError."""
-    try:
-        content = path.read_text(encoding="utf-8")
-    except UnicodeDecodeError:
-        raise LevadeError(f"{path}: not a text file; give an MJCF or URDF") from None
-    except OSError as error:
-        raise LevadeError(f"{path}: cannot be read ({error.strerror})") from None
-    root = _parse(path, content)
-    draft = _read_urdf(path, root) if root is not None and root.tag == "robot" else _read_mjcf(path)
+def read_model(path: Path, *, trunk: str | None = None, joints: Iterable[str] = ()) -> Draft:
+    """Read an MJCF or URDF file.
+
+    Args:
+        path: The file.
+        trunk: Name of a body of the robot, where a description gives one: the rest of the world is left out.
+        joints: Names of joints of the robot, likewise.
+
+    Raises:
+        LevadeError: If the file cannot be read or simulated.
+    """
+    with quiet():
+        return _read(path, trunk, joints)
+
+
+def _read(path: Path, trunk: str | None, joints: Iterable[str]) -> Draft:
+    content = read_xml(path)
+    element = _parse(path, content)
+    urdf = element if element is not None and element.tag == "robot" else None
+    draft = _read_mjcf(path, content) if urdf is None else _read_urdf(path, urdf)
     _name_everything(draft.spec)
-    _check_ranges(draft)
-    model = draft.compile()
+    check_ranges(draft.spec, str(path))
+    if not draft.urdf:
+        lift_explicit(draft.spec)
+    model = compile_readable(draft)
+    doubts = doubt_ranges(draft.spec, model)
+    if doubts:
+        draft.findings += doubts
+        model = draft.compile()
+    root = robot_root(draft.spec, model, trunk=trunk, joints=joints, where=str(path))
     if not draft.urdf:
         _say_what_is_mended(draft)
         servos = read_servos(model)
         draft.driven = {name for name, servo in servos.items() if servo.driven}
         draft.servos = {name: servo for name, servo in servos.items() if servo.kp is not None}
         draft.effort = {name: servo.torque for name, servo in servos.items() if np.isfinite(servo.torque)}
-        draft.keyframes = _keyframes(model)
+        draft.keyframes = _keyframes(model, root)
     _keep_massless(draft, model)
-    _strip(draft)
+    _strip(draft, model, root)
+    if not draft.urdf:
+        draft.couplings, draft.loops = take_couplings(draft.spec, model), take_loops(draft.spec)
     return draft
 
 
@@ -97,7 +130,7 @@ def _parse(path: Path, content: str) -> ET.Element | None:
     if not content.strip():
         raise LevadeError(f"{path}: is empty; give an MJCF or URDF")
     try:
-        root = ET.fromstring(content.encode())
+        root = ET.fromstring(content)
     except ET.ParseError as error:
         if "<mujoco" in content:
             with suppress(ValueError):
@@ -105,7 +138,8 @@ def _parse(path: Path, content: str) -> ET.Element | None:
                 return None
         raise LevadeError(f"{path}: broken XML ({error}); mend it there") from None
     if root.tag not in ("robot", "mujoco"):
-        raise LevadeError(f"{path}: starts with <{root.tag}>; a URDF starts with <robot>, an MJCF with <mujoco>")
+        tag = root.tag.rpartition("}")[2][:40]
+        raise LevadeError(f"{path}: starts with <{tag}>; a URDF starts with <robot>, an MJCF with <mujoco>")
     return root
 
 
@@ -126,83 +160,44 @@ def _read_urdf(path: Path, root: ET.Element) -> Draft:
                 if geom.contype or geom.conaffinity:
                     geom.group = 3  # where there is something to look at, what collides need not be drawn
     return Draft(
-        path, spec, source.assets, True, source.effort, source.velocity, findings=source.findings, held=source.held
+        path,
+        spec,
+        source.assets,
+        True,
+        source.effort,
+        source.velocity,
+        couplings=source.couplings,
+        findings=source.findings,
     )
 
 
-def _read_mjcf(path: Path) -> Draft:
+def _read_mjcf(path: Path, content: str) -> Draft:
+    pieces = {name: (place, text) for name, place, text in parts(path, content)}
     try:
-        spec = mujoco.MjSpec.from_file(str(path))
+        spec = _mjcf_spec(path, content, pieces)
     except ValueError as error:
         raise LevadeError(f"{path}: {_explain(error)}") from None
     draft = Draft(path, spec, {}, False)
-    names: dict[Path, str] = {}
-    for kind, folder in (("meshes", spec.meshdir), ("hfields", spec.meshdir), ("textures", spec.texturedir)):
-        for element in getattr(spec, kind):
-            files = [file for file in (element.file, *getattr(element, "cubefiles", ())) if file]
-            if not files:
-                continue
-            place = find_mesh(str(Path(folder) / element.file), path.parent) if element.file else None
-            element.name = element.name or Path(files[0]).stem
-            problem = None if place is not None else f"missing: {files[0]}"
-            if place is not None and place not in names:
-                try:
-                    suffix, content = read_mesh(place) if kind == "meshes" else (place.suffix, place.read_bytes())
-                    stem = f"{place.stem}{suffix}"
-                    names[place] = stem if stem not in draft.assets else f"{len(draft.assets)}-{stem}"
-                    draft.assets[names[place]] = content
-                except (LevadeError, OSError) as error:
-                    problem = str(error)
-            if problem is None and place is not None:
-                element.file = names[place]
-            else:
-                _do_without(draft, kind, element, problem or "")
-    spec.meshdir = spec.texturedir = ""
-    spec.assets = draft.assets
+    for skin in list(spec.skins):  # only looked at
+        spec.delete(skin)
+    folders = [path.parent, *dict.fromkeys(place.parent for place, _ in pieces.values())]
+    read_assets(draft, folders)
     return draft
 
 
-def _do_without(draft: Draft, kind: str, element, problem: str) -> None:
-    """Take a mesh whose file cannot be had out of the model, if the physics does not need it."""
-    spec, name = draft.spec, element.name
-    if kind == "textures":
-        draft.findings.append(note(f"texture {name}", f"not shown, {problem}"))
-        for material in spec.materials:
-            material.textures = ["" if texture == name else texture for texture in material.textures]
-        spec.delete(element)
-        return
-    users = [geom for geom in spec.geoms if (geom.meshname if kind == "meshes" else geom.hfieldname) == name]
-    for geom in users:
-        body = geom.parent
-        others = [g for g in body.geoms if g not in users]
-        colliding = bool(geom.contype or geom.conaffinity)
-        if not body.explicitinertial and not _massless(geom) and body.name != "world":
-            raise LevadeError(
-                f"{draft.path}: the inertia of body {body.name} comes from the mesh {name}, {problem};"
-                " put the file where it says, or give the body an <inertial>"
-            )
-        if colliding and not any(g.contype or g.conaffinity for g in others):
-            draft.findings.append(
-                warning(
-                    f"body {body.name}",
-                    f"collides with nothing, {problem}",
-                    "put the file where it says, or give the body a collision primitive",
-                )
-            )
-        elif colliding:
-            draft.findings.append(
-                warning(
-                    f"body {body.name}", f"collides as its other geoms only, {problem}", "put the file where it says"
-                )
-            )
-        else:
-            draft.findings.append(note(f"body {body.name}", f"not shown as its mesh, {problem}"))
-        spec.delete(geom)
-    spec.delete(element)
+def _mjcf_spec(path: Path, content: str, pieces: Mapping[str, tuple[Path, str]]) -> mujoco.MjSpec:
+    """What MuJoCo makes of an MJCF. Its own reader goes by the file's name, and takes every encoding for UTF-8."""
+    if path.suffix == ".xml" and all(map(_is_utf8, (path, *(place for place, _ in pieces.values())))):
+        return mujoco.MjSpec.from_file(str(path))
+    return mujoco.MjSpec.from_string(content, include={name: text.encode() for name, (_, text) in pieces.items()})
 
 
-def _massless(geom) -> bool:
-    return geom.mass == 0 or (np.isnan(geom.mass) and geom.density == 0)
+def _is_utf8(path: Path) -> bool:
+    try:
+        path.read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        return False
+    return True
 
 
 def _name_everything(spec: mujoco.MjSpec) -> None:
@@ -222,17 +217,6 @@ def _free_name(name: str, taken: set[str]) -> str:
     free = name if name not in taken else next(n for i in count(1) if (n := f"{name}_{i}") not in taken)
     taken.add(free)
     return free
-
-
-def _check_ranges(draft: Draft) -> None:
-    """Raise LevadeError for joints whose limits are inverted: MuJoCo takes them for none."""
-    for joint in draft.spec.joints:
-        lower, upper = joint.range
-        if lower > upper and joint.limited != mujoco.mjtLimited.mjLIMITED_FALSE:
-            raise LevadeError(
-                f"{draft.path}: joint {joint.name}: limits are inverted, lower {lower:g} is above upper {upper:g};"
-                " exchange them"
-            )
 
 
 def _say_what_is_mended(draft: Draft) -> None:
@@ -268,62 +252,35 @@ def _keep_massless(draft: Draft, model: mujoco.MjModel) -> None:
             body.ipos, body.inertia = [0.0, 0.0, 0.0], [1e-12, 1e-12, 1e-12]
 
 
-def _keyframes(model: mujoco.MjModel) -> list[Keyframe]:
-    free = [j for j in range(model.njnt) if model.jnt_type[j] == mujoco.mjtJoint.mjJNT_FREE]
-    if len(free) != 1:
+def _keyframes(model: mujoco.MjModel, root: str | None) -> list[Keyframe]:
+    free = -1 if root is None else int(model.body(root).jntadr[0])
+    if free < 0 or model.jnt_type[free] != mujoco.mjtJoint.mjJNT_FREE:
         return []
-    first = model.jnt_qposadr[free[0]] + 3
-    hinges = [j for j in range(model.njnt) if model.jnt_type[j] == mujoco.mjtJoint.mjJNT_HINGE]
+    first = model.jnt_qposadr[free] + 3
+    places = {model.joint(j).name: int(model.jnt_qposadr[j]) for j in range(model.njnt)}
+    kinds = {model.joint(j).name: mujoco.mjtJoint(int(model.jnt_type[j])) for j in range(model.njnt)}
+    scalars = [name for name, kind in kinds.items() if kind.name in ("mjJNT_HINGE", "mjJNT_SLIDE")]
+    balls = [name for name, kind in kinds.items() if kind.name == "mjJNT_BALL"]
     return [
         Keyframe(
             model.key(k).name,
-            model.key_qpos[k, first : first + 4].copy(),
-            {model.joint(j).name: float(model.key_qpos[k, model.jnt_qposadr[j]]) for j in hinges},
+            pose[first : first + 4].copy(),
+            {name: float(pose[places[name]]) for name in scalars},
+            {name: pose[places[name] : places[name] + 4].copy() for name in balls},
         )
-        for k in range(model.nkey)
+        for k, pose in enumerate(model.key_qpos)
     ]
 
 
-def _strip(draft: Draft) -> None:
+def _strip(draft: Draft, model: mujoco.MjModel, root: str | None) -> None:
     """Leave the bare robot: without actuators, sensors, keyframes, and what stands in the world beside it."""
     spec = draft.spec
     for element in [*spec.sensors, *spec.actuators, *spec.keys]:
         spec.delete(element)
-    world = spec.worldbody
-    of_world = {geom.name for geom in world.geoms if geom.name}
-    for pair in [pair for pair in spec.pairs if {pair.geomname1, pair.geomname2} & of_world]:
-        spec.delete(pair)
-    if world.geoms and not draft.urdf:
-        draft.findings.append(
-            note(
-                "worldbody",
-                f"{len(world.geoms)} geoms of the world (floor, obstacles) are left out",
-                "a task's scene says what the robot stands on",
-            )
-        )
-    for element in [*world.geoms, *world.sites, *spec.lights, *spec.cameras]:
-        spec.delete(element)
-    robots = [body for body in world.bodies if any(_moves(child) for child in body.bodies)]
-    for body in [body for body in world.bodies if (body not in robots if robots else not _moves(body))]:
-        draft.findings.append(note(f"body {body.name}", "of the world, is left out"))
-        _delete_body(spec, body)
-
-
-def _moves(body) -> bool:
-    return bool(body.joints) or any(_moves(child) for child in body.bodies)
-
-
-def _delete_body(spec: mujoco.MjSpec, body) -> None:
-    """With what else names it or its shapes."""
-    bodies, geoms = {body.name}, {geom.name for geom in body.find_all("geom") if geom.name}
-    bodies |= {child.name for child in body.find_all("body")}
-    for pair in [pair for pair in spec.pairs if {pair.geomname1, pair.geomname2} & geoms]:
-        spec.delete(pair)
-    for exclude in [exclude for exclude in spec.excludes if {exclude.bodyname1, exclude.bodyname2} & bodies]:
-        spec.delete(exclude)
-    for equality in [equality for equality in spec.equalities if {equality.name1, equality.name2} & bodies]:
-        spec.delete(equality)
-    spec.delete(body)
+    if not draft.urdf:
+        collide_as_paired(spec, model, root, draft.findings)
+    leave_only(spec, root, draft.findings)
+    float_alone(spec, draft.findings)
 
 
 def _explain(error: Exception) -> str:

@@ -135,8 +135,11 @@ class Robot:
 
     @cached_property
     def model(self) -> mujoco.MjModel:
-        """The robot alone, compiled; for kinematics. Not to be changed."""
-        return mujoco.MjModel.from_xml_string(self.mjcf, dict(self.assets))
+        """The robot alone, compiled; for kinematics. Not to be changed. Raises `LevadeError`."""
+        try:
+            return mujoco.MjModel.from_xml_string(self.mjcf, dict(self.assets))
+        except ValueError as error:
+            raise LevadeError(f"robot {self.name}: {' '.join(str(error).split())}") from None
 
     def data_at(self, joint_position: Array) -> mujoco.MjData:
         """`mujoco.MjData` of `model` at (joints,) [rad], the trunk frame on the world frame, kinematics computed."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -51,8 +52,11 @@ class Bare:
         return tip(self.model, data, self.model.geom(leg.foot).id, self.model.joint(leg.joints[-1]).id)
 
     def leg_length(self, leg: Leg) -> float:
-        """[m], from hip flexion over the knee to the end of the foot, along the links."""
+        """[m], from hip flexion over the knee to the end of the foot, along the links; of other legs, along all of them."""
         data = self.data_at(self._zero(leg))
+        if not {"hfe", "kfe"} <= set(leg.roles):
+            points = [*(data.joint(joint).xanchor for joint in leg.joints), self.tip(data, leg)]
+            return float(sum(np.linalg.norm(b - a) for a, b in itertools.pairwise(points)))
         hip, knee = (data.joint(leg.joints[leg.roles.index(role)]).xanchor for role in ("hfe", "kfe"))
         axis = data.joint(leg.joints[leg.roles.index("hfe")]).xaxis
         flat = np.eye(3) - np.outer(axis, axis)
@@ -89,7 +93,8 @@ class Bare:
             return (pivot - anchor + turned) @ flat
 
         lower, upper = (limit - angles[knee] for limit in self.ranges[knee])
-        if not np.isfinite([lower, upper]).all() or upper - lower > 2 * np.pi:
+        wide = not np.isfinite([lower, upper]).all() or upper - lower > 2 * np.pi
+        if wide:
             lower, upper = -np.pi, np.pi
         scan = np.linspace(lower + _MARGIN, upper - _MARGIN, _SCAN)
         gaps = np.linalg.norm(across(scan), axis=1) - wanted
@@ -105,8 +110,9 @@ class Bare:
             down = flat @ np.array([0.0, 0.0, -1.0])
             turn = float(np.arctan2(axis @ np.cross(vector, down), vector @ down))
             turned = _within(angles[hip] + turn, *self.ranges[hip])
-            if turned is not None:
-                candidates.append({**angles, knee: angles[knee] + bend, hip: turned})
+            bent = _within(angles[knee] + bend, *self.ranges[knee]) if wide else angles[knee] + bend
+            if turned is not None and bent is not None:
+                candidates.append({**angles, knee: bent, hip: turned})
         if not candidates:
             return None
         return min(candidates, key=lambda bent: self._outward(leg, bent))
@@ -170,6 +176,7 @@ def _stands(bare: Bare, frame: Keyframe) -> bool:
 
 
 def _within(angle: float, lower: float, upper: float) -> float | None:
-    """The angle, or the same one a turn away, inside a range; None if none is."""
-    turned = (angle + turns * 2 * np.pi for turns in (0, -1, 1))
-    return next((float(a) for a in turned if lower + _MARGIN <= a <= upper - _MARGIN), None)
+    """Of an angle and those that are turns away, the one inside a range that is nearest to zero; None if none is."""
+    turned = (angle + turns * 2 * np.pi for turns in (0, -1, 1, -2, 2))
+    inside = [float(a) for a in turned if lower + _MARGIN <= a <= upper - _MARGIN]
+    return min(inside, key=abs) if inside else None

@@ -22,6 +22,8 @@ LEG_NAMES = {("left", "front"): "lf", ("right", "front"): "rf", ("left", "hind")
 
 _ALONG = 0.7
 """Least share of an axis along x or y by which a joint's role is told."""
+_CLEARLY = 0.9
+"""Of two branches of a limb, one is the leg where the other reaches less than this share of its length."""
 
 
 class NoFootError(LevadeError):
@@ -66,32 +68,58 @@ def find_trunk(model: mujoco.MjModel, where: str) -> int:
     return bodies[0]
 
 
+class Tree:
+    """Bodies and the moving ones below them."""
+
+    def __init__(self, model: mujoco.MjModel) -> None:
+        self.model = model
+        self.children: dict[int, list[int]] = {}
+        for body in range(1, model.nbody):
+            self.children.setdefault(int(model.body_parentid[body]), []).append(body)
+
+    def moves(self, body: int) -> bool:
+        """Whether the body, or one below it, has a joint."""
+        return self.model.body_jntnum[body] > 0 or any(self.moves(child) for child in self.children.get(body, []))
+
+    def moving(self, body: int) -> list[int]:
+        """The children that move."""
+        return [child for child in self.children.get(body, []) if self.moves(child)]
+
+    def starts(self, body: int) -> list[int]:
+        """The first bodies with joints below a body, through those that are fixed to it."""
+        found = []
+        for child in self.children.get(body, []):
+            found += [child] if self.model.body_jntnum[child] else self.starts(child)
+        return found
+
+    def joints(self, body: int) -> list[int]:
+        """Ids of the body's own joints."""
+        first = int(self.model.body_jntadr[body])
+        return list(range(first, first + int(self.model.body_jntnum[body])))
+
+    def chains(self, body: int) -> list[list[int]]:
+        """The joints of every way from a body outward to an end."""
+        further = [chain for child in self.moving(body) for chain in self.chains(child)]
+        return [self.joints(body) + chain for chain in further or [[]]]
+
+    def below(self, body: int) -> set[int]:
+        """The body and everything that it carries."""
+        return {body}.union(*(self.below(child) for child in self.children.get(body, [])))
+
+
 def find_limbs(model: mujoco.MjModel, trunk: int) -> list[Limb]:
     """The limbs, in the model's order."""
-    children: dict[int, list[int]] = {}
-    for body in range(1, model.nbody):
-        children.setdefault(int(model.body_parentid[body]), []).append(body)
-
-    def moving(body: int) -> bool:
-        return model.body_jntnum[body] > 0 or any(moving(child) for child in children.get(body, []))
+    tree = Tree(model)
 
     def follow(body: int, limb: Limb) -> None:
-        first = int(model.body_jntadr[body])
-        limb.joints += range(first, first + int(model.body_jntnum[body]))
-        further = [child for child in children.get(body, []) if moving(child)]
+        limb.joints += tree.joints(body)
+        further = tree.moving(body)
         limb.branches |= len(further) > 1
         for child in further:
             follow(child, limb)
 
-    def starts(body: int) -> list[int]:
-        """The first moving bodies below, through those that are fixed."""
-        found = []
-        for child in children.get(body, []):
-            found += [child] if model.body_jntnum[child] else starts(child)
-        return found
-
     limbs = []
-    for body in starts(trunk):
+    for body in tree.starts(trunk):
         limb = Limb()
         follow(body, limb)
         limbs.append(limb)
@@ -106,7 +134,7 @@ def find_legs(model: mujoco.MjModel, trunk: int, where: str) -> tuple[tuple[Leg,
     limbs = find_limbs(model, trunk)
     data = mujoco.MjData(model)
     _level(model, data, trunk)
-    legs = _four_alike(model, limbs)
+    legs = _four_alike(model, limbs) or _four_within(model, trunk)
     if legs is None:
         raise LevadeError(f"{where}: levade moves four legs of two or three hinges each; {_census(model, limbs)}")
     for limb in legs:
@@ -118,9 +146,10 @@ def find_legs(model: mujoco.MjModel, trunk: int, where: str) -> tuple[tuple[Leg,
         for centre in centres
     ]
     if sorted(quadrants) != sorted(LEG_NAMES):
+        turned = _turned(model, data, legs[0], np.array([data.xaxis[j] for j in legs[0].joints]))
         raise LevadeError(
             f"{where}: its four legs are not left, right, front and hind in the frame of {model.body(trunk).name}"
-            " (x forward, y left, z up); turn that frame"
+            f" (x forward, y left, z up); {f'it seems that {turned} there: ' if turned else ''}turn that frame"
         )
     found = {}
     for limb, (side, end) in zip(legs, quadrants, strict=True):
@@ -135,6 +164,11 @@ def find_legs(model: mujoco.MjModel, trunk: int, where: str) -> tuple[tuple[Leg,
         if j not in used and model.jnt_type[j] != mujoco.mjtJoint.mjJNT_FREE
     ]
     return tuple(found[name] for name in LEG_NAMES.values()), others
+
+
+def has_legs(model: mujoco.MjModel, trunk: int) -> bool:
+    """Whether four legs hang on the body of that id."""
+    return (_four_alike(model, find_limbs(model, trunk)) or _four_within(model, trunk)) is not None
 
 
 def _four_alike(model: mujoco.MjModel, limbs: list[Limb]) -> list[Limb] | None:
@@ -154,6 +188,50 @@ def _four_alike(model: mujoco.MjModel, limbs: list[Limb]) -> list[Limb] | None:
     return None
 
 
+def _four_within(model: mujoco.MjModel, trunk: int) -> list[Limb] | None:
+    """Four legs of the same number of hinges that have branches, such as rods, or hang on a spine that can be held."""
+    tree = Tree(model)
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+
+    def legs_below(body: int, count: int) -> list[Limb]:
+        leg = _branching_leg(tree, data, body, count)
+        if leg is not None:
+            return [leg]
+        while len(further := tree.moving(body)) == 1:
+            body = further[0]
+        return [limb for child in further for limb in legs_below(child, count)]
+
+    for count in (3, 2):
+        found = [limb for start in tree.starts(trunk) for limb in legs_below(start, count)]
+        if len(found) == 4:
+            return found
+    return None
+
+
+def _branching_leg(tree: Tree, data: mujoco.MjData, body: int, count: int) -> Limb | None:
+    """The chain of so many hinges from a body outward that is a leg: the one that reaches farthest, if it is clear."""
+    model = tree.model
+    reaches: list[tuple[float, list[int]]] = []
+    for chain in tree.chains(body):
+        if len(chain) != count or not _is_serial(model, Limb(chain)):
+            continue
+        named = roles(model, tuple(model.joint(j).name for j in chain))
+        end = tree.below(int(model.jnt_bodyid[chain[-1]]))
+        colliding = [g for g in range(model.ngeom) if int(model.geom_bodyid[g]) in end and _collides(model, g)]
+        if named.count("hfe") == named.count("kfe") == 1 and "other" not in named and colliding:
+            anchor = data.xanchor[chain[0]]
+            reaches.append((max(reach(model, data, g, anchor) for g in colliding), chain))
+    reaches.sort(reverse=True)
+    if not reaches or (len(reaches) > 1 and reaches[1][0] > _CLEARLY * reaches[0][0]):
+        return None
+    return Limb(reaches[0][1])
+
+
+def _collides(model: mujoco.MjModel, geom: int) -> bool:
+    return bool(model.geom_contype[geom] or model.geom_conaffinity[geom])
+
+
 def _is_serial(model: mujoco.MjModel, limb: Limb) -> bool:
     return not limb.branches and all(model.jnt_type[j] == mujoco.mjtJoint.mjJNT_HINGE for j in limb.joints)
 
@@ -165,12 +243,35 @@ def _check_roles(model: mujoco.MjModel, data: mujoco.MjData, trunk: int, limb: L
     if named.count("hfe") == named.count("kfe") == 1:
         return
     axes = np.array([data.xaxis[j] for j in limb.joints])
-    turned = sorted(_role_axes(axes[:, [1, 0, 2]])) == sorted(_role_axes(np.eye(3)[[0, 1, 1]][-len(axes) :]))
-    remedy = "it seems that y is forward there: turn the model" if turned else "this limb is no such leg"
+    turned = _turned(model, data, limb, axes)
+    remedy = f"it seems that {turned} there: turn the model" if turned else "this limb is no such leg"
     raise LevadeError(
         f"{where}: joints {', '.join(names)} turn about {', '.join(map(_axis_name, axes))} of {model.body(trunk).name};"
         f" levade knows legs of hip abduction (about x), hip flexion and knee (about y), x forward; {remedy}"
     )
+
+
+def _turned(model: mujoco.MjModel, data: mujoco.MjData, limb: Limb, axes: Array) -> str:
+    """Which axes point forward and up, if the limb is a leg in another frame; empty if it is none."""
+    along = _role_axes(axes)
+    left = along[-1]
+    if along[-2] != left or (len(along) > 2 and along[0] == left):
+        return ""
+    body = int(model.jnt_bodyid[limb.joints[-1]])
+    tips = [data.geom_xpos[g] for g in range(model.ngeom) if int(model.geom_bodyid[g]) == body and _collides(model, g)]
+    if not tips:
+        return ""
+    hang = tips[0] - data.xanchor[limb.joints[0]]
+    if int(np.argmax(np.abs(hang))) == left:
+        return ""
+    # three hinges say which way is up; of two, the leg hangs down more than it reaches forward
+    up = 3 - left - along[0] if len(along) > 2 else int(np.argmax(np.abs(hang)))
+    forward = 3 - left - up
+    if (forward, left, up) == (0, 1, 2):
+        return ""
+    if up == 2:
+        return f"{'xyz'[forward]} is forward"
+    return f"{'-' if hang[up] > 0 else ''}{'xyz'[up]} is up and {'xyz'[forward]} along the robot"
 
 
 def _role_axes(axes: Array) -> list[int]:

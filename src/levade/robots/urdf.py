@@ -9,15 +9,18 @@ from __future__ import annotations
 import math
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 import numpy as np
 
-from levade.errors import LevadeError
-from levade.robots.findings import Finding, named, note, warning
+from levade.errors import LevadeError, did_you_mean
+from levade.robots.findings import Finding, named, note, some, warning
+from levade.robots.inertias import lifted
+from levade.robots.loops import Coupling
 from levade.robots.meshes import coarse, find_mesh, read_mesh
 
 _WORLD = "levade-world"
+_NAME_OF_WORLD = "world"
 _DUMMY = 1e-4
 """[kg]: links below it are markers that somebody's parser needed, not bodies."""
 _LARGE_VISUAL, _HUGE_VISUAL = 1_500_000, 12_000_000
@@ -32,16 +35,15 @@ class UrdfSource:
     """A URDF, mended.
 
     text: for MuJoCo's reader; its meshes are named by bare, unique names. assets: name -> content.
-    effort [Nm], velocity [rad/s]: joint -> limit, where the file has a positive one.
-    held: joints that follow others, and are fixed instead -> where [rad].
+    effort [Nm], velocity [rad/s]: joint -> limit, where the file has a positive one. couplings: joints that mimic others.
     """
 
     text: str
     assets: dict[str, bytes] = field(default_factory=dict)
     effort: dict[str, float] = field(default_factory=dict)
     velocity: dict[str, float] = field(default_factory=dict)
+    couplings: list[Coupling] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)
-    held: dict[str, float] = field(default_factory=dict)
 
 
 def read_urdf(path: Path, root: ET.Element) -> UrdfSource:
@@ -61,7 +63,9 @@ def read_urdf(path: Path, root: ET.Element) -> UrdfSource:
         raise LevadeError(
             f"{path}: has {len(roots)} root links ({', '.join(roots[:3]) or 'a loop'}); it should have one"
         )
-    base = _real_root(root, links, joints, roots[0])
+    folders = _mesh_folders(path, root)
+    base = _real_root(path, root, links, joints, roots[0], source.findings)
+    parents = {_link(joint, "child"): name for name, joint in joints.items()}
     _check_joints(path, joints, source)
     losses: dict[str, list[tuple[str, str]]] = {}
     mended: dict[str, dict[str, float]] = {}
@@ -74,7 +78,7 @@ def read_urdf(path: Path, root: ET.Element) -> UrdfSource:
         problem, moment = _mend_inertial(path, name, link)
         if problem:
             mended.setdefault(problem, {})[name] = moment
-        _mend_shapes(path, name, link, source, losses)
+        _mend_shapes(path, name, link, source, losses, folders)
     if without:
         remedy = "give mass and inertia, or the motion is that of nothing"
         source.findings.append(warning(named("link", without), "no inertial", remedy))
@@ -120,19 +124,87 @@ def _tree(path: Path, links: dict[str, ET.Element], joints: dict[str, ET.Element
     return parents
 
 
-def _real_root(root: ET.Element, links: dict[str, ET.Element], joints: dict[str, ET.Element], base: str) -> str:
+def _real_root(
+    path: Path,
+    root: ET.Element,
+    links: dict[str, ET.Element],
+    joints: dict[str, ET.Element],
+    base: str,
+    findings: list[Finding],
+) -> str:
     """The link that floats: not a "world" that the file itself ties the robot to by a floating or fixed joint."""
     while True:
-        hanging = [(name, joint) for name, joint in joints.items() if _link(joint, "parent") == base]
+        hanging = {name: joint for name, joint in joints.items() if _link(joint, "parent") == base}
         bare = links[base].find("inertial") is None and links[base].find("collision") is None
-        floating = len(hanging) == 1 and hanging[0][1].get("type") == "floating"
-        world = len(hanging) == 1 and base == "world" and hanging[0][1].get("type") == "fixed"
-        if not (bare and (floating or world)):
-            return base
-        name, joint = hanging[0]
+        loose = all(joint.get("type") in ("floating", "fixed") for joint in hanging.values())
+        if base.lower() == _NAME_OF_WORLD and hanging and loose:
+            carriers = [name for name in hanging if _carries_joints(joints, name)] or list(hanging)[:1]
+            if len(carriers) > 1:
+                names = [_link(joints[name], "child") for name in carriers]
+                raise LevadeError(f"{path}: link {base} carries {len(names)} robots ({some(names)}); keep one of them")
+            beside = [link for name in hanging if name != carriers[0] for link in _remove(root, links, joints, name)]
+            if beside:
+                findings.append(note(named("link", beside), f"fixed to the {base}, left out: no part of the robot"))
+            (name,) = carriers
+        elif bare and len(hanging) == 1 and [joint.get("type") for joint in hanging.values()] == ["floating"]:
+            (name,) = hanging
+        else:
+            break
+        child = _link(joints[name], "child")
         root.remove(links.pop(base))
         root.remove(joints.pop(name))
-        base = _link(joint, "child")
+        base = child
+    if bare and base.lower() == _NAME_OF_WORLD and hanging:
+        raise LevadeError(
+            f"{path}: joint {next(iter(hanging))} moves the robot against the link {base}, so that it does not float"
+            " freely; make that joint floating or fixed"
+        )
+    return _rename_worlds(links, joints, base)
+
+
+def _rename_worlds(links: dict[str, ET.Element], joints: dict[str, ET.Element], base: str) -> str:
+    """Give a link of the robot that is called world another name, since MuJoCo's reader takes it for its own world."""
+    if _NAME_OF_WORLD not in links:
+        return base
+    name = next(n for n in (f"{_NAME_OF_WORLD}{'_' * k}link" for k in range(1, len(links) + 2)) if n not in links)
+    renamed = {name if link == _NAME_OF_WORLD else link: element for link, element in links.items()}
+    links.clear()
+    links.update(renamed)
+    links[name].set("name", name)
+    for joint in joints.values():
+        for end in ("parent", "child"):
+            element = joint.find(end)
+            if element is not None and element.get("link") == _NAME_OF_WORLD:
+                element.set("link", name)
+    return name if base == _NAME_OF_WORLD else base
+
+
+def _carries_joints(joints: dict[str, ET.Element], name: str) -> bool:
+    """Whether anything beyond a joint moves."""
+    return any(joints[further].get("type") != "fixed" for further in _beyond(joints, name))
+
+
+def _beyond(joints: dict[str, ET.Element], name: str) -> list[str]:
+    """The joints that a joint carries."""
+    found, waiting = [], [_link(joints[name], "child")]
+    while waiting:
+        link = waiting.pop()
+        further = [other for other, joint in joints.items() if _link(joint, "parent") == link]
+        found += further
+        waiting += [_link(joints[other], "child") for other in further]
+    return found
+
+
+def _remove(root: ET.Element, links: dict[str, ET.Element], joints: dict[str, ET.Element], name: str) -> list[str]:
+    """Take a joint and what it carries out of the file; the names of the links that are gone."""
+    gone = []
+    for joint in [name, *_beyond(joints, name)]:
+        element = joints.pop(joint)
+        link = _link(element, "child")
+        root.remove(element)
+        root.remove(links.pop(link))
+        gone.append(link)
+    return gone
 
 
 def _link(joint: ET.Element, end: str) -> str:
@@ -147,11 +219,11 @@ def _check_joints(path: Path, joints: dict[str, ET.Element], source: UrdfSource)
             raise LevadeError(
                 f"{path}: joint {name}: type {kind!r} is none that levade simulates; {', '.join(_KNOWN_JOINTS)}"
             )
-        if joint.find("mimic") is not None and kind != "fixed":
-            joint.set("type", "fixed")
-            source.held[name] = 0.0
-            source.findings.append(note(f"joint {name}", "mimics another joint, which is not simulated: held fixed"))
-            continue
+        mimic = joint.find("mimic")
+        if mimic is not None:
+            joint.remove(mimic)
+            if kind != "fixed":
+                source.couplings.append(_mimicry(path, name, mimic, joints, source.findings))
         limit = joint.find("limit")
         if limit is None and kind == "revolute":
             limit = ET.SubElement(joint, "limit")
@@ -173,6 +245,21 @@ def _check_joints(path: Path, joints: dict[str, ET.Element], source: UrdfSource)
                     f"{path}: joint {name}: limits leave it no room, both are {lower:g}; give a range, or make it fixed"
                 )
             joint.set("type", "continuous")
+
+
+def _mimicry(
+    path: Path, name: str, mimic: ET.Element, joints: dict[str, ET.Element], findings: list[Finding]
+) -> Coupling:
+    where = f"{path}: joint {name}: mimic"
+    leader = mimic.get("joint", "")
+    slope, offset = (_number(mimic.get(key), f"{where} {key}") for key in ("multiplier", "offset"))
+    if leader not in joints or leader == name:
+        hint = did_you_mean(leader, set(joints) - {name})
+        findings.append(
+            warning(f"joint {name}", f"mimics {leader!r}, which is no other joint of the file: held fixed", hint)
+        )
+        return Coupling(name, "", (offset or 0.0,), "<mimic>")
+    return Coupling(name, leader, (offset or 0.0, 1.0 if slope is None else slope), "<mimic>")
 
 
 def _mend_inertial(path: Path, name: str, link: ET.Element) -> tuple[str, float]:
@@ -198,7 +285,12 @@ def _mend_inertial(path: Path, name: str, link: ET.Element) -> tuple[str, float]
     tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     principal = np.linalg.eigvalsh(tensor)
     least = mass * _SMALLEST**2
-    if principal[0] > least and principal[0] + principal[1] >= principal[2] * (1 - 1e-6):
+    if principal[0] > least and principal[0] + principal[1] >= principal[2] * (1 + 1e-6):
+        return "", 0.0
+    edge = lifted(tensor) if principal[2] > least else None
+    if edge is not None:
+        for (i, k), key in zip(((0, 0), (1, 1), (2, 2)), ("ixx", "iyy", "izz"), strict=True):
+            inertia.set(key, repr(float(edge[i, k])))
         return "", 0.0
     # what no body can have: the sphere of the same mean inertia, or one of water where there is none at all
     mean = float(np.mean(np.diag(tensor)))
@@ -231,7 +323,12 @@ def _name_shapes_apart(links: dict[str, ET.Element]) -> None:
 
 
 def _mend_shapes(
-    path: Path, name: str, link: ET.Element, source: UrdfSource, losses: dict[str, list[tuple[str, str]]]
+    path: Path,
+    name: str,
+    link: ET.Element,
+    source: UrdfSource,
+    losses: dict[str, list[tuple[str, str]]],
+    folders: list[Path],
 ) -> None:
     """Give meshes their content, and leave out those that cannot be had."""
     collisions = link.findall("collision")
@@ -245,7 +342,7 @@ def _mend_shapes(
                 continue
             if mesh is None:
                 continue
-            problem = _attach_mesh(path, mesh, source, visual=kind == "visual")
+            problem = _attach_mesh(path, mesh, source, folders, visual=kind == "visual")
             if problem is None:
                 continue
             link.remove(shape)
@@ -269,10 +366,19 @@ def _lost(kind: str, losses: list[tuple[str, str]]) -> Finding:
     )
 
 
-def _attach_mesh(path: Path, mesh: ET.Element, source: UrdfSource, *, visual: bool) -> str | None:
+def _mesh_folders(path: Path, root: ET.Element) -> list[Path]:
+    """Where MuJoCo looks for meshes: in the folder that the URDF's extension for MuJoCo names, and beside the file."""
+    compiler = root.find("mujoco/compiler")
+    named = [] if compiler is None else [compiler.get(key) for key in ("meshdir", "assetdir")]
+    return [path.parent / folder for folder in (*filter(None, named), "")]
+
+
+def _attach_mesh(path: Path, mesh: ET.Element, source: UrdfSource, folders: list[Path], *, visual: bool) -> str | None:
     """Name the mesh's content; a reason if it cannot be had."""
     reference = mesh.get("filename", "")
-    place = find_mesh(reference, path.parent)
+    bare = PurePosixPath(reference.replace("\\", "/")).name
+    also = [folder / name for folder in folders for name in (reference, bare) if name]
+    place = find_mesh(reference, path.parent, also)
     if place is None:
         return f"{reference} is missing"
     scale = mesh.get("scale", "1 1 1")
@@ -282,6 +388,8 @@ def _attach_mesh(path: Path, mesh: ET.Element, source: UrdfSource, *, visual: bo
         suffix, content = read_mesh(place)
     except LevadeError as error:
         return str(error)
+    except OSError as error:
+        return f"{place.name} cannot be read ({error.strerror})"
     if visual and suffix == ".stl" and len(content) > _LARGE_VISUAL:
         content = coarse(content)
     # MuJoCo names a mesh asset after its file: one file for each scale and content

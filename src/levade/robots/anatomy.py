@@ -1,0 +1,203 @@
+"""Anatomy: which joints are whose leg, as a description names them or the kinematics tell; what else moves is held."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import mujoco
+import numpy as np
+
+from levade.errors import LevadeError, did_you_mean
+from levade.robots.findings import note, some
+from levade.robots.holding import Angle, Held, fix_joints
+from levade.robots.loops import Coupling, follower_angles, open_loops, refuse_coupling_tendons, why_no_legs
+from levade.robots.reading import Draft, Keyframe
+from levade.robots.standing import Bare
+from levade.robots.understanding import Leg, NoFootError, find_legs, find_trunk, roles
+
+if TYPE_CHECKING:
+    from levade.robots.description import RobotForm
+
+
+@dataclass(frozen=True)
+class Followers:
+    """Joints that follow others and are held.
+
+    couplings: what they follow. held: joint -> where its body was without it. first: joint -> angle at which it is held
+    at first. still: leader -> angle, of leaders that are held, too. fuse: whether the compiler is to fuse what is fixed,
+    once the followers are in place.
+    """
+
+    couplings: tuple[Coupling, ...]
+    held: Mapping[str, Held]
+    first: Mapping[str, float]
+    still: Mapping[str, float]
+    fuse: bool
+
+    def angles(self, neutral: Mapping[str, float]) -> dict[str, float]:
+        """Follower -> angle, with the joints of the legs at the neutral ones."""
+        return follower_angles(self.couplings, {**self.still, **neutral})
+
+
+def understand(draft: Draft, path: Path, form: RobotForm) -> tuple[Bare, Followers]:
+    """Find trunk and legs, as described or by the kinematics, and hold whatever else moves.
+
+    Args:
+        draft: The model; it is changed.
+        path: The description, for messages.
+        form: The description.
+
+    Returns:
+        The bare robot, and its joints that follow others.
+
+    Raises:
+        LevadeError: If it is no robot that levade moves.
+    """
+    from levade.robots.description import per_joint
+
+    model = draft.compile()
+    where = str(path)
+    trunk = find_trunk(model, where)
+    if form.trunk is not None and model.body(trunk).name != form.trunk:
+        raise LevadeError(
+            f"{path}: trunk: {form.trunk} is not the body that floats freely, {model.body(trunk).name} is"
+        )
+    free = int(model.body_jntadr[trunk])
+    movable = [model.joint(j).name for j in range(model.njnt) if j != free]
+    draft.joints = movable
+    fixed = per_joint(form.fixed, movable, f"{path}: fixed", all_joints=False)
+    draft.couplings = [c for c in draft.couplings if c.follower not in fixed]
+    _check_followers(draft.couplings, path, form)
+    still = {**_resting_leaders(draft, model), **fixed}
+    followers = follower_angles(draft.couplings, still)
+    fuse = bool(draft.spec.compiler.fusestatic)
+    if followers:  # their bodies are moved once more
+        draft.spec.compiler.fusestatic = False
+    held = fix_joints(draft, {**fixed, **followers}, path) if fixed or followers else {}
+    if held:
+        model = draft.compile()
+        trunk = find_trunk(model, where)
+    if fixed:
+        draft.origins["fixed"] = f"{some(list(fixed))} (robot.yaml)"
+    if form.legs:
+        legs, others = _described_legs(model, trunk, path, form), []
+        used = {joint for leg in legs for joint in leg.joints}
+        for joint in movable:
+            if joint not in used and joint not in held:
+                raise LevadeError(
+                    f"{path}: legs: joint {joint} of {form.model} is in no leg; add it to one, or: fixed: {{{joint}: 0}}"
+                )
+    else:
+        legs, others = _found_legs(draft, model, trunk, where)
+    draft.origins["legs"] = "robot.yaml" if form.legs else "found in the kinematics"
+    joints = [joint for leg in legs for joint in leg.joints]
+    draft.findings += open_loops(draft.loops, joints, {*held, *others}, draft.driven, where)
+    refuse_coupling_tendons(draft.spec, joints, where)
+    if others:
+        frame = draft.keyframes[0] if draft.keyframes else None
+        fix_joints(draft, {joint: _resting(model, joint, frame) for joint in others}, path)
+        how = (
+            f"as in keyframe {frame.name}".rstrip() if frame else "at zero, or at the end of the range that is nearest"
+        )
+        draft.findings.append(
+            note(some(others), f"in no leg: held fixed {how}", "robot.yaml, fixed: {joint: angle} holds them elsewhere")
+        )
+        earlier = [draft.origins["fixed"]] if fixed else []
+        draft.origins["fixed"] = ", ".join([*earlier, f"{some(others)} ({'keyframe' if frame else 'zero'})"])
+    bare = bare_robot(draft, legs, where)
+    return bare, Followers(tuple(draft.couplings), {joint: held[joint] for joint in followers}, followers, still, fuse)
+
+
+def bare_robot(draft: Draft, legs: tuple[Leg, ...], where: str) -> Bare:
+    """The model of a draft, whatever does not belong to its legs already held."""
+    model = draft.compile()
+    ranges = {}
+    for joint in (joint for leg in legs for joint in leg.joints):
+        handle = model.joint(joint)
+        limited = bool(handle.limited[0])
+        # the digits of the XML text, which is what is simulated
+        ranges[joint] = (
+            (float(f"{handle.range[0]:.6g}"), float(f"{handle.range[1]:.6g}")) if limited else (-np.inf, np.inf)
+        )
+    return Bare(model, find_trunk(model, where), legs, ranges)
+
+
+def _check_followers(couplings: Sequence[Coupling], path: Path, form: RobotForm) -> None:
+    """Raise LevadeError if the description makes a follower the joint of a leg."""
+    for coupling in couplings:
+        if any(coupling.follower in leg.joints for leg in form.legs.values()):
+            why = why_no_legs([], [coupling])
+            raise LevadeError(f"{path}: legs: {why}; take that out of {form.model} if the joint has a motor of its own")
+
+
+def _resting_leaders(draft: Draft, model: mujoco.MjModel) -> dict[str, float]:
+    """Where the joints that lead others are while the standing posture is not known."""
+    frame = draft.keyframes[0] if draft.keyframes else None
+    followers = {coupling.follower for coupling in draft.couplings}
+    leaders = {coupling.leader for coupling in draft.couplings} - followers - {""}
+    angles = {joint: _resting(model, joint, frame) for joint in sorted(leaders)}
+    return {joint: float(angle) for joint, angle in angles.items() if np.ndim(angle) == 0}
+
+
+def _found_legs(draft: Draft, model: mujoco.MjModel, trunk: int, where: str) -> tuple[tuple[Leg, ...], list[str]]:
+    """The legs that the kinematics tell, and the joints of none. Raises LevadeError with what may be the reason."""
+    try:
+        return find_legs(model, trunk, where)
+    except LevadeError as error:
+        reason = why_no_legs(draft.loops, draft.couplings)
+        if isinstance(error, NoFootError):  # most often since its meshes are not there
+            lost = next((f.what for f in draft.findings if f.what.startswith("collides with nothing")), "")
+            raise LevadeError(f"{error}{lost and f' ({lost})'}") from None
+        raise LevadeError(f"{error}{reason and f'; {reason}'}") from None
+
+
+def _resting(model: mujoco.MjModel, joint: str, frame: Keyframe | None) -> Angle:
+    """Where a joint of no leg is held: as in the keyframe, else at zero, or as near to it as its range allows."""
+    if frame is not None and joint in frame.angles:
+        return frame.angles[joint]
+    if frame is not None and joint in frame.balls:
+        return frame.balls[joint]
+    handle = model.joint(joint)
+    scalar = int(handle.type[0]) != int(mujoco.mjtJoint.mjJNT_BALL)
+    return float(np.clip(0.0, *handle.range)) if handle.limited[0] and scalar else 0.0
+
+
+def _described_legs(model: mujoco.MjModel, trunk: int, path: Path, form: RobotForm) -> tuple[Leg, ...]:
+    """The legs that the description names, checked against the model."""
+    joints = {model.joint(j).name: j for j in range(model.njnt)}
+    geoms = [model.geom(g).name for g in range(model.ngeom)]
+    used: set[str] = set()
+    legs = []
+    for name, leg in form.legs.items():
+        where = f"{path}: legs.{name}.joints"
+        for joint in leg.joints:
+            if joint not in joints:
+                raise LevadeError(f"{where}: no joint {joint!r} in {form.model}; {did_you_mean(joint, joints)}")
+            if model.jnt_type[joints[joint]] != mujoco.mjtJoint.mjJNT_HINGE:
+                raise LevadeError(f"{where}: joint {joint} should be a hinge")
+            if joint in used:
+                raise LevadeError(f"{where}: joint {joint} is there twice")
+            used.add(joint)
+        bodies = [int(model.jnt_bodyid[joints[joint]]) for joint in leg.joints]
+        for inner, outer, body, further in zip(leg.joints, leg.joints[1:], bodies, bodies[1:], strict=False):
+            if body not in _ancestors(model, further):
+                raise LevadeError(f"{where}: {inner} should be nearer to the trunk than {outer}")
+        if trunk not in _ancestors(model, bodies[0]):
+            raise LevadeError(f"{where}: {leg.joints[0]} does not hang on the trunk {model.body(trunk).name}")
+        if leg.foot not in geoms:
+            hint = did_you_mean(leg.foot, filter(None, geoms))
+            raise LevadeError(f"{path}: legs.{name}.foot: no geom {leg.foot!r} in {form.model}; {hint}")
+        ordered = tuple(leg.joints)
+        legs.append(Leg(name, ordered, leg.foot, leg.side, leg.end, roles(model, ordered)))
+    return tuple(legs)
+
+
+def _ancestors(model: mujoco.MjModel, body: int) -> set[int]:
+    """Ids of the bodies between this one and the world, without either."""
+    found = set()
+    while (body := int(model.body_parentid[body])) != 0:
+        found.add(body)
+    return found

@@ -1,0 +1,149 @@
+"""Holding: joints that no leg has are taken out of the model, and their bodies stay where the joints' angles put them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import mujoco
+import numpy as np
+
+from levade.arrays import Array
+from levade.errors import LevadeError
+from levade.robots.inertias import survive_text
+from levade.robots.reading import Draft
+from levade.robots.world import delete_tendons
+
+_HINGE, _SLIDE, _BALL = mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE, mujoco.mjtJoint.mjJNT_BALL
+
+Angle = float | Array
+"""Of a hinge [rad], of a slide [m], or the quaternion (4,) of a ball."""
+
+
+@dataclass(frozen=True)
+class Held:
+    """A joint that was taken out, and where its body was without it, so that it can be held elsewhere.
+
+    body: its name. kind: of joint. axis, anchor: (3,), in the body's frame. ref: the angle at which the body is where
+    ``position`` and ``quaternion`` put it.
+    """
+
+    body: str
+    kind: int
+    axis: Array
+    anchor: Array
+    ref: float
+    position: Array
+    quaternion: Array
+
+    def pose(self, angle: Angle) -> tuple[Array, Array]:
+        """Position (3,) and quaternion (4,) of the body in its parent, with the joint at an angle."""
+        turned, product = np.empty(3), self.quaternion.copy()
+        if self.kind == _SLIDE:
+            shift = self.axis / np.linalg.norm(self.axis) * (float(angle) - self.ref)
+            mujoco.mju_rotVecQuat(turned, shift, self.quaternion)
+            return self.position + turned, product
+        turn, moved = self.turn(angle), np.empty(3)
+        mujoco.mju_rotVecQuat(moved, self.anchor, turn)
+        mujoco.mju_rotVecQuat(turned, self.anchor - moved, self.quaternion)
+        product = np.empty(4)
+        mujoco.mju_mulQuat(product, self.quaternion, turn)
+        return self.position + turned, product
+
+    def turn(self, angle: Angle) -> Array:
+        """Quaternion (4,) by which a hinge or ball at an angle turns its body."""
+        turn = np.empty(4)
+        if self.kind == _BALL:
+            turn = np.array([1.0, 0.0, 0.0, 0.0]) if np.ndim(angle) == 0 else np.array(angle, dtype=float)
+            mujoco.mju_normalize4(turn)
+            return turn
+        mujoco.mju_axisAngle2Quat(turn, self.axis / np.linalg.norm(self.axis), float(angle) - self.ref)
+        return turn
+
+
+def fix_joints(draft: Draft, angles: Mapping[str, Angle], path: Path) -> dict[str, Held]:
+    """Take joints out of the model, their bodies staying where the angles put them.
+
+    Args:
+        draft: The model; it is changed.
+        angles: Joint name to angle.
+        path: The description, for messages.
+
+    Returns:
+        Joint name to what was held, for `hold_elsewhere`.
+
+    Raises:
+        LevadeError: If a joint cannot be held at that angle.
+    """
+    if not draft.urdf:  # as text, frames and Euler angles are gone, and angles are in radians
+        survive_text(draft)
+        draft.spec = mujoco.MjSpec.from_string(draft.spec.to_xml(), assets=draft.assets)
+        draft.spec.assets = draft.assets
+    spec = draft.spec
+    _loosen(spec, set(angles))
+    # joints of one body turn one after the other: each takes the ones before it along
+    order = [joint.name for body in spec.bodies for joint in body.joints if joint.name in angles]
+    found = {}
+    for name in order:
+        joint, angle = spec.joint(name), angles[name]
+        if joint.type not in (_HINGE, _SLIDE, _BALL):
+            raise LevadeError(f"{path}: joint {name} cannot be held fixed: it floats freely")
+        if joint.type == _BALL and np.ndim(angle) == 0 and angle != 0:
+            raise LevadeError(f"{path}: fixed: joint {name} is a ball joint: it can be held at 0 only")
+        body = joint.parent
+        held = Held(
+            body.name,
+            int(joint.type),
+            np.array(joint.axis, dtype=float),
+            np.array(joint.pos, dtype=float),
+            float(joint.ref),
+            np.array(body.pos, dtype=float),
+            np.array(body.quat, dtype=float),
+        )
+        if not np.isclose(np.linalg.norm(held.quaternion), 1.0):
+            raise LevadeError(f"{path}: joint {name} cannot be held fixed: body {body.name} has no orientation")
+        _carry_earlier(body, name, held, angle)
+        body.pos, body.quat = held.pose(angle)
+        spec.delete(joint)
+        found[name] = held
+        if np.ndim(angle) == 0:
+            draft.held[name] = float(angle)
+    return found
+
+
+def hold_elsewhere(draft: Draft, name: str, held: Held, angle: float) -> None:
+    """Move the body of a joint that is held, and whose body has no other joint."""
+    body = draft.spec.body(held.body)
+    body.pos, body.quat = held.pose(angle)
+    draft.held[name] = float(angle)
+
+
+def _carry_earlier(body: mujoco.MjsBody, name: str, held: Held, angle: Angle) -> None:
+    """Restate the joints of a body that stay and come before one that goes: the body turns under them.
+
+    With T the pose without joints, E an earlier joint and H the one that is held, T E H = (T H) (H^-1 E H).
+    """
+    for other in body.joints:
+        if other.name == name:
+            return
+        axis, anchor = np.array(other.axis, dtype=float), np.array(other.pos, dtype=float)
+        if held.kind == _SLIDE:
+            anchor = anchor - held.axis / np.linalg.norm(held.axis) * (float(angle) - held.ref)
+        else:
+            back, turned = np.empty(4), np.empty(3)
+            mujoco.mju_negQuat(back, held.turn(angle))
+            mujoco.mju_rotVecQuat(turned, axis, back)
+            axis = turned.copy()
+            mujoco.mju_rotVecQuat(turned, anchor - held.anchor, back)
+            anchor = held.anchor + turned
+        other.axis, other.pos = axis, anchor
+
+
+def _loosen(spec: mujoco.MjSpec, joints: set[str]) -> None:
+    """Delete the tendons that run over joints, and the equalities that bind them."""
+    kinds = mujoco.mjtWrap.mjWRAP_JOINT
+    delete_tendons(spec, [t for t in spec.tendons if any(w.type == kinds and w.target.name in joints for w in t.path)])
+    for equality in list(spec.equalities):
+        if equality.type == mujoco.mjtEq.mjEQ_JOINT and joints & {equality.name1, equality.name2}:
+            spec.delete(equality)

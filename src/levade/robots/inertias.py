@@ -1,0 +1,101 @@
+"""Inertias: those of plates and rods lie at the edge of what a body can have, where six digits decide.
+
+Of the principal moments A <= B <= C of a body, A + B >= C, with equality for a plate; A = 0 for a rod. Files round them,
+and so does the text that is simulated. A moment about every axis, far below a file's precision, makes up for that.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import mujoco
+import numpy as np
+
+from levade.arrays import Array
+from levade.errors import LevadeError
+
+if TYPE_CHECKING:
+    from levade.robots.reading import Draft
+
+_ROOM = 3e-5
+"""Share of C by which A + B is to be larger: more than what rounding to six digits can take away."""
+_LEAST = 1e-14
+"""[kg m2]; MuJoCo takes less for nothing."""
+ROUNDED = 0.01
+"""Share of C by which A + B may be below it, and A below zero: a file that has two or three digits."""
+
+
+def lifted(tensor: Array) -> Array | None:
+    """An inertia at the edge, clear of it.
+
+    Args:
+        tensor: Inertia about the centre of mass [kg m2], shape (3, 3).
+
+    Returns:
+        The tensor with the same moment added about every axis; unchanged if it is clear of the edge; None if it is
+        beyond what rounding explains.
+    """
+    least, middle, most = np.linalg.eigvalsh(tensor)
+    if not np.isfinite(most) or most <= 0 or least < -ROUNDED * most or middle <= ROUNDED * most:
+        return None
+    gap = most * (1 + _ROOM) - least - middle
+    if gap > (ROUNDED + _ROOM) * most:
+        return None
+    needed = max(gap / (1 - _ROOM), _ROOM * most - least)
+    return tensor if needed <= 0 else tensor + needed * np.eye(3)
+
+
+def lift_explicit(spec: mujoco.MjSpec) -> None:
+    """Lift the inertias that the file of an MJCF gives and that only rounding keeps from being a body's."""
+    for body in spec.bodies[1:]:
+        if not body.explicitinertial:
+            continue
+        tensor = _given(body)
+        if not np.isfinite(tensor).all():
+            continue
+        least, middle, most = np.linalg.eigvalsh(tensor)
+        slight = 1e-6 * most if body.compiler.balanceinertia else np.inf
+        if (least > _LEAST and least + middle >= most) or most - least - middle > slight:
+            continue
+        better = lifted(tensor)
+        if better is not None and not np.isnan(body.fullinertia).any():
+            body.fullinertia = better[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+        elif better is not None:
+            body.inertia = np.diag(better)
+
+
+def survive_text(draft: Draft) -> mujoco.MjModel:
+    """Compile what the draft's text says, which is what is simulated, with inertias that six digits do not break.
+
+    Returns:
+        The model that the text describes.
+
+    Raises:
+        LevadeError: If MuJoCo does not take the text.
+    """
+    model = draft.compile()
+    try:
+        return mujoco.MjModel.from_xml_string(draft.spec.to_xml(), draft.assets)
+    except ValueError:
+        pass
+    for body in draft.spec.bodies[1:]:
+        index = model.body(body.name).id
+        moments = model.body_inertia[index]
+        better = lifted(np.diag(moments))
+        if better is None or model.body_mass[index] <= 0 or np.array_equal(better, np.diag(moments)):
+            continue
+        body.explicitinertial, body.mass = True, float(model.body_mass[index])
+        body.ipos, body.iquat = model.body_ipos[index].copy(), model.body_iquat[index].copy()
+        body.inertia, body.fullinertia = np.diag(better).copy(), np.full(6, np.nan)
+    draft.compile()
+    try:
+        return mujoco.MjModel.from_xml_string(draft.spec.to_xml(), draft.assets)
+    except ValueError as error:
+        raise LevadeError(f"{draft.path}: {' '.join(str(error).split())}") from None
+
+
+def _given(body: mujoco.MjsBody) -> Array:
+    """(3, 3), in the frame of the file."""
+    xx, yy, zz, xy, xz, yz = body.fullinertia
+    full = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    return np.diag(np.array(body.inertia, dtype=float)) if np.isnan(full).any() else full

@@ -1,0 +1,126 @@
+"""Posing: the postures that every robot has, from its description, from a keyframe of its model, or found by search."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from levade.arrays import Array
+from levade.errors import LevadeError
+from levade.robots.anatomy import Followers, bare_robot
+from levade.robots.findings import named, note
+from levade.robots.holding import hold_elsewhere
+from levade.robots.loops import say_followers
+from levade.robots.reading import Draft
+from levade.robots.standing import CROUCHED_EXTENSION, NEUTRAL_EXTENSION, STRETCHED_EXTENSION, Bare, neutral_from
+
+if TYPE_CHECKING:
+    from levade.robots.description import RobotForm
+
+_ROUNDS = 20
+"""In which followers and the neutral posture are brought together: each depends on the other."""
+_SETTLED = 1e-6  # rad
+
+
+def pose(
+    draft: Draft, bare: Bare, followers: Followers, path: Path, form: RobotForm, torque: Array
+) -> tuple[Bare, dict[str, Array]]:
+    """Find the postures, and hold followers where the neutral one puts them.
+
+    Args:
+        draft: The model; bodies of followers are moved.
+        bare: The same, understood.
+        followers: Its joints that follow others.
+        path: The description, for messages.
+        form: The description.
+        torque: Limits [Nm], shape (joints,).
+
+    Returns:
+        The bare robot with its followers in place, and name -> angles [rad], shape (joints,).
+
+    Raises:
+        LevadeError: If a posture is out of range, or none is found.
+    """
+    findings, origins = list(draft.findings), dict(draft.origins)
+    angles = dict(followers.first)
+    for _ in range(_ROUNDS):
+        draft.findings, draft.origins = list(findings), dict(origins)
+        postures = _postures(draft, bare, path, form, torque)
+        neutral = dict(zip(bare.joints, postures["neutral"].tolist(), strict=True))
+        before, angles = angles, followers.angles(neutral)
+        if all(abs(angle - before[joint]) < _SETTLED for joint, angle in angles.items()):
+            draft.spec.compiler.fusestatic = followers.fuse
+            draft.findings += say_followers(followers.couplings, angles, bare.joints)
+            return bare, postures
+        for joint, angle in angles.items():
+            hold_elsewhere(draft, joint, followers.held[joint], angle)
+        bare = bare_robot(draft, bare.legs, str(path))
+    names = named("joint", sorted(angles))
+    raise LevadeError(f"{path}: {names} follow others, and no standing posture agrees with that; fix them: robot.yaml,"
+                      " fixed: {joint: angle}")  # fmt: skip
+
+
+def _postures(draft: Draft, bare: Bare, path: Path, form: RobotForm, torque: Array) -> dict[str, Array]:
+    """The description's postures, and those that every robot has: neutral, crouched, stretched."""
+    from levade.robots.description import joint_array
+
+    joints = bare.joints
+    postures: dict[str, Array] = {}
+    for name, table in form.postures.items():
+        angles = postures[name] = joint_array(table, joints, f"{path}: postures.{name}")
+        for joint, angle in zip(joints, angles, strict=True):
+            lower, upper = bare.ranges[joint]
+            if not lower <= angle <= upper:
+                where = f"{path}: postures.{name}: {joint} = {angle:g} rad"
+                raise LevadeError(f"{where} is outside its range {lower:.4g} .. {upper:.4g} rad")
+    understood = all({"hfe", "kfe"} <= set(leg.roles) for leg in bare.legs)
+    draft.origins["neutral"] = "robot.yaml"
+    if "neutral" not in postures:
+        if not understood:
+            raise LevadeError(f"{path}: postures: neutral is missing; give the angles of the standing robot")
+        found = _neutral(draft, bare, path, torque)
+        postures = {"neutral": np.array([found[joint] for joint in joints]), **postures}
+    for name, extension in (("crouched", CROUCHED_EXTENSION), ("stretched", STRETCHED_EXTENSION)):
+        derived = bare.posture(extension) if understood and name not in postures else None
+        if derived is not None:
+            postures[name] = np.array([derived[joint] for joint in joints])
+    return postures
+
+
+def _neutral(draft: Draft, bare: Bare, path: Path, torque: Array) -> dict[str, float]:
+    keyframe = neutral_from(bare, draft.keyframes)
+    if keyframe is not None:
+        angles, name = keyframe
+        draft.origins["neutral"] = f"keyframe {name or 'without a name'} of the model"
+        draft.findings.append(note("posture neutral", f"is {draft.origins['neutral']}"))
+        return angles
+    reachable = None
+    for extension in NEUTRAL_EXTENSION:
+        angles = bare.posture(extension)
+        if angles is None:
+            continue
+        reachable = angles, extension  # at last the straightest, which is the easiest to hold
+        needed = bare.static_torque(angles)
+        if all(abs(needed[joint]) <= limit for joint, limit in zip(bare.joints, torque, strict=True)):
+            break
+    else:
+        if reachable is None and _upside_down(bare):
+            raise LevadeError(f"{path}: its feet are above its hips: it seems that -z is up there; turn the model")
+        if reachable is None:
+            raise LevadeError(
+                f"{path}: no standing posture within the joints' ranges has the feet under the hips; give one:"
+                " robot.yaml, postures: {neutral: {joint: angle}}"
+            )
+        angles, extension = reachable
+    draft.origins["neutral"] = f"found by search: feet under the hips, {extension:.0%} of the leg's length below"
+    draft.findings.append(note("posture neutral", draft.origins["neutral"]))
+    return angles
+
+
+def _upside_down(bare: Bare) -> bool:
+    """Whether every foot is above its hip, the joints in the middle of their ranges."""
+    middle = {joint: float(np.mean(limits)) for joint, limits in bare.ranges.items() if np.isfinite(limits).all()}
+    data = bare.data_at(middle)
+    return all(bare.tip(data, leg)[2] > data.joint(leg.joints[0]).xanchor[2] for leg in bare.legs)

@@ -1,0 +1,139 @@
+"""Settling: whether a robot that is put down in its neutral posture stands there, and how deep its feet sink in.
+
+The start of most tasks is this: the robot is put down, holds the posture with its own gains, and what stands then is where
+every trial begins.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from levade.errors import LevadeError
+from levade.robots.dimensions import dimensions
+from levade.robots.findings import Finding, named, warning
+from levade.robots.preparing import TIMESTEP
+from levade.robots.quiet import quiet
+from levade.robots.robot import Robot
+
+TIME = 1.0
+"""[s], as the built-in tasks settle."""
+_GROUND = "levade-ground"
+_SAG, _TILT, _SINK = 0.15, math.radians(15), 0.25
+"""Share of the height, [rad], and share of a foot's radius that are worth a warning."""
+
+
+@dataclass(frozen=True)
+class Settled:
+    """A robot that was put down and held its neutral posture for `TIME`.
+
+    sag: [m], by which its trunk is lower than the posture puts it. tilt: [rad], between the trunk's up and the world's.
+    sink: geom name of each foot -> [m], by which it is below the ground's surface. broken: whether the simulation broke.
+    """
+
+    sag: float
+    tilt: float
+    sink: dict[str, float]
+    broken: bool
+
+
+def settle(robot: Robot) -> Settled:
+    """Put a robot down on flat ground, in its neutral posture, level, its lowest foot touching."""
+    model = _on_ground(robot)
+    data = mujoco.MjData(model)
+    trunk = model.body(robot.trunk).id
+    neutral, height = robot.postures["neutral"], robot.neutral_height
+    first = int(model.jnt_qposadr[model.body_jntadr[trunk]])
+    data.qpos[first : first + 7] = [0.0, 0.0, height, 1.0, 0.0, 0.0, 0.0]
+    for i, (name, angle) in enumerate(zip(robot.joint_names, neutral, strict=True)):
+        data.joint(name).qpos[0] = angle
+        data.ctrl[2 * i] = angle
+    with quiet():
+        mujoco.mj_step(model, data, nstep=round(TIME / TIMESTEP))
+        mujoco.mj_forward(model, data)
+    depth = {
+        foot: -min((float(c.dist) for c in data.contact if model.geom(foot).id in c.geom), default=0.0)
+        for foot in robot.feet
+    }
+    up = data.xmat[trunk].reshape(3, 3)[2, 2]
+    com = float(robot.trunk_com_offset @ data.xmat[trunk].reshape(3, 3)[2]) + float(data.xpos[trunk, 2])
+    sag = height + float(robot.trunk_com_offset[2]) - com
+    broken = any(said.number for said in data.warning) or not np.isfinite(data.qpos).all()
+    return Settled(sag, math.acos(float(np.clip(up, -1.0, 1.0))) if not broken else math.pi, depth, broken)
+
+
+def doubt_standing(robot: Robot) -> Iterator[Finding]:
+    """Warn of robots that do not stand in their neutral posture, and of feet that sink into the ground."""
+    try:
+        settled = settle(robot)
+    except (ValueError, LevadeError):  # what MuJoCo does not take is said elsewhere
+        return
+    height = dimensions(robot).height
+    if settled.broken or settled.tilt > _TILT or abs(settled.sag) > _SAG * height:
+        tilt = (
+            f", tilted by {math.degrees(settled.tilt):.0f} deg" if settled.tilt > _TILT and not settled.broken else ""
+        )
+        what = (
+            "its simulation breaks down"
+            if settled.broken
+            else f"its trunk is {abs(settled.sag):.2g} m {'lower' if settled.sag > 0 else 'higher'} after {TIME:g} s{tilt}"
+        )
+        what = f"does not stand in its neutral posture: {what}, and tasks start from there"
+        yield warning("robot", what, _remedy(robot))
+        return
+    yield from _sunk(robot, settled)
+
+
+def _remedy(robot: Robot) -> str:
+    """Gains that hold the robot, since it is mostly those that do not."""
+    from levade.robots import gains
+
+    model = robot.model
+    weight = float(model.body_mass.sum())
+    kp = gains.stiffness(weight, dimensions(robot).leg)
+    if float(robot.actuation.kp.min()) < 0.5 * kp:
+        servo = f"{{servo: {{kind: pid, kp: {float(f'{kp:.2g}'):g}}}}}"
+        return f"stiffer servos: robot.yaml, actuations: {servo}, or a standing posture"
+    return "check masses, torque limits, and robot.yaml, postures: {neutral: ...}"
+
+
+def _sunk(robot: Robot, settled: Settled) -> Iterator[Finding]:
+    model = robot.model
+    radius = {foot: _radius(model, model.geom(foot).id) for foot in robot.feet}
+    deep = [foot for foot in robot.feet if settled.sink[foot] > _SINK * radius[foot]]
+    if deep:
+        worst = max(deep, key=lambda foot: settled.sink[foot] / radius[foot])
+        what = (
+            f"sink {1000 * settled.sink[worst]:.2g} mm into the ground in standing ({1000 * radius[worst]:.2g} mm is their"
+            " radius), and more in landing: contact is soft"
+        )
+        remedy = 'stiffer contact in the model: solref="0.02 1" solimp="0.9 0.95 0.001" of the feet\'s geoms'
+        yield warning(named("foot", deep), what, remedy)
+
+
+def _radius(model: mujoco.MjModel, geom: int) -> float:
+    """[m], of a round foot; of others, half their least extent."""
+    if model.geom_type[geom] in (int(mujoco.mjtGeom.mjGEOM_SPHERE), int(mujoco.mjtGeom.mjGEOM_CAPSULE)):
+        return float(model.geom_size[geom, 0])
+    return float(model.geom_aabb[geom, 3:].min())
+
+
+def _on_ground(robot: Robot) -> mujoco.MjModel:
+    """The robot with its actuators on flat ground, without what is only looked at; options are those of the tasks."""
+    spec = robot.spec()
+    for geom in list(spec.geoms):
+        if not (geom.contype or geom.conaffinity) and geom.parent.explicitinertial:
+            spec.delete(geom)
+    used = {geom.meshname for geom in spec.geoms}
+    for mesh in [mesh for mesh in spec.meshes if mesh.name not in used]:
+        spec.delete(mesh)
+    ground = spec.worldbody.add_geom(name=_GROUND, type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0.0, 0.0, 0.05])
+    ground.contype = ground.conaffinity = 0x7FFFFFFF
+    spec.option.timestep = TIMESTEP
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    spec.option.cone, spec.option.impratio = mujoco.mjtCone.mjCONE_ELLIPTIC, 10.0
+    return spec.compile()
