@@ -30,6 +30,18 @@ _END = '{"finished": true}\n'
 """Last line of a run that came to its end."""
 
 
+class LayoutError(LevadeError):
+    """Another version of levade wrote the checkpoint.
+
+    Attributes:
+        finished: Whether the run came to its end.
+    """
+
+    def __init__(self, message: str, *, finished: bool) -> None:
+        super().__init__(message)
+        self.finished = finished
+
+
 @dataclass(frozen=True)
 class Header:
     """The first line of a checkpoint.
@@ -74,7 +86,8 @@ def read(directory: Path) -> Checkpoint:
     """Read the checkpoint in a directory.
 
     Raises:
-        LevadeError: If its header cannot be read, or another version of levade wrote it.
+        LevadeError: If its header cannot be read.
+        LayoutError: If another version of levade wrote it.
     """
     path = directory / CHECKPOINT
     text = path.read_text(encoding="utf-8", errors="replace")
@@ -90,8 +103,9 @@ def read(directory: Path) -> Checkpoint:
     except (ValueError, LookupError, TypeError, AttributeError):
         raise LevadeError(f"{path}: damaged, its first line is no header; start again") from None
     if header is None:
-        raise LevadeError(
-            f"{path}: layout {layout}, but this levade reads layout {FORMAT}; start again, or use the levade that wrote it"
+        raise LayoutError(
+            f"{path}: layout {layout}, but this levade reads layout {FORMAT}; start again, or use the levade that wrote it",
+            finished=finished,
         )
     records = list(_records(lines[1:]))
     whole = text[: text.rfind("\n") + 1].splitlines()[1:]

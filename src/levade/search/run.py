@@ -24,7 +24,7 @@ from levade.document import read_yaml
 from levade.errors import LevadeError
 from levade.motions import Motion, versions
 from levade.search import checkpoint as checkpoints
-from levade.search.checkpoint import CHECKPOINT, Checkpoint, Header
+from levade.search.checkpoint import CHECKPOINT, Checkpoint, Header, LayoutError
 from levade.search.evaluation import Record
 from levade.search.initial import InitialGuess
 from levade.search.loop import Observe, solve
@@ -178,6 +178,10 @@ def check_replaceable(directory: Path) -> None:
                 )
     try:
         _, checkpoint = read_run(directory)
+    except LayoutError as error:
+        if error.finished:
+            return
+        raise LevadeError(f"{error}; replace it: --force, or write elsewhere: --out DIR") from None
     except LevadeError:
         return
     if (checkpoint.records or checkpoint.damage) and not checkpoint.finished:
