@@ -290,7 +290,8 @@ class Basis:
 
 def _with_basis(objective: Objective, values: np.ndarray) -> Objective:
     other = copy.copy(objective)
-    other.__dict__.pop("space", None)  # which is of the kernels
+    other.__dict__.pop("space", None)  # it was made for the kernels; a peer uses nothing but its mean
+    other.task = dataclasses.replace(objective.task, search=dataclasses.replace(objective.task.search, modes=None))
     other.policy = dataclasses.replace(objective.policy, kernels=Basis(values))  # type: ignore[arg-type]
     return other
 
