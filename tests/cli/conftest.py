@@ -9,9 +9,9 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from levade.run import run
 
 from levade.cli import main
+from levade.search.run import run
 from levade.tasks import load_task
 
 Finished = tuple[int, str, str]
