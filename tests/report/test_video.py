@@ -82,6 +82,7 @@ def test_only_what_is_for_looking_at_is_drawn(motion: Motion) -> None:
     assert rendering.visible_groups(replay(motion).model) == [1, 1, 1, 0, 0, 0]
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("gl")
 def test_gif_has_the_pictures_and_lasts_as_long_as_said(motion: Motion, tmp_path: Path) -> None:
     told: list[tuple[int, int]] = []
@@ -100,6 +101,7 @@ def test_gif_has_the_pictures_and_lasts_as_long_as_said(motion: Motion, tmp_path
     assert list(tmp_path.iterdir()) == [path]
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::ResourceWarning")  # imageio-ffmpeg leaves its pipes to the garbage collector
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 @pytest.mark.usefixtures("gl")
@@ -118,6 +120,7 @@ def test_mp4_has_the_pictures_and_lasts_as_long_as_said(motion: Motion, tmp_path
     assert np.abs(first - last).mean() > 2  # the robot has moved
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("gl")
 def test_strip_has_n_poses_that_differ(motion: Motion, tmp_path: Path) -> None:
     path = strip([motion, motion], tmp_path / "strip.png", n=4, height=60, labels=["one", "two"])

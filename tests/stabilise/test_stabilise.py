@@ -21,6 +21,8 @@ from levade.stabilise.linear import state_of
 
 from .conftest import PUSHED
 
+pytestmark = pytest.mark.slow  # each needs the stabiliser that is found in conftest.py
+
 NONE = dict.fromkeys(one.name for one in fields(Perturbation))
 
 
