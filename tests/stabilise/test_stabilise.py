@@ -21,7 +21,8 @@ from levade.stabilise.linear import state_of
 
 from .conftest import PUSHED
 
-pytestmark = pytest.mark.slow  # each needs the stabiliser that is found in conftest.py
+# all of one motion and the stabiliser found for it: see conftest.py
+pytestmark = [pytest.mark.slow, pytest.mark.golden]
 
 NONE = dict.fromkeys(one.name for one in fields(Perturbation))
 
