@@ -7,11 +7,10 @@
 
 Each case is a search of up to some hundred trials from seed 0, made once by each version on this machine: bits depend on the
 processor. The command line alone is used, because the Python interface may change. What is compared: every array of motion.npz
-and the numbers in its meta, the columns of progress.csv, every evaluation and the checksum of every generation's candidates in
-checkpoint.jsonl, what ``--json`` prints, and in some cases what `levade check`, `levade stabilise`, `levade export` and
-`levade solve --resume` make of it. For each array that differs the script prints where first, and by how much. An array that
-only the other version has is a difference; a new one is only listed. Exit status 1 if anything differs that `EXPECTED` does not
-name.
+and the numbers in its meta, the columns of progress.csv, the terms of every simulation in checkpoint.jsonl, what ``--json``
+prints, and in some cases what `levade check`, `levade stabilise`, `levade export` and `levade solve --resume` make of it. For
+each array that differs the script prints where first, and by how much. An array that only the other version has is a
+difference; a new one is only listed. Exit status 1 if anything differs that `EXPECTED` does not name.
 """
 
 from __future__ import annotations
@@ -44,7 +43,7 @@ SHOWN = 8
 EXPECTED: dict[str, str] = {
     "motion.meta.versions.*": "names the versions",
     "checkpoint.versions.*": "names the versions",
-    "checkpoint.*": "has a line for each evaluation instead of each generation; progress.csv has the costs of each generation",
+    "checkpoint.*": "has a line for each evaluation, not each generation; `checkpoint trials` are all its simulations",
     "motion.meta.schema": "names the layout",
 }
 """Name of an array -> why it may differ. Names are patterns, as `fnmatch` has them."""
@@ -266,6 +265,21 @@ def of_lines(text: str, name: str) -> Iterator[tuple[str, np.ndarray]]:
                 padded(rows) if all(row.dtype.kind in "bif" for row in rows) else [np.array(str(row)) for row in rows]
             )
         yield key, np.stack(rows)
+    yield f"{name} trials", trials_of(records)
+
+
+def trials_of(records: list[Any]) -> np.ndarray:
+    """The terms of every simulation that a checkpoint has, shape (simulations, terms), however its lines group them."""
+    rows: list[np.ndarray] = []
+    for record in records:
+        for key, value in record.items() if isinstance(record, dict) else ():
+            if key == "terms" and value:
+                table = [np.array(value[name], dtype=float).ravel() for name in sorted(value)]  # null is NaN
+                rows.append(np.column_stack(table))
+            elif isinstance(value, dict):
+                rows.append(trials_of([value]))
+    known = [part[~np.isnan(part).all(axis=1)] for part in rows if part.size]
+    return np.concatenate(known) if known else np.empty((0, 0))
 
 
 def padded(rows: list[np.ndarray]) -> list[np.ndarray]:
@@ -325,7 +339,7 @@ def compare(before: Mapping[str, np.ndarray], now: Mapping[str, np.ndarray]) -> 
     """What differs between the arrays of the other version and of this one."""
     found = Comparison()
     before = {renamed(name): array for name, array in before.items() if not name.endswith(".wall_s")}
-    now = {name: array for name, array in now.items() if not name.endswith(".wall_s")}
+    now = in_the_axes_of(before, {name: array for name, array in now.items() if not name.endswith(".wall_s")})
     for name, array in before.items():
         if name.endswith(" failed"):
             note = f"{'in both' if name in now else 'in the other version'}: {shown(array)}"
@@ -334,13 +348,41 @@ def compare(before: Mapping[str, np.ndarray], now: Mapping[str, np.ndarray]) -> 
         else:
             found.compared += 1
             found.numbers += array.size
-            note = difference(array, now[name])
+            note = lost(array, now[name]) if name.endswith(" trials") else difference(array, now[name])
         if note is not None:
             found.differences.append(Difference(name, note, expected(name)))
     found.new = [name for name in now if name not in before]
     failed = [name for name in found.new if name.endswith(" failed")]
     found.differences += [Difference(name, f"now: {shown(now[name])}") for name in failed]
     return found
+
+
+def lost(before: np.ndarray, now: np.ndarray) -> str | None:
+    """How many of the other version's simulations this one has not made; the order and simulations of its own are free."""
+    if not len(before):
+        return None
+    if before.shape[1:] != now.shape[1:]:
+        return f"{before.shape[1]} terms, now {now.shape[1:]}"
+    there = {row.tobytes() for row in now + 0.0}
+    missing = [i for i, row in enumerate(before + 0.0) if row.tobytes() not in there]
+    if not missing:
+        return None
+    first = before[missing[0]]
+    far = np.abs(np.nan_to_num(now) - np.nan_to_num(first)).max(axis=1)
+    nearest = difference(first, now[int(far.argmin())])
+    return f"{len(missing)} of {len(before)} simulations are not made now, first {place((missing[0],))}; the nearest: {nearest}"
+
+
+def in_the_axes_of(before: Mapping[str, np.ndarray], now: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """The same, with the trunk's angular velocity in world axes where the other version has it so: up to layout 1."""
+    for name in [name for name in now if name.endswith("trunk_angular_velocity")]:
+        of = name.removesuffix("trunk_angular_velocity")
+        layouts = [int(made.get(f"{of}meta.schema", np.array(0))) for made in (before, now)]
+        if layouts[0] == 1 < layouts[1]:
+            w, u = now[f"{of}trunk_quaternion"][..., :1], now[f"{of}trunk_quaternion"][..., 1:]
+            t = 2.0 * np.cross(u, now[name])
+            now[name] = now[name] + w * t + np.cross(u, t)
+    return now
 
 
 def renamed(name: str) -> str:

@@ -52,10 +52,12 @@ def test_a_result_is_what_the_solve_says(whole: tuple[Path, list[Result]]) -> No
         assert result.core_seconds > 0
 
 
+@pytest.mark.slow
 def test_results_do_not_depend_on_the_number_of_processes(whole: tuple[Path, list[Result]], tmp_path: Path) -> None:
     assert without_times(bench(PLAN, tmp_path, processes=3).results) == without_times(whole[1])
 
 
+@pytest.mark.slow
 def test_interrupted_it_keeps_what_is_done_and_goes_on(whole: tuple[Path, list[Result]], tmp_path: Path) -> None:
     seen: list[Progress] = []
 
@@ -77,6 +79,7 @@ def test_interrupted_it_keeps_what_is_done_and_goes_on(whole: tuple[Path, list[R
     assert rest.results[:2] == part.results  # not run again: the same times
 
 
+@pytest.mark.slow
 def test_finished_it_has_nothing_to_do_and_more_seeds_are_added(
     whole: tuple[Path, list[Result]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -88,6 +91,7 @@ def test_finished_it_has_nothing_to_do_and_more_seeds_are_added(
     assert started == []
 
 
+@pytest.mark.slow
 def test_other_tasks_budgets_or_versions_are_not_mixed(
     whole: tuple[Path, list[Result]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -104,6 +108,7 @@ def test_other_tasks_budgets_or_versions_are_not_mixed(
     assert (directory / RESULTS).read_bytes() == before
 
 
+@pytest.mark.slow
 def test_force_begins_anew(tmp_path: Path) -> None:
     small = dataclasses.replace(PLAN, seeds=1, optimizers=("random",))
     bench(small, tmp_path)
@@ -163,6 +168,7 @@ def test_the_engine_counts_steps() -> None:
     assert seen == [240, 480, 720, 960, 1200]
 
 
+@pytest.mark.slow
 def test_the_report(whole: tuple[Path, list[Result]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     written, missing = report(whole[1], tmp_path, format="svg")
     assert [path.name for path in written] == ["table.md", "trials.svg", "steps.svg", "results.parquet"]
@@ -174,6 +180,7 @@ def test_the_report(whole: tuple[Path, list[Result]], tmp_path: Path, monkeypatc
     assert [reason.split("; ")[1] for reason in missing] == ["pip install levade[bench]"] * 2
 
 
+@pytest.mark.slow
 def test_a_case_that_does_not_fit_says_which(tmp_path: Path) -> None:
     """The first optimizer's task is put together before anything is written, another's in its process."""
     plan = dataclasses.replace(
@@ -184,6 +191,7 @@ def test_a_case_that_does_not_fit_says_which(tmp_path: Path) -> None:
     assert [result.optimizer for result in read(tmp_path / RESULTS)] == ["cma"]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="signals as POSIX has them")
 def test_a_process_that_dies_is_said_and_what_is_done_is_kept(tmp_path: Path) -> None:
     def kill_the_next(progress: Progress) -> None:

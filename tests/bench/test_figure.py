@@ -22,6 +22,7 @@ def several(make) -> list:
     ]
 
 
+@pytest.mark.slow
 def test_the_figures_name_tasks_optimizers_and_successes(make, tmp_path: Path) -> None:
     written = draw(several(make), tmp_path / "new", format="svg")
     assert [path.name for path in written] == ["trials.svg", "steps.svg"]
@@ -32,6 +33,7 @@ def test_the_figures_name_tasks_optimizers_and_successes(make, tmp_path: Path) -
     assert "<!-- expected physics steps to success -->" in written[1].read_text()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("format", ["pdf", "svg", "png"])
 def test_the_same_results_give_the_same_bytes(make, tmp_path: Path, format: str) -> None:
     one, other = (draw([make(200), make(300, seed=1)], tmp_path / name, format=format) for name in "ab")
@@ -39,6 +41,7 @@ def test_the_same_results_give_the_same_bytes(make, tmp_path: Path, format: str)
         assert first.read_bytes() == second.read_bytes()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "changes",
     [

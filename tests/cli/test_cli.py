@@ -190,6 +190,7 @@ def test_the_same_seed_and_the_file_that_is_left_give_the_same_motion(levade) ->
     assert one["weights"].tobytes() != three["weights"].tobytes()
 
 
+@pytest.mark.slow
 def test_files_of_ones_own_are_kept_unless_forced(levade, tmp_path: Path) -> None:
     levade("solve", "rearing", *QUICK)
     (tmp_path / "task.yaml").write_text((tmp_path / "rearing" / "task.yaml").read_text())
@@ -224,6 +225,7 @@ def test_show(levade, extra: list[str]) -> None:
     assert json.loads(out)["seed"] == 2
 
 
+@pytest.mark.slow
 def test_listings(levade) -> None:
     from levade.robots import builtin_robots
     from levade.robots.packages import package_robots
@@ -257,6 +259,7 @@ def test_a_task_to_start_from(levade, tmp_path: Path) -> None:
     assert (status, err, json.loads(out)["title"]) == (0, "", "levade task")
 
 
+@pytest.mark.slow
 def test_as_a_process_in_a_pipe(tmp_path: Path) -> None:
     """Once from outside: status, plain text, and a reader who leaves early."""
     command = [sys.executable, "-m", "levade", "solve", "rearing", *QUICK, *LOOSE]
@@ -268,6 +271,7 @@ def test_as_a_process_in_a_pipe(tmp_path: Path) -> None:
     assert early.stderr == b""
 
 
+@pytest.mark.slow
 def test_on_a_terminal_the_display_is_live_and_leaves_the_tables(tmp_path: Path) -> None:
     """A pseudo-terminal of 80 columns."""
     shown = bytearray()

@@ -14,6 +14,7 @@ from levade.motions import Motion
 QUICK = ["--set", "search.population=8", "--trials", "8", "--set", "horizon=0.06", "--set", "start.settled.time=0.1"]
 
 
+@pytest.mark.slow
 def test_a_task_is_solved_in_ode(levade, tmp_path: Path) -> None:
     try:
         library.load()

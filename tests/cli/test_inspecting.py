@@ -88,6 +88,7 @@ def test_a_refused_robot_is_one_line_and_status_2(levade, urdf: Path, change: tu
     assert not Path("toy.png").exists()
 
 
+@pytest.mark.slow
 def test_the_picture_is_written_where_it_is_said(levade, urdf: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("PIL", reason="pictures need pillow: pip install levade[video]")
     status, out, err = levade("robots", "inspect", "toy.urdf", "--picture", "toy.png")
@@ -116,6 +117,7 @@ def test_the_list_has_built_in_robots_first_then_those_of_packages(
     assert "pip install levade[robots]" in levade("robots")[1]
 
 
+@pytest.mark.slow
 def test_solve_says_in_one_line_that_there_are_warnings(levade, urdf: Path) -> None:
     quick = ["--trials", "8", "--set", "search.population=8", "--set", "horizon=0.06", "--set", "hold=0",
              "--set", "stages=[{}]", "--set", "success={tilt: {minimum: 0}}", "--set", "costs={effort: {weight: 1}}",

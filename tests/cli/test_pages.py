@@ -22,6 +22,7 @@ def test_a_page_is_written(name: str, levade) -> None:
     assert levade(*f"view {name} --out pages/page.html".split())[0] == 0  # its own may be replaced
 
 
+@pytest.mark.slow
 def test_a_motion_is_shown_as_its_report(levade) -> None:
     task = load_task("rearing", changes=["search.population=8", "search.trials=8", "horizon=0.06"])
     run_task(task, seed=0, directory=Path("rearing"))
@@ -60,6 +61,7 @@ def test_one_line_says_what_is_wrong(arguments: str, message: str, levade) -> No
     assert [path.name for path in Path().iterdir()] == ["mine.html"]
 
 
+@pytest.mark.slow
 def test_view_serves_until_ctrl_c(process) -> None:
     viewing = process("view", "hyq2max")
     assert viewing.stdout is not None

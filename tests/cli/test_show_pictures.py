@@ -11,6 +11,7 @@ from levade.cli.picturing import labels, progress_beside
 from levade.motions import Motion
 
 
+@pytest.mark.slow
 def test_figures_have_the_cost_of_the_run_beside_them(unmet: Path, tmp_path: Path, levade) -> None:
     pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install levade[figures]")
     status, out, _ = levade("show", unmet / "motion.npz", "--figures", tmp_path, "--format", "svg", "--json")

@@ -41,6 +41,7 @@ def test_it_writes_a_motion_that_a_check_knows_as_stabilised(motion: Path, levad
     assert "without the stabiliser" in out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_search_that_is_stopped_keeps_its_best(motion: Path, tmp_path: Path, process, number: signal.Signals) -> None:
     """The real thing: a signal while the second design is tried."""
@@ -60,12 +61,14 @@ def test_a_search_that_is_stopped_keeps_its_best(motion: Path, tmp_path: Path, p
     assert kept.meta["feedback"]["runs"] == 96
 
 
+@pytest.mark.slow
 def test_before_the_first_design_there_is_nothing_to_keep(motion: Path) -> None:
     found = stabilise(Motion.load(motion), runs=8, threads=1, stopping=lambda: True)
     assert (found.interrupted, found.design, found.tried) == (True, None, {})
     assert found.motion.feedback is None
 
 
+@pytest.mark.slow
 def test_a_motion_that_nothing_disturbs_is_left_alone(motion: Path, tmp_path: Path, levade) -> None:
     from dataclasses import fields
 
@@ -79,7 +82,8 @@ def test_a_motion_that_nothing_disturbs_is_left_alone(motion: Path, tmp_path: Pa
     assert not out_file.exists()
 
 
-def test_mistakes_are_one_line(motion: Path, levade) -> None:
+def test_mistakes_are_one_line(unmet: Path, levade) -> None:
+    motion = unmet / "motion.npz"
     for words, message in (
         (["--bound", "9"], "--bound 9"),
         (["--out", "/nowhere/motion.npz"], "/nowhere/motion.npz: no such directory"),

@@ -183,6 +183,7 @@ def test_motions_stay_together_for_a_tenth_of_a_second(
     assert np.abs(there.joint_position - standing.joint_position).max() > 0.1
 
 
+@pytest.mark.slow
 def test_processes_order_and_company_do_not_matter(
     robot: Robot,
     ode: Engine,

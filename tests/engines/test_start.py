@@ -53,6 +53,7 @@ def test_a_fall_is_free_until_it_lands(robot: Robot, engine: Engine) -> None:
     np.testing.assert_allclose(data.subtree_linvel[1], [0, 0, -9.81 * 0.2], atol=0.01)
 
 
+@pytest.mark.slow
 def test_falls_are_deterministic_and_spread_by_their_seed(robot: Robot, engine: Engine) -> None:
     fall = Fall(height=0.8, roll=0.5, time=0.3)
     one, same = start_state(engine, robot, Scene(), fall), start_state(engine, robot, Scene(), fall)

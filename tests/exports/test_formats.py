@@ -91,6 +91,7 @@ def test_json_by_json(rearing: Motion, tmp_path: Path) -> None:
     assert content["meta"]["provenance"]["made_with"] == rearing.meta["versions"]
 
 
+@pytest.mark.golden
 def test_unitree_by_numpy(rearing: Motion, tmp_path: Path) -> None:
     done = export(rearing, "unitree", tmp_path, rate=None, kp=60.0, kd=3.0)
     path = tmp_path / "unitree.csv"
@@ -351,6 +352,7 @@ def test_motions_of_before_hold_nothing_by_name(rearing: Motion, tmp_path: Path)
     assert np.load(tmp_path / "reference.npz")["joint_pos"].shape[1] == 12
 
 
+@pytest.mark.golden
 def test_rates_too_slow_for_a_robot_are_said(rearing: Motion, tmp_path: Path) -> None:
     slow = "is slow for sending to a robot, for whose motion 200 Hz or more is right"
     assert export(rearing, "csv", tmp_path, rate=50.0).notes == (f"50 Hz {slow}",)

@@ -80,6 +80,7 @@ def played(motion: Motion, directory: Path, **options) -> Played:
     return Played.load(directory / "motion.csv")
 
 
+@pytest.mark.golden
 def test_commanded_references_are_the_simulation_again_to_the_bit(rearing: Motion, tmp_path: Path) -> None:
     robot = Simulated(rearing, lagging=True)
     worst = play(played(rearing, tmp_path, reference="commanded"), robot, ramp=0.0, wait=no_clock)

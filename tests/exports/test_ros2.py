@@ -138,6 +138,7 @@ def test_provenance_and_gains_are_in_the_bag(exported: Path) -> None:
     assert yaml.safe_load(record.metadata["kp"]) == [600.0] * 12
 
 
+@pytest.mark.slow
 def test_the_trajectory_in_yaml(rearing: Motion, exported: Path, tmp_path: Path) -> None:
     text = (exported / "joint_trajectory.yaml").read_text()
     assert "# task: rearing\n" in text

@@ -175,6 +175,7 @@ def test_arrays_and_meta_say_the_same(motion: Motion, objective: Objective, solu
     assert set(meta["versions"]) == {"levade", "mujoco", "numpy", "cma"}
 
 
+@pytest.mark.golden
 def test_the_feet_push_the_robot_as_newton_says(motion: Motion) -> None:
     """Over the first 40 ms, in which nothing but the feet touches the ground: m dv = impulse of the feet - m g t.
 

@@ -39,6 +39,7 @@ def motion(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Motion]:
     return get
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", ["mujoco", "ode"])
 def test_in_its_own_engine_it_is_the_motion_to_the_bit(engine: str, motion: Callable[[str], Motion]) -> None:
     found = motion(engine)
@@ -88,6 +89,7 @@ def test_pictures_show_a_motion_of_ode_as_it_was_recorded(motion: Callable[[str]
     np.testing.assert_array_equal(poses.qpos[0], found["qpos0"])
 
 
+@pytest.mark.slow
 def test_a_run_in_ode_goes_on_where_it_stopped_to_the_same_motion(tmp_path: Path) -> None:
     task = load_task("rearing", changes=["physics.engine=ode", "search.trials=51", "start.settled.time=0.3"])
     whole = run(task, seed=3, directory=tmp_path / "whole").motion

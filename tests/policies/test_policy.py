@@ -117,6 +117,7 @@ def test_groups_may_be_in_any_order_and_of_any_number_of_legs():
     np.testing.assert_array_equal(position, [[1, 2, -1, -2, 2, 1]] * 2)
 
 
+@pytest.mark.slow
 def test_threads_do_not_change_a_bit():
     script = (
         "import hashlib, numpy as np\n"

@@ -30,12 +30,14 @@ def solved(tmp_path_factory: pytest.TempPathFactory) -> tuple[Motion, Path]:
     return run(task, seed=0, directory=directory).motion, directory / "progress.csv"
 
 
+@pytest.mark.slow
 def test_all_figures_are_written_and_nothing_else(solved: tuple[Motion, Path], tmp_path: Path) -> None:
     written = figures(solved[0], tmp_path, format="svg", progress_csv=solved[1])
     assert {path.stem for path in written} == ALL | {"cost"}
     assert sorted(tmp_path.iterdir()) == sorted(written)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("format", FORMATS)
 def test_the_same_motion_gives_the_same_bytes(solved: tuple[Motion, Path], tmp_path: Path, format: str) -> None:
     motion, progress = solved
@@ -46,6 +48,7 @@ def test_the_same_motion_gives_the_same_bytes(solved: tuple[Motion, Path], tmp_p
     assert [path.read_bytes() for path in one] == [path.read_bytes() for path in other]
 
 
+@pytest.mark.slow
 def test_png_has_the_width_of_a_column_or_of_two_at_300_dpi(solved: tuple[Motion, Path], tmp_path: Path) -> None:
     (two,) = compare({"a": solved[0]}, tmp_path, format="png")  # without progress.csv there is no cost
     (one,) = module.write_figures({"foot-forces": lambda: module._foot_forces(solved[0])}, tmp_path, "png")
@@ -72,6 +75,7 @@ def test_kernels_are_named_after_the_joints_they_move(solved: tuple[Motion, Path
     assert titles[1:] == [f"{legs} {joint}" for legs in ("LF, RF", "LH, RH") for joint in ("HAA", "HFE", "KFE")]
 
 
+@pytest.mark.slow
 def test_comparison_lays_motions_over_one_another(solved: tuple[Motion, Path], tmp_path: Path) -> None:
     motion, progress = solved
     written = compare({"a": motion, "b": motion}, tmp_path, format="svg", progress_csv={"a": progress})

@@ -113,6 +113,7 @@ def test_the_same_motion_gives_the_same_bytes_and_small_ones(solved: tuple[Motio
     assert sorted(path.name for path in tmp_path.iterdir()) == ["one", "other.html"]
 
 
+@pytest.mark.slow
 def test_a_motion_of_three_seconds_is_below_8_mb(tmp_path: Path) -> None:
     task = load_task("posture-recovery-slow", changes=["search.population=4", "search.trials=4"])
     motion = run(task, seed=0, directory=tmp_path / "run").motion

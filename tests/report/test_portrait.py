@@ -35,6 +35,7 @@ def gl(robot: Robot) -> None:
         pytest.skip(f"no OpenGL on this machine: {error}")
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("gl")
 def test_it_is_a_picture_with_every_name(robot: Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     written: list[str] = []

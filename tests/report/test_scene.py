@@ -178,6 +178,7 @@ def test_small_and_the_same_every_time(rearing: Motion, recovery: Motion, scene:
     assert scene["model"]["key"] != scene_data(recovery)["model"]["key"]
 
 
+@pytest.mark.slow
 def test_a_motion_of_three_seconds_takes_less_than_a_megabyte() -> None:
     motion = solved("rearing", "horizon=3 s")
     assert len(motion["time"]) == 1500

@@ -95,6 +95,7 @@ def test_a_part_that_has_nothing_to_look_at_shows_what_collides() -> None:
     assert rendering.drawn_geoms(model).tolist() == [False, True, False, True, True, False]
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("gl")
 def test_gif_has_the_pictures_and_lasts_as_long_as_said(motion: Motion, tmp_path: Path) -> None:
     told: list[tuple[int, int]] = []
@@ -113,6 +114,7 @@ def test_gif_has_the_pictures_and_lasts_as_long_as_said(motion: Motion, tmp_path
     assert list(tmp_path.iterdir()) == [path]
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::ResourceWarning")  # imageio-ffmpeg leaves its pipes to the garbage collector
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 @pytest.mark.usefixtures("gl")
@@ -131,6 +133,7 @@ def test_mp4_has_the_pictures_and_lasts_as_long_as_said(motion: Motion, tmp_path
     assert np.abs(first - last).mean() > 2  # the robot has moved
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("gl")
 def test_strip_has_n_poses_that_differ(motion: Motion, tmp_path: Path) -> None:
     path = strip([motion, motion], tmp_path / "strip.png", n=4, height=60, labels=["one", "two"])

@@ -145,6 +145,7 @@ def test_samples_are_rollouts_of_the_perturbed_models_themselves(answered: Answe
                 assert found.samples.terms[name][i, j] == term(alone)[0], name
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("robust", [FIXED, REDRAWN, MEAN, STARTS])
 def test_the_search_is_the_same_to_the_bit_for_any_number_of_threads_and_after_a_resume(
     robust: str, tmp_path: Path, assert_same_files: Callable[[Path, Path], None]
@@ -208,6 +209,7 @@ def test_records_survive_json() -> None:
     assert seen[-1].validated is not None
 
 
+@pytest.mark.slow
 def test_models_are_redrawn_when_asked_and_never_those_of_a_check() -> None:
     for robust, own in ((FIXED, False), (REDRAWN, True)):
         for generation, trials in asked(objective(robust)):
@@ -243,6 +245,7 @@ def test_the_best_of_a_generation_is_compared_on_a_sample_of_its_own_size() -> N
         assert 1 + 5 <= more <= 2 * (1 + 5) if i == 0 else more == 0  # the best of the nominal stage, on these models
 
 
+@pytest.mark.slow
 def test_the_mean_of_a_generation_may_be_compared_in_place_of_its_best(answered: Answered) -> None:
     made = objective(MEAN)
     optimizer, compared = make_attempt(made.task, made.space, seed=2), 0
@@ -265,6 +268,7 @@ def test_the_mean_of_a_generation_may_be_compared_in_place_of_its_best(answered:
     assert compared >= 2
 
 
+@pytest.mark.slow
 def test_a_search_starts_anew_on_the_nominal_model_only() -> None:
     """Each nominal stage has two generations of six: it starts anew after one, or goes on with other models."""
     never = "success={pitch: {target: 1.5, tolerance: 0.1}}"
@@ -309,6 +313,7 @@ def test_of_several_motions_of_the_nominal_model_the_one_that_holds_on_most_othe
     np.testing.assert_array_equal(around, candidates(trials[6]))
 
 
+@pytest.mark.slow
 def test_a_search_that_is_given_up_counts_as_a_start_and_one_motion_is_enough() -> None:
     """Of three searches those that meet nothing within one generation are given up; without any the next one begins."""
     hard = "stages=[{name: nominal, robust: false, promote: {pitch: 1e-5}}, {name: robust}]"
@@ -322,6 +327,7 @@ def test_a_search_that_is_given_up_counts_as_a_start_and_one_motion_is_enough() 
     assert seen[-1].stage_name == "robust"
 
 
+@pytest.mark.slow
 def test_where_the_best_start_leads_nowhere_as_many_are_looked_for_again() -> None:
     """The last stage has 30 trials: it ends in its first generation of 6 + 3 * 6 + 21. The second round starts from new motions
     and those of the first that have not been started from, while the budget lasts for as much again; the best of all is kept.
@@ -432,6 +438,7 @@ def test_starts_need_stages_of_both_kinds(stages: str, missing: str) -> None:
         load_task("rearing", changes=[*SMALL, f"stages={stages}", STARTS])
 
 
+@pytest.mark.slow
 def test_another_engine_has_its_own_perturbed_models() -> None:
     """The same robots, other physics: in ODE as reproducible, and not what MuJoCo says of them."""
     try:
@@ -448,6 +455,7 @@ def test_another_engine_has_its_own_perturbed_models() -> None:
     assert not np.isclose(samples.terms["position"], theirs.terms["position"], rtol=1e-6).any()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("robust", [FIXED, STARTS])
 def test_weights_that_hardly_change_leave_the_best_what_it_cost_on_all_models(robust: str) -> None:
     plain, steered = [], []

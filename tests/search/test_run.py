@@ -152,6 +152,7 @@ def test_ctrl_c_in_a_simulation_loses_that_generation_alone(
     assert_same_end(tmp_path, whole)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("optimizer", [name for name in OPTIMIZERS if name != "cma"])
 def test_a_run_of_any_optimizer_goes_on_to_the_same_end(
     tmp_path: Path, optimizer: str, assert_same_end: SameEnd
@@ -184,6 +185,7 @@ def test_a_run_from_when_the_default_was_called_levade_goes_on_to_the_same_end(t
     assert (part / CHECKPOINT).read_bytes() == (tmp_path / "whole" / CHECKPOINT).read_bytes()
 
 
+@pytest.mark.slow
 def test_it_may_be_interrupted_again_and_again(
     objective: Objective, whole: Outcome, tmp_path: Path, assert_same_end: SameEnd
 ) -> None:
@@ -219,6 +221,7 @@ def test_a_line_that_was_cut_off_is_computed_anew(
     assert_same_end(tmp_path, whole)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("broken", [1, 3])
 def test_a_damaged_line_is_told_and_what_follows_computed_anew(
     objective: Objective,
@@ -244,6 +247,7 @@ def test_a_damaged_line_is_told_and_what_follows_computed_anew(
     assert read_run(tmp_path)[1].damage is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "line",
     ["", "{}", "[]", "3", '"text"', "null", '{"generation": 6, "checksum": 1, "terms": [], "errors": []}', "\0\0\0"],
@@ -564,6 +568,7 @@ def test_a_process_that_is_stopped_can_be_gone_on_with(tmp_path: Path, number: s
     assert (directory / CHECKPOINT).read_bytes() == (tmp_path / "straight" / CHECKPOINT).read_bytes()
 
 
+@pytest.mark.slow
 def test_an_interrupted_process_resumes_to_its_end(tmp_path: Path, assert_same_end: SameEnd) -> None:
     """On the command line, to the end of the budget."""
     changes = [*CHANGES[:-1], "success.height.tolerance=0", "search.trials=400"]

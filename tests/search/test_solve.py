@@ -225,6 +225,7 @@ def test_the_budget_is_kept_and_the_best_only_gets_better() -> None:
     assert (base.task.search.trials // 17) * 17 == 3009 == base.task.search.trials
 
 
+@pytest.mark.slow
 def test_the_best_of_all_generations_is_what_comes_out() -> None:
     """Weights and cost of the solution are those of one trial that was tried, the best by the full cost."""
     base = rearing()
@@ -381,6 +382,7 @@ def test_the_same_seed_gives_the_same_for_any_number_of_threads(staged: Objectiv
     assert not np.array_equal(different.best.weights, one.best.weights)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stop_after", [1, 3, 4, 6, 14, 15])
 def test_an_interrupted_search_goes_on_to_the_same_end(staged: Objective, stop_after: int) -> None:
     """Interruptions before, at and after changes of the stage, and after the last generation."""
@@ -495,6 +497,7 @@ def test_a_cost_of_ones_own_is_optimised() -> None:
     assert solution.success  # no criteria: every trial that does not break down
 
 
+@pytest.mark.slow
 def test_levades_search_goes_through_stages_within_its_budget_and_again_from_records(staged: Objective) -> None:
     """Its generations differ in size: with aimed candidates, of them alone, and of probes and steps of a finish."""
     search = dataclasses.replace(staged.task.search, optimizer="levade", trials=240)

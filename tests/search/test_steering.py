@@ -133,6 +133,7 @@ def test_the_motion_says_by_which_weights_it_costs(steered: Outcome, task: Task)
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("generations", [1, 2, 4, 5, 8, 12])
 def test_a_steered_run_that_is_interrupted_goes_on_to_the_same_end(
     objective: Objective, steered: Outcome, tmp_path: Path, generations: int, assert_same_files: SameFiles

@@ -21,6 +21,9 @@ from levade.stabilisers.linear import state_of
 
 from .conftest import PUSHED
 
+# all of one motion and the stabiliser found for it: see conftest.py
+pytestmark = [pytest.mark.slow, pytest.mark.golden]
+
 NONE = dict.fromkeys(one.name for one in fields(Perturbation))
 
 

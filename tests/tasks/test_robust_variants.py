@@ -96,6 +96,7 @@ def test_self_righting_within_the_limits_is_the_robust_one_that_keeps_them() -> 
     assert variant.robust.perturb == Perturbation()
 
 
+@pytest.mark.golden
 @pytest.mark.slow
 def test_a_robust_search_finds_a_motion_that_holds_on_robots_it_has_not_seen() -> None:
     task = load_task("rearing-robust")

@@ -465,6 +465,7 @@ def test_units_of_the_robot_are_its_own_size() -> None:
     assert task_from_dict(task_to_dict(task), where="x") == task
 
 
+@pytest.mark.slow
 def test_the_robot_is_changed_before_its_units_are_read(tmp_path: Path) -> None:
     content = minimal(horizon="2 falls", robot={"name": "hyq2max", "kp": 500.0})
     (tmp_path / "mine.yaml").write_text(yaml.safe_dump(content))

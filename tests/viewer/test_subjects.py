@@ -26,6 +26,7 @@ def task_file(path: str) -> Path:
     return Path(shutil.copy(builtin_tasks()["rearing"], path))
 
 
+@pytest.mark.slow
 def test_names_of_what_is_built_in() -> None:
     for name, _ in builtin_robots():
         robot = find(name).robot

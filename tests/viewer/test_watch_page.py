@@ -73,6 +73,7 @@ def wait_for_word(tab: Any, word: str) -> None:
     tab.wait_for_function("word => document.querySelector('.word strong')?.textContent === word", arg=word)
 
 
+@pytest.mark.slow
 def test_a_solve_is_watched_slid_paused_and_stopped(solving: Solving, tab: Any) -> None:
     tab.goto(solving.url)
     wait_for_word(tab, "Searching")
@@ -139,6 +140,7 @@ def test_a_solve_is_watched_slid_paused_and_stopped(solving: Solving, tab: Any) 
         np.testing.assert_array_equal(again[name], motion[name], err_msg=name)
 
 
+@pytest.mark.slow
 def test_closing_the_page_does_not_stop_the_solve(tmp_path: Path, tab: Any) -> None:
     solving = Solving(tmp_path / "out", changes=[*CHANGES, "search.trials=800"])
     tab.goto(solving.url)
@@ -149,6 +151,7 @@ def test_closing_the_page_does_not_stop_the_solve(tmp_path: Path, tab: Any) -> N
     assert "No success within 800 trials" in out
 
 
+@pytest.mark.slow
 def test_the_page_of_a_solve_that_has_ended_stays_if_asked(tmp_path: Path, tab: Any) -> None:
     solving = Solving(tmp_path / "out", "--keep-open", changes=[*CHANGES, "search.trials=16"])
     assert solving.process.stdout is not None
@@ -163,6 +166,7 @@ def test_the_page_of_a_solve_that_has_ended_stays_if_asked(tmp_path: Path, tab: 
     assert tab.complaints == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("width", [1280, 390])
 def test_nothing_overflows(solving: Solving, tab: Any, width: int) -> None:
     tab.set_viewport_size({"width": width, "height": 800})

@@ -240,6 +240,7 @@ def at(generation: int, act: Callable[[], object]) -> Callable[[Generation], Non
     return observe
 
 
+@pytest.mark.slow
 def test_a_slider_acts_from_the_next_generation_on_and_is_recorded(
     objective: Objective, plain: Outcome, tmp_path: Path
 ) -> None:
