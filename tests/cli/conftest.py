@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from levade.cli import main
-from levade.run import run
+from levade.search.run import run
 from levade.tasks import load_task
 
 Finished = tuple[int, str, str]
