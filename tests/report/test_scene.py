@@ -156,7 +156,8 @@ def test_the_goal_is_a_box_round_the_trunk_where_it_should_be(rearing: Motion, s
 def test_layers_are_those_that_there_is_something_of(rearing: Motion, scene: dict[str, Any]) -> None:
     names = [layer["name"] for layer in scene["layers"]]
     assert names == ["robot", "reference", "path", "forces", "goal", "collision"]
-    meta = dict(rearing.meta) | {"task": {"success": {"speed": {"target": 0, "tolerance": 1}}}}
+    other = {"success": {"speed": {"target": 0, "tolerance": 1}}, "stages": [{"name": "full"}]}
+    meta = {**rearing.meta, "task": {**rearing.meta["task"], **other}}
     assert "goal" not in [layer["name"] for layer in scene_data(replace(rearing, meta=meta))["layers"]]
 
 

@@ -145,7 +145,7 @@ def test_the_file_keeps_it(found: Stabilised, tmp_path: Path) -> None:
     assert len(loaded.meta["feedback"]["sensed"]) == loaded["feedback_reference"].shape[1] == 30
     damaged = dict(np.load(path))
     np.savez(tmp_path / "damaged.npz", **{k: v for k, v in damaged.items() if k != "feedback_gain"})
-    with pytest.raises(LevadeError, match="its stabiliser lacks feedback_gain; stabilise the motion anew"):
+    with pytest.raises(LevadeError, match="its stabiliser lacks feedback_gain; stabilise the motion again"):
         Motion.load(tmp_path / "damaged.npz")
     np.savez(tmp_path / "damaged.npz", **{**damaged, "feedback_gain": damaged["feedback_gain"][:, :, 1:]})
     with pytest.raises(LevadeError, match=r"feedback_gain has the shape .* columns=42"):
