@@ -97,8 +97,8 @@ def test_the_command_gives_the_same_task(solved: tuple[Motion, Path], tmp_path: 
 def test_nothing_in_a_task_ends_the_script_or_begins_one(solved: tuple[Motion, Path]) -> None:
     motion, _ = solved
     nasty = "</script><script>alert(1)</script><!-- & \u2028"
-    task = {**motion.meta["task"], "description": nasty, "name": nasty}
-    text = page(replace(motion, meta={**motion.meta, "task": task}))
+    task = {**motion.meta["task"], "description": nasty, "name": "<script>alert(1)<!-- &"}  # no name has a slash
+    text = page(replace(motion, meta={**motion.meta, "task": task, "robot": nasty}))
     assert data_of(text)["provenance"]["description"] == nasty
     assert text.count("<script") == text.count("</script>") == 2
     assert "alert(1)</script>" not in text
