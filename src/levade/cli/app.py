@@ -103,6 +103,12 @@ def solve(
         list[str] | None, typer.Option("--set", metavar="PATH=VALUE", help="Change a value of the task. Repeatable.")
     ] = None,
     out: Annotated[Path | None, typer.Option(help="Directory to write; by default the task's name.")] = None,
+    begin: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "--from", metavar="MOTION", help="Begin around the motion in this file. Repeatable: the best is taken."
+        ),
+    ] = None,
     resume: Annotated[Path | None, typer.Option(metavar="DIR", help="Go on with the interrupted run in DIR.")] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace an interrupted run in the directory.")] = False,
     threads: Annotated[int, typer.Option(min=0, help="0 for one per core; no effect on the result.")] = 0,
@@ -139,6 +145,7 @@ def solve(
             "--seed": seed,
             "--out": out,
             "--force": force or None,
+            "--from": begin or None,
             "--set, --trials, --optimizer or --engine": changes or None,
         }
         extra = [name for name, value in given.items() if value is not None]
@@ -153,6 +160,7 @@ def solve(
         robot=robot,
         seed=seed or 0,
         changes=changes,
+        begin=begin or [],
         directory=out,
         resume_from=resume,
         force=force,

@@ -15,7 +15,9 @@ from levade.cli.inspecting import tell_warnings
 from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console, motion_summary
 from levade.cli.watching import Watching, watched
+from levade.motions import Motion
 from levade.search import Generation, Stopped, make_objective
+from levade.search.initial import initial_guess
 from levade.search.run import Outcome, check_replaceable, read_run, resume, run
 from levade.tasks import load_task
 
@@ -26,6 +28,7 @@ def solve_and_report(
     robot: str | None,
     seed: int,
     changes: list[str],
+    begin: list[Path],
     directory: Path | None,
     resume_from: Path | None,
     force: bool,
@@ -37,6 +40,7 @@ def solve_and_report(
     # with --json, standard output is for the one object
     console = make_console(stderr=as_json)
     quiet = as_json and not console.is_terminal
+    earlier: list[Motion] = []
     # whatever is wrong with the input is said before the display opens
     if resume_from is not None:
         chosen, checkpoint = read_run(resume_from)
@@ -52,7 +56,9 @@ def solve_and_report(
         if not force:
             check_replaceable(out)
         objective = make_objective(chosen, threads=threads)
-        go = functools.partial(run, objective, seed=seed, directory=out)
+        earlier = [Motion.load(path) for path in begin]
+        guess = initial_guess(objective.policy, earlier) if earlier else None
+        go = functools.partial(run, objective, seed=seed, directory=out, initial=guess)
     tell_warnings(console, objective.robot, objective.task.robot.name)
     with ExitStack() as stack:
         stopping = stack.enter_context(stop_between("generation"))
@@ -73,9 +79,9 @@ def solve_and_report(
         if watch is not None:
             watch.finish(outcome)
         if as_json:
-            print(json.dumps(summary(outcome), ensure_ascii=False), flush=True)
+            print(json.dumps({**summary(outcome), **_warm(outcome, earlier)}, ensure_ascii=False), flush=True)
         else:
-            _tell(console, outcome)
+            _tell(console, outcome, earlier)
     return 0 if outcome.motion.result.success else 1
 
 
@@ -99,7 +105,22 @@ def summary(outcome: Outcome) -> dict[str, object]:
     }
 
 
-def _tell(console: Console, outcome: Outcome) -> None:
+def _warm(outcome: Outcome, earlier: list[Motion]) -> dict[str, object]:
+    """What ``--json`` says of a search that began around earlier motions."""
+    if not earlier:
+        return {}
+    took = [motion.result.trials_to_success for motion in earlier]
+    return {"from_trials_to_success": took, "trials_saved": _saved(outcome, earlier)}
+
+
+def _saved(outcome: Outcome, earlier: list[Motion]) -> int | None:
+    """Trials to success that the quickest of the earlier motions took, less those that this search took."""
+    took = [trials for motion in earlier if (trials := motion.result.trials_to_success) is not None]
+    now = outcome.solution.trials_to_success
+    return min(took) - now if took and now is not None else None
+
+
+def _tell(console: Console, outcome: Outcome, earlier: list[Motion]) -> None:
     solution, directory = outcome.solution, escape(str(outcome.directory))
     for part in motion_summary(outcome.motion):
         console.print(part)
@@ -111,6 +132,9 @@ def _tell(console: Console, outcome: Outcome) -> None:
         console.print(f"[yellow]Interrupted[/] after {spent}. To go on: levade solve --resume {directory}")
     elif outcome.motion.result.success:
         console.print(f"[green]Success[/] at trial {first}; {spent}.")
+        if (saved := _saved(outcome, earlier)) is not None and first is not None:
+            worth = f"{saved} saved" if saved > 0 else "none saved"
+            console.print(f"The motion that it began around took {first + saved} trials: {worth}.")
     else:
         console.print(
             f"[red]No success[/] within {spent}. Another --seed or more --trials may find one;"

@@ -62,7 +62,7 @@ META = (
 )
 """Keys of ``meta``."""
 
-LATER = ("cost_weights", "policy", "held", "model_joints")
+LATER = ("cost_weights", "policy", "held", "model_joints", "initial")
 """Keys of ``meta`` that files of early versions lack. ``feedback`` is there if the motion has a stabiliser."""
 
 # what numpy and zipfile raise for files that are damaged, or something else

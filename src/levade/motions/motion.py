@@ -87,6 +87,7 @@ class Provenance:
         engine: The engine that simulated it.
         versions: Library -> version; they decide the bits.
         seed: The search's random seed.
+        initial: How many motions the search began around; 0 for none.
         schema: Version of the file's layout.
     """
 
@@ -94,6 +95,7 @@ class Provenance:
     versions: Mapping[str, str]
     seed: int
     schema: int
+    initial: int = 0
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -296,7 +298,9 @@ class Motion:
     def provenance(self) -> Provenance:
         """Where it comes from."""
         meta = self.meta
-        return Provenance(str(meta["engine"]), meta["versions"], meta["seed"], int(meta["schema"]))
+        return Provenance(
+            str(meta["engine"]), meta["versions"], meta["seed"], int(meta["schema"]), int(meta.get("initial", 0))
+        )
 
     def meets(self, criterion: str) -> bool:
         """Whether the motion meets a criterion of its task on the model, by the numbers in its file."""

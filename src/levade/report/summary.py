@@ -140,7 +140,8 @@ def provenance_data(motion: Motion) -> dict[str, Any]:
         "trials": result.trials,
         "trials_to_success": result.trials_to_success,
         "stopped": result.stopped,
-        "command": shlex.join(["levade", "solve", name if known else "task.yaml", "--seed", str(origin.seed)]),
+        "command": shlex.join(["levade", "solve", name if known else "task.yaml", "--seed", str(origin.seed)])
+        + " --from MOTION" * origin.initial,
         "builtin": known,
         "task_yaml": task_to_yaml(task, code=True),
     }

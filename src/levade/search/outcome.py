@@ -89,6 +89,7 @@ class Generation:
         validated: What its contender achieved on the models that stay the same: the candidate, or the mean, that may become
             the best of a robust search, or a motion to start one from. None where there is none.
         total_diverged: How many trials of the whole search broke down so far.
+        initial: How many motions or weights the search began around.
         replayed: Whether all of it came from records, nothing from simulation.
     """
 
@@ -107,6 +108,7 @@ class Generation:
     evaluation: Evaluation | None = None
     validated: Evaluation | None = None
     total_diverged: int = 0
+    initial: int = 0
     replayed: bool = False
 
     def solution(self) -> Solution:
@@ -120,6 +122,7 @@ class Generation:
             stopped=Stopped.RUNNING,
             cost_weights=self.cost_weights,
             changes=self.changes,
+            initial=self.initial,
         )
 
 
@@ -136,6 +139,7 @@ class Solution:
         stopped: Why the search ended.
         cost_weights: Cost -> weight in ``best.cost``.
         changes: Changes of the cost weights on the way; a task with these gives the same solution again.
+        initial: How many motions or weights the search began around; 0 if it began from nothing.
     """
 
     best: Trial
@@ -146,6 +150,7 @@ class Solution:
     stopped: Stopped
     cost_weights: Mapping[str, float]
     changes: tuple[Change, ...]
+    initial: int = 0
 
     @property
     def success(self) -> bool:

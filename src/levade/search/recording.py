@@ -58,6 +58,7 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
         "engine": task.physics.engine,
         "versions": versions(task.physics.engine),
         "seed": seed,
+        "initial": solution.initial,
         "timestep": task.physics.timestep,
         "horizon": task.horizon_steps * task.physics.timestep,
         "horizon_steps": task.horizon_steps,

@@ -109,7 +109,12 @@ class Search:
             stopped=self._stopped,
             cost_weights=self._weights,
             changes=self._task.search.changes,
+            initial=self._begun_around,
         )
+
+    @property
+    def _begun_around(self) -> int:
+        return 0 if self._initial is None else len(self._initial.candidates)
 
     def ask(self) -> Trials | None:
         """The trials to simulate next; the same again until they are told. None once the search has ended."""
@@ -257,6 +262,7 @@ class Search:
             evaluation=evaluation,
             validated=validated,
             total_diverged=self._diverged,
+            initial=self._begun_around,
         )
 
     def _follow(self, move: Move, before: Level) -> _Asking:
