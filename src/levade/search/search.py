@@ -26,6 +26,7 @@ from levade.search.optimizing import make_attempt
 from levade.search.outcome import Generation, Solution, Stopped, Trial, better
 from levade.search.robust import Judge
 from levade.search.schedule import Level, Move, Report, Schedule, first_to_end, full_level, level_of, promoted
+from levade.search.weighing import cost_weights, missed, stage_weights
 from levade.tasks import Change, Task, looks_at_hold
 
 Steer = Callable[[int], "Mapping[str, float] | Stopped | None"]
@@ -33,9 +34,6 @@ Steer = Callable[[int], "Mapping[str, float] | Stopped | None"]
 `Stopped.INTERRUPTED` ends the search."""
 
 _Asking = Generator["Trials | Generation", Evaluation, None]
-
-INSIDE_BOUND = 0.015
-"""[SI: m, rad, ...], as far inside a bound as the middle of a tolerance is inside the tolerance."""
 
 
 class _Halt(Exception):
@@ -75,7 +73,7 @@ class Search:
         self._schedule = Schedule(task)
         self._judge = Judge(task, seed)
         self._optimizer: Optimizer = make_attempt(task, space, seed=seed)
-        self._weights = _cost_weights(task, 0)
+        self._weights = cost_weights(task, 0)
         self._best: Trial | None = None
         self._kept: Trial | None = None  # the best of earlier rounds
         self._starts: list[Trial] = []  # motions of the nominal model to start robust stages from
@@ -184,7 +182,9 @@ class Search:
         self._diverged += int(evaluation.diverged.sum())
         if evaluation.success.any():
             self._trials_to_success = self._trials
-        cost = evaluation.cost({**self._weights, **_stage_weights(self._task, self._schedule, 0)}, self._task.robust)
+        cost = evaluation.cost(
+            {**self._weights, **stage_weights(self._task, self._schedule.stage, 0)}, self._task.robust
+        )
         self._keep_best(candidates, evaluation)
         first = np.lexsort((cost, ~evaluation.success))[0]
         if self._trials_to_success is not None and self._task.search.polish == 0:
@@ -205,7 +205,7 @@ class Search:
             raise _Halt(factors)
         if factors:
             self._task = self._task.changed(Change(number, dict(factors)))
-        before, self._weights = self._weights, _cost_weights(self._task, number)
+        before, self._weights = self._weights, cost_weights(self._task, number)
         if self._weights != before:
             yield from self._weigh_best_again()
             self._forget_costs()
@@ -215,7 +215,7 @@ class Search:
         task, schedule, optimizer = self._task, self._schedule, self._optimizer
         number, stage, level = self._generations + 1, schedule.stage, schedule.level
         candidates = optimizer.ask()
-        weights = {**self._weights, **_stage_weights(task, schedule, number)}
+        weights = {**self._weights, **stage_weights(task, schedule.stage, number)}
         mean = optimizer.mean if task.robust is not None and task.robust.contender == "mean" else None
         evaluation = yield from self._judge.evaluate(candidates, level, generation=number, racing=weights)
         cost = evaluation.cost(weights, task.robust)
@@ -374,33 +374,6 @@ def _rank(trial: Trial) -> tuple[bool, float, float]:
 
 def _tell(optimizer: Optimizer, task: Task, cost: Array, evaluation: Evaluation) -> None:
     if uses_errors(optimizer):
-        optimizer.tell(cost, _missed(task, evaluation))
+        optimizer.tell(cost, missed(task, evaluation))
     else:
         optimizer.tell(cost)
-
-
-def _cost_weights(task: Task, generation: int) -> dict[str, float]:
-    """Cost -> weight in a generation, by the task's own weights."""
-    factors = task.search.factors(generation)
-    return {name: cost.weight * factors.get(name, 1.0) for name, cost in task.costs.items()}
-
-
-def _stage_weights(task: Task, schedule: Schedule, generation: int) -> dict[str, float]:
-    """Cost -> weight in a generation, for those costs that the current stage weighs itself."""
-    factors = task.search.factors(generation)
-    return {name: weight * factors.get(name, 1.0) for name, weight in schedule.stage.weights.items()}
-
-
-def _missed(task: Task, evaluation: Evaluation) -> Array:
-    """Errors as a share of what is allowed, shape (n, criteria); NaN where unknown, all of a trial that diverged.
-
-    For a criterion with bounds, 1 is the bound, and what is farther inside is less.
-    """
-    shares = [
-        1.0 - evaluation.slack[name] / INSIDE_BOUND
-        if name in evaluation.slack
-        else off / (task.success[name].tolerance or 1.0)
-        for name, off in evaluation.errors.items()
-    ]
-    missed = np.stack(shares, axis=1) if shares else np.empty((len(evaluation.success), 0))
-    return np.where(evaluation.diverged[:, None], np.nan, missed)
