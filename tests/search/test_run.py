@@ -337,7 +337,7 @@ def test_an_interrupted_run_of_an_earlier_levade_is_not_replaced_unasked(objecti
     run(objective, seed=3, directory=tmp_path, observe=stop_after(3))
     path = tmp_path / CHECKPOINT
     path.write_text(path.read_text().replace('"format": 2', '"format": 1', 1))
-    with pytest.raises(LevadeError, match=r"layout 1, but this levade reads layout 2; .* --force, or write elsewhere"):
+    with pytest.raises(LevadeError, match=r"layout 1, but this levade reads layout 2; .*replace it or write elsewhere"):
         check_replaceable(tmp_path)
     with path.open("a") as file:
         file.write('{"finished": true}\n')
