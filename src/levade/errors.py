@@ -1,14 +1,53 @@
-"""The one base exception, and the hint that every "unknown name" message ends with."""
+"""The one base exception, and the hint that every "unknown name" message ends with.
+
+    raise LevadeError("0 should be 1 to 500 Hz", field="rate")
+    raise LevadeError(f"{path}: exists", remedies=(Remedy("replace it", "replace"),))
+
+Messages speak of fields and of plain actions. `levade.cli.flags` turns them into options and commands.
+"""
 
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class Remedy:
+    """One thing that can be done about an error.
+
+    Attributes:
+        words: What to do, such as "write elsewhere".
+        action: Which entry of `levade.cli.flags.ACTIONS` does it on the command line, or None.
+        at: The file or directory that the action is done to, or None.
+    """
+
+    words: str
+    action: str | None = None
+    at: Path | None = None
 
 
 class LevadeError(Exception):
-    """The input is wrong. The message is one line: what, where, what would be right, nearest valid name."""
+    """The input is wrong. The message is one line: what, where, what would be right, nearest valid name.
+
+    Attributes:
+        message: What is wrong, without field and remedies.
+        field: The argument that is wrong, by its name in Python; the text begins with it. None if it is no single one.
+        remedies: What can be done, any of them; the text ends with them.
+    """
+
+    def __init__(self, message: str, *, field: str | None = None, remedies: Sequence[Remedy] = ()) -> None:
+        super().__init__(message)
+        self.message, self.field, self.remedies = message, field, tuple(remedies)
+
+    def __str__(self) -> str:
+        begin = "" if self.field is None else f"{self.field}: "
+        *most, last = [remedy.words for remedy in self.remedies] or [""]
+        what = f"{', '.join(most)} or {last}" if most else last
+        return f"{begin}{self.message}{what and f'; {what}'}"
 
 
 def did_you_mean(name: str, valid: Iterable[str]) -> str:

@@ -87,9 +87,9 @@ def test_settings_of_the_tasks_optimizer_are_not_for_another(tmp_path: Path) -> 
         ("{tasks: [rearing], optimizers: {mine: {}}}", r"optimizers: no optimizer 'mine'"),
         (
             "{tasks: [rearing], optimizers: {mine: {search.sep: 1}}}",
-            r"optimizers.mine: --set search.sep: no 'sep' in search; did you mean step\?",
+            r"optimizers.mine: search.sep: no 'sep' in search; did you mean step\?",
         ),
-        ("{tasks: [rearing], changes: {horizn: 1}}", r"changes: --set horizn: no 'horizn' in the task"),
+        ("{tasks: [rearing], changes: {horizn: 1}}", r"changes: horizn: no 'horizn' in the task"),
         (
             "{tasks: [rearing], changes: {start.settled.posture: netral}}",
             r"rearing on hyq2max: start.settled.posture: .*did you mean neutral\?",

@@ -73,7 +73,7 @@ def test_a_bench_from_a_file_with_options_over_it(levade) -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ("bench", "bench: no bench to go on with; name tasks (--tasks rearing) or a plan's file"),
+        ("bench", "bench: no bench to go on with; name tasks: --tasks rearing, or give a plan: levade bench FILE"),
         ("bench none.yaml", "none.yaml: cannot be read (No such file or directory)"),
         ("bench --tasks", "'--tasks' requires an argument"),
         ("bench --tasks rearin", "no task 'rearin'; did you mean rearing?"),
@@ -82,7 +82,7 @@ def test_a_bench_from_a_file_with_options_over_it(levade) -> None:
         ("bench --tasks rearing --seeds 0", "seeds: 0 should be a number from 1"),
         ("bench --tasks rearing --until solved", "until: 'solved' should be success or budget"),
         ("bench --tasks rearing --set horizon", "--set horizon: should be path=value"),
-        ("bench --tasks rearing --set horizn=1", "changes: --set horizn: no 'horizn' in the task"),
+        ("bench --tasks rearing --set horizn=1", "changes: horizn: no 'horizn' in the task"),
         ("bench --tasks rearing --format jpg", "--format jpg: should be one of pdf, svg, png"),
         ("bench --tasks rearing --add none.csv", "none.csv: cannot be read"),
         ("bench --tasks rearing --out /dev/null/bench", "/dev/null/bench"),

@@ -82,11 +82,11 @@ def test_help_and_version(levade) -> None:
         ),
         (
             "solve --resume here",
-            "here: no run to resume, task.yaml or checkpoint.jsonl is missing; give the --out of a solve",
+            "here: no run to resume, task.yaml or checkpoint.jsonl is missing; give the directory of a run",
         ),
         (
             "solve rearing --out /proc/none",
-            "/proc/none: cannot be written (No such file or directory); give a directory",
+            "/proc/none: cannot be written (No such file or directory); give another directory",
         ),
         ("solve rearing --out /dev/null/none", "/dev/null/none: cannot be written (Not a directory)"),
         ("show none.npz", "none.npz: no such file; give the motion.npz that levade solve wrote"),
@@ -197,7 +197,7 @@ def test_files_of_ones_own_are_kept_unless_forced(levade, tmp_path: Path) -> Non
     before = (tmp_path / "task.yaml").read_bytes()
     status, out, err = levade("solve", "task.yaml", "--out", ".")
     assert (status, out) == (2, "")
-    assert "task.yaml: is of no run here, and would be replaced" in err
+    assert "task.yaml: exists but does not belong to a run, and would be overwritten; write elsewhere: --out DIR" in err
     assert (tmp_path / "task.yaml").read_bytes() == before
     assert levade("solve", "task.yaml", "--out", ".", "--force")[0] == 1
     assert levade("solve", "rearing/task.yaml")[0] == 1  # a finished run is replaced by itself

@@ -85,7 +85,7 @@ def test_a_motion_that_nothing_disturbs_is_left_alone(motion: Path, tmp_path: Pa
 def test_mistakes_are_one_line(unmet: Path, levade) -> None:
     motion = unmet / "motion.npz"
     for words, message in (
-        (["--bound", "9"], "--bound 9"),
+        (["--bound", "9"], "--bound: 9 should be more than 0"),
         (["--out", "/nowhere/motion.npz"], "/nowhere/motion.npz: no such directory"),
         (["--out", "."], "--out .: is a directory; give a file in it, as motion-stabilised.npz"),
         (["--out", str(motion)], "is the motion itself; give another file, or leave it out"),

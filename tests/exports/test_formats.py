@@ -239,7 +239,7 @@ def test_the_same_motion_gives_the_same_bytes(rearing: Motion, tmp_path: Path, n
 
 
 def test_unknown_formats(rearing: Motion, tmp_path: Path) -> None:
-    with pytest.raises(LevadeError, match=r"--to: no format 'jason'; did you mean json\?"):
+    with pytest.raises(LevadeError, match=r"to: no format 'jason'; did you mean json\?"):
         export(rearing, "jason", tmp_path / "out")
     assert list(tmp_path.iterdir()) == []
 

@@ -168,6 +168,6 @@ def test_a_command_of_several_lines_stays_a_comment(rearing: Motion, tmp_path: P
 
 def test_without_mcap_it_says_what_to_install(rearing: Motion, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "mcap.writer", None)
-    with pytest.raises(LevadeError, match=r"--to ros2: a bag needs mcap; pip install levade\[ros2\], or take csv"):
+    with pytest.raises(LevadeError, match=r"to: ros2: a bag needs mcap; pip install levade\[ros2\], or take csv"):
         export(rearing, "ros2", tmp_path / "out")
     assert list(tmp_path.iterdir()) == []

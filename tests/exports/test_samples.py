@@ -145,19 +145,19 @@ def test_the_holding_torque_is_what_the_drives_delivered_before_the_motion(
 def test_an_actuator_without_gains_is_told(rearing: Motion) -> None:
     spec = mujoco.MjSpec.from_string(rearing.model_xml)
     spec.actuators[2].set_to_motor()
-    with pytest.raises(LevadeError, match="lf_kfe has no single pid or dcmotor actuator; give its gains: --kp, --kd"):
+    with pytest.raises(LevadeError, match="lf_kfe has no single pid or dcmotor actuator; give its gains, kp and kd"):
         gains(spec.compile(), rearing["joint_names"].tolist())
 
 
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"rate": 0.0}, "--rate 0.0: should be a positive number"),
-        ({"rate": float("nan")}, "--rate nan"),
+        ({"rate": 0.0}, "rate: 0.0 should be a positive number"),
+        ({"rate": float("nan")}, "rate: nan should be"),
         ({"rate": 2.0}, "gives 1 row for 0.3 s of motion"),
         ({"rate": 1e9}, "should be 2 to 1000000"),
         ({"reference": "mesured"}, "no reference 'mesured'; did you mean measured?"),
-        ({"kp": -1.0}, "--kp -1.0: should be a number that is not negative"),
+        ({"kp": -1.0}, "kp: -1.0 should be a number that is not negative"),
         (
             {"kd": 3.0, "reference": "commanded"},
             "commanded references only make the motion with the gains of the simul",

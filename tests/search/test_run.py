@@ -316,7 +316,7 @@ def test_records_of_another_seed_are_refused(objective: Objective, tmp_path: Pat
 
 def test_there_has_to_be_a_run(tmp_path: Path, whole: Outcome) -> None:
     with pytest.raises(
-        LevadeError, match=r"no run to resume, task.yaml or checkpoint.jsonl is missing; give the --out"
+        LevadeError, match=r"no run to resume, task.yaml or checkpoint.jsonl is missing; give the directory of a run"
     ):
         resume(tmp_path)
     with pytest.raises(LevadeError, match="no run to resume"):
@@ -327,7 +327,9 @@ def test_an_interrupted_run_is_not_replaced_unasked(objective: Objective, whole:
     check_replaceable(tmp_path / "new")
     check_replaceable(whole.directory)  # finished: solving again replaces it
     run(objective, seed=3, directory=tmp_path, observe=stop_after(3))
-    with pytest.raises(LevadeError, match=r"holds an interrupted run \(seed 3\); go on with it: levade so"):
+    with pytest.raises(
+        LevadeError, match=r"holds an interrupted run \(seed 3\); go on with it, replace it or write elsewhere"
+    ):
         check_replaceable(tmp_path)
 
 
@@ -335,7 +337,7 @@ def test_an_interrupted_run_of_an_earlier_levade_is_not_replaced_unasked(objecti
     run(objective, seed=3, directory=tmp_path, observe=stop_after(3))
     path = tmp_path / CHECKPOINT
     path.write_text(path.read_text().replace('"format": 2', '"format": 1', 1))
-    with pytest.raises(LevadeError, match=r"layout 1, but this levade reads layout 2; .* --force, or write elsewhere"):
+    with pytest.raises(LevadeError, match=r"layout 1, but this levade reads layout 2; .*replace it or write elsewhere"):
         check_replaceable(tmp_path)
     with path.open("a") as file:
         file.write('{"finished": true}\n')
@@ -345,7 +347,7 @@ def test_an_interrupted_run_of_an_earlier_levade_is_not_replaced_unasked(objecti
 @pytest.mark.parametrize("name", [TASK, MOTION, PROGRESS])
 def test_files_of_ones_own_are_not_replaced_unasked(tmp_path: Path, name: str) -> None:
     (tmp_path / name).write_text("mine")
-    told = f"{name}: exists but does not belong to a run, and would be overwritten; .*--out DIR, .*--force"
+    told = f"{name}: exists but does not belong to a run, and would be overwritten; write elsewhere or replace it"
     with pytest.raises(LevadeError, match=told):
         check_replaceable(tmp_path)
 
@@ -459,7 +461,7 @@ def test_a_disk_that_fills_up_on_the_way(
     with monkeypatch.context() as patch:
         FullDisk(patch, room)
         with pytest.raises(
-            LevadeError, match=r"cannot be written.* \(No space left on device\).*levade solve --resume"
+            LevadeError, match=r"cannot be written.* \(No space left on device\).*make room, then go on"
         ) as e:
             run(objective, seed=3, directory=tmp_path, observe=lambda g: generations.append(g.generation))
     assert "\n" not in str(e.value)

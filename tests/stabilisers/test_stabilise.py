@@ -226,10 +226,10 @@ def _motors(motion: Motion) -> list[str]:
 
 def test_numbers_that_make_no_sense_are_said(rearing: Motion) -> None:
     for options, message in (
-        ({"rate": 1e6}, "--rate 1e[+]06: should be 1 to 500 Hz"),
-        ({"rate": 1.0}, "--rate 1: no measurement within the motion's 0.3 s; should be 3.33 Hz at least"),
-        ({"bound": 0.0}, "--bound 0: should be more than 0"),
-        ({"runs": 1}, "--runs 1: should be 8 to 100000"),
+        ({"rate": 1e6}, "rate: 1e[+]06 should be 1 to 500 Hz"),
+        ({"rate": 1.0}, "rate: 1 Hz has no measurement within the motion's 0.3 s; should be 3.33 Hz at least"),
+        ({"bound": 0.0}, "bound: 0 should be more than 0"),
+        ({"runs": 1}, "runs: 1 should be 8 to 100000"),
     ):
         with pytest.raises(LevadeError, match=message):
             stabilise(rearing, **options)  # type: ignore[arg-type]

@@ -23,7 +23,7 @@ from levade.bench.plan import Case, Plan, cases, plan_to_yaml, read_plan
 from levade.bench.pool import run_cases
 from levade.bench.results import Result, append, read, write, write_parquet
 from levade.bench.table import markdown
-from levade.errors import LevadeError
+from levade.errors import LevadeError, Remedy
 
 PLAN, RESULTS, PARQUET, TABLE = "bench.yaml", "results.csv", "results.parquet", "table.md"
 
@@ -108,7 +108,10 @@ def bench(
 def plan_of(directory: Path) -> Plan:
     """The plan that a directory was last called with. Raises LevadeError if there is none."""
     if not (directory / PLAN).is_file():
-        raise LevadeError(f"{directory}: no bench to go on with; name tasks (--tasks rearing) or a plan's file")
+        raise LevadeError(
+            f"{directory}: no bench to go on with",
+            remedies=(Remedy("name tasks", "name tasks"), Remedy("give a plan", "give a plan")),
+        )
     return read_plan(directory / PLAN)
 
 
@@ -142,6 +145,9 @@ def in_order(results: Iterable[Result], wanted: Sequence[Case]) -> list[Result]:
     return sorted(results, key=lambda result: (place.get(result.key, len(place)), result.key))
 
 
+_ANEW = (Remedy("write elsewhere", "elsewhere"), Remedy("begin again", "replace"))
+
+
 def _check_same(path: Path, results: Iterable[Result], wanted: Iterable[Case]) -> None:
     by_key = {result.key: result for result in results}
     for case in wanted:
@@ -149,11 +155,6 @@ def _check_same(path: Path, results: Iterable[Result], wanted: Iterable[Case]) -
         if result is None:
             continue
         if result.checksum != case.checksum or result.until != case.until:
-            raise LevadeError(
-                f"{path}: has {case} with another task, budget or end; write elsewhere: --out DIR, or begin anew: --force"
-            )
+            raise LevadeError(f"{path}: has {case} with another task, budget or end", remedies=_ANEW)
         if result.versions != made_with():
-            raise LevadeError(
-                f"{path}: was made with {result.versions}, this is {made_with()}; write elsewhere: --out DIR, or begin"
-                " anew: --force"
-            )
+            raise LevadeError(f"{path}: was made with {result.versions}, this is {made_with()}", remedies=_ANEW)

@@ -152,7 +152,8 @@ def _load(task: str, robot: str | None, changes: Sequence[str], where: str) -> T
     try:
         return load_task(task, robot=robot, changes=changes)
     except LevadeError as error:
-        raise LevadeError(f"{where}: {error}") from None
+        said = error.message if error.field == "changes" else str(error)  # a plan may have them in other places
+        raise LevadeError(f"{where}: {said}") from None
 
 
 def _changes(changes: Mapping[str, Any]) -> list[str]:

@@ -64,12 +64,13 @@ def check(
     simulation = RecordedSimulation(motion, criteria=None if criteria is None else criteria.success, threads=threads)
     if not simulation.criteria:
         raise LevadeError(
-            f"check: the task {simulation.task.name} has no success criteria to judge by; give a task that has: --criteria TASK"
+            f"the task {simulation.task.name} has no success criteria to judge by; give a task that has some",
+            field="criteria",
         )
     if not 1 <= runs <= 1_000_000:
-        raise LevadeError(f"check: {runs} runs; 1 to 1000000, 500 is usual")
+        raise LevadeError(f"{runs} should be 1 to 1000000; 500 is usual", field="runs")
     if not 1 <= divide <= 64:
-        raise LevadeError(f"check: the time step divided by {divide}; 1 to 64, 2 is usual")
+        raise LevadeError(f"{divide} should be 1 to 64; 2 is usual", field="divide")
     demands, feedback = demands or Demands(), motion.feedback
     ranges = perturbation or Perturbation()
     stop = stopping or (lambda: False)

@@ -10,6 +10,7 @@ from typing import Annotated, Any, NoReturn
 
 import typer
 
+from levade.cli.flags import in_flags
 from levade.errors import LevadeError
 
 app = typer.Typer(
@@ -31,10 +32,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line; whatever is wrong with the input is one line on standard error and exit status 2."""
     # typer names these by its own copy of click since 0.26, by click itself before
     _, usage_error, click_exception, *_ = typer.BadParameter.__mro__
+    arguments = _spread(sys.argv[1:] if arguments is None else arguments)
     try:
-        status = app(args=_spread(sys.argv[1:] if arguments is None else arguments), standalone_mode=False)
+        status = app(args=arguments, standalone_mode=False)
     except LevadeError as error:
-        _fail(str(error))
+        _fail(in_flags(error, app, arguments))
     except usage_error as error:  # type: ignore[misc]
         command = error.ctx.command_path if error.ctx else "levade"
         message = " ".join(error.format_message().split())
@@ -99,7 +101,7 @@ def solve(
         str | None, typer.Option(help="cma-aimed, cma, pi2, pi2-cma, mppi, cem or random, instead of the task's.")
     ] = None,
     engine: Annotated[str | None, typer.Option(help="mujoco or ode, instead of the task's.")] = None,
-    change: Annotated[
+    changes: Annotated[
         list[str] | None, typer.Option("--set", metavar="PATH=VALUE", help="Change a value of the task. Repeatable.")
     ] = None,
     out: Annotated[Path | None, typer.Option(help="Directory to write; by default the task's name.")] = None,
@@ -131,13 +133,13 @@ def solve(
     from levade.cli.watching import options
 
     watching = options(watch, watch_host, watch_port, open_page, keep_open)
-    changes = list(change or [])
+    changed = list(changes or [])
     if trials is not None:
-        changes.append(f"search.trials={trials}")
+        changed.append(f"search.trials={trials}")
     if optimizer is not None:
-        changes.append(f"search.optimizer={optimizer}")
+        changed.append(f"search.optimizer={optimizer}")
     if engine is not None:
-        changes.append(f"physics.engine={engine}")
+        changed.append(f"physics.engine={engine}")
     if resume is not None:
         given = {
             "TASK": task,
@@ -146,7 +148,7 @@ def solve(
             "--out": out,
             "--force": force or None,
             "--from": begin or None,
-            "--set, --trials, --optimizer or --engine": changes or None,
+            "--set, --trials, --optimizer or --engine": changed or None,
         }
         extra = [name for name, value in given.items() if value is not None]
         if extra:
@@ -159,7 +161,7 @@ def solve(
         task=task,
         robot=robot,
         seed=seed or 0,
-        changes=changes,
+        changes=changed,
         begin=begin or [],
         directory=out,
         resume_from=resume,
@@ -212,7 +214,7 @@ def bench(
     until: Annotated[
         str | None, typer.Option(help="When a run ends: success (and polished; the default) or budget.")
     ] = None,
-    change: Annotated[
+    changes: Annotated[
         list[str] | None, typer.Option("--set", metavar="PATH=VALUE", help="Change a value of every task. Repeatable.")
     ] = None,
     out: Annotated[Path, typer.Option(help="Directory to write, or to go on in.")] = Path("bench"),
@@ -240,7 +242,7 @@ def bench(
     return bench_and_report(
         file=plan,
         options=options,
-        changes=change or [],
+        changes=changes or [],
         add=add or [],
         directory=out,
         processes=processes,

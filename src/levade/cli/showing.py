@@ -51,7 +51,13 @@ def _reports(motions: Mapping[Path, Motion]) -> list[Path]:
     from levade.report.page import write_page
 
     return [
-        write_page(motion, report_path(path), progress_csv=progress_beside(path, motion), source=path.name)
+        write_page(
+            motion,
+            report_path(path),
+            progress_csv=progress_beside(path, motion),
+            source=path.name,
+            instead="write none: --no-report",
+        )
         for path, motion in motions.items()
     ]
 

@@ -46,7 +46,7 @@ def check(motion: Motion) -> None:
     try:
         import mcap.writer  # noqa: F401
     except ImportError:
-        raise LevadeError("--to ros2: a bag needs mcap; pip install levade[ros2], or take csv") from None
+        raise LevadeError("ros2: a bag needs mcap; pip install levade[ros2], or take csv", field="to") from None
 
 
 def write(content: Content, directory: Path) -> list[str]:

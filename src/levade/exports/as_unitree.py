@@ -33,15 +33,17 @@ def motors(motion: Motion) -> dict[str, str]:
     for leg in motion.legs:
         if len(leg.joints) != 3:
             raise LevadeError(
-                f"--to unitree: leg {leg.name} of {motion.robot} has {len(leg.joints)} joints; Unitree's legs have"
-                " three (hip, thigh, calf); take csv or json"
+                f"unitree: leg {leg.name} of {motion.robot} has {len(leg.joints)} joints; Unitree's legs have"
+                " three (hip, thigh, calf); take csv or json",
+                field="to",
             )
     for place, (end, side) in LEGS.items():
         fitting = [leg for leg in motion.legs if (leg.end, leg.side) == (end, side)]
         if len(fitting) != 1:
             raise LevadeError(
-                f"--to unitree: {motion.robot} has {len(fitting)} {end} {side} legs; Unitree's robots have one;"
-                " take csv or json"
+                f"unitree: {motion.robot} has {len(fitting)} {end} {side} legs; Unitree's robots have one;"
+                " take csv or json",
+                field="to",
             )
         order |= {f"{place}_{i}": joint for i, joint in enumerate(fitting[0].joints)}
     return order

@@ -75,7 +75,7 @@ def export(
     asked for, for the record. Raises LevadeError if the format does not exist or the motion does not fit into it.
     """
     if to not in FORMATS:
-        raise LevadeError(f"--to: no format {to!r}; {did_you_mean(to, FORMATS)}")
+        raise LevadeError(f"no format {to!r}; {did_you_mean(to, FORMATS)}", field="to")
     form = FORMATS[to]
     if form.check is not None:
         form.check(motion)

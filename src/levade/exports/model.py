@@ -29,7 +29,7 @@ def gains(model: mujoco.MjModel, joints: Sequence[str]) -> tuple[Array, Array]:
         elif kind == mujoco.mjtGain.mjGAIN_PID:
             kp[i], kd[i] = -model.actuator_biasprm[driving[0], [1, 2]]
         else:
-            raise LevadeError(f"motion: joint {name} has no single pid or dcmotor actuator; give its gains: --kp, --kd")
+            raise LevadeError(f"motion: joint {name} has no single pid or dcmotor actuator; give its gains, kp and kd")
     return kp, kd
 
 

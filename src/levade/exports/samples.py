@@ -119,14 +119,15 @@ def sample(
     Raises LevadeError for a rate that is none, gains that do not go with the reference, or a motion that broke down.
     """
     if reference not in REFERENCES:
-        raise LevadeError(f"--reference: no reference {reference!r}; {did_you_mean(reference, REFERENCES)}")
-    for option, gain in (("--kp", kp), ("--kd", kd)):
+        raise LevadeError(f"no reference {reference!r}; {did_you_mean(reference, REFERENCES)}", field="reference")
+    for field, gain in (("kp", kp), ("kd", kd)):
         if gain is not None and not (math.isfinite(gain) and gain >= 0):
-            raise LevadeError(f"{option} {gain}: should be a number that is not negative")
+            raise LevadeError(f"{gain} should be a number that is not negative", field=field)
         if gain is not None and reference == "commanded":
             raise LevadeError(
-                f"{option} {gain}: commanded references only make the motion with the gains of the simulation; leave it"
-                " out, or take --reference measured"
+                "commanded references only make the motion with the gains of the simulation; leave it out, or choose"
+                " the reference measured",
+                field=field,
             )
     if motion.result.diverged or not all(np.isfinite(v).all() for v in motion.arrays.values() if v.dtype.kind == "f"):
         raise LevadeError("motion: its simulation broke down, there is nothing to export; solve the task anew")
@@ -159,11 +160,12 @@ def sample(
 
 def _times(rate: float, end: float) -> Array:
     if not (math.isfinite(rate) and rate > 0):
-        raise LevadeError(f"--rate {rate}: should be a positive number of rows per second, such as 500")
+        raise LevadeError(f"{rate} should be a positive number of rows per second, such as 500", field="rate")
     rows = math.floor(end * rate * (1 + 1e-12)) + 1
     if not 2 <= rows <= _MOST:
         raise LevadeError(
-            f"--rate {rate:g}: gives {rows} row{'s' * (rows != 1)} for {end:g} s of motion; should be 2 to {_MOST}"
+            f"{rate:g} Hz gives {rows} row{'s' * (rows != 1)} for {end:g} s of motion; should be 2 to {_MOST}",
+            field="rate",
         )
     return np.arange(rows) / rate
 

@@ -47,14 +47,28 @@ _PAGE = """<!doctype html>
 
 
 def write_page(
-    motion: Motion, path: str | Path, *, progress_csv: str | Path | None = None, source: str | None = None
+    motion: Motion,
+    path: str | Path,
+    *,
+    progress_csv: str | Path | None = None,
+    source: str | None = None,
+    instead: str = "give another path",
 ) -> Path:
-    """Write a motion's page. Returns its path.
+    """Write a motion's page.
 
-    progress_csv: of the motion's search; without it there is no plot of the cost. source: the motion's file, as the
-    page should call it. Raises LevadeError if the file cannot be written, or is there and is no page of levade.
+    Args:
+        motion: The motion.
+        path: Where to write.
+        progress_csv: Progress of the motion's search; without it there is no plot of the cost.
+        source: The motion's file, as the page should call it.
+        instead: What else could be done, for the message of an error.
+
+    Returns:
+        The page's path.
+
+    Raises:
+        LevadeError: If the file cannot be written, or is there and is no page of levade.
     """
-    instead = "write none: --no-report"
     _check_replaceable(Path(path), instead)
     return save_page(page(motion, progress_csv=progress_csv, source=source), path, instead=instead)
 

@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import IO
 
 from levade.document import read_yaml
-from levade.errors import LevadeError
+from levade.errors import LevadeError, Remedy
 from levade.motions import Motion, versions
 from levade.search import checkpoint as checkpoints
 from levade.search.checkpoint import CHECKPOINT, Checkpoint, Header, LayoutError
@@ -40,6 +40,8 @@ TASK, MOTION = "task.yaml", "motion.npz"
 
 _SAVE_EVERY = 5.0
 """[s], between motions that are written on the way."""
+
+_REPLACE, _ELSEWHERE = Remedy("replace it", "replace"), Remedy("write elsewhere", "elsewhere")
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,7 +104,7 @@ def run(
                 directory.rmdir()
         raise LevadeError(f"{directory}: cannot be written ({error.strerror}); give another directory") from None
     with closing(file):
-        with storing(directory / MOTION, then="give another directory"):
+        with storing(directory / MOTION, then=Remedy("give another directory")):
             (directory / MOTION).unlink(missing_ok=True)  # only now: a full disk has not cost an earlier motion
         return _Run(objective, header, directory, file).go([], initial, observe, steer)
 
@@ -139,8 +141,8 @@ def resume(
             )
     if header.task_checksum != _checksum(task):
         raise LevadeError(
-            f"{directory / TASK}: has changed since the run began, so that it cannot go on; put it back, or start again:"
-            f" levade solve {directory / TASK} --force"
+            f"{directory / TASK}: has changed since the run began, so that it cannot go on",
+            remedies=(Remedy("put it back"), Remedy("start again", "solve again", directory / TASK)),
         )
     objective = objective or make_objective(task, threads=threads)
     initial = None if header.initial is None else InitialGuess.from_json(header.initial)
@@ -161,7 +163,7 @@ def read_run(directory: Path) -> tuple[Task, Checkpoint]:
     """
     if not (directory / CHECKPOINT).is_file() or not (directory / TASK).is_file():
         raise LevadeError(
-            f"{directory}: no run to resume, {TASK} or {CHECKPOINT} is missing; give the --out of a solve"
+            f"{directory}: no run to resume, {TASK} or {CHECKPOINT} is missing; give the directory of a run"
         )
     task = task_from_dict(read_yaml(directory / TASK), where=str(directory / TASK), code=True)
     return task, checkpoints.read(directory)
@@ -173,21 +175,21 @@ def check_replaceable(directory: Path) -> None:
         for name in (TASK, MOTION, PROGRESS):
             if (directory / name).exists():
                 raise LevadeError(
-                    f"{directory / name}: exists but does not belong to a run, and would be overwritten; write elsewhere:"
-                    " --out DIR, or replace it: --force"
+                    f"{directory / name}: exists but does not belong to a run, and would be overwritten",
+                    remedies=(_ELSEWHERE, _REPLACE),
                 )
     try:
         _, checkpoint = read_run(directory)
     except LayoutError as error:
         if error.finished:
             return
-        raise LevadeError(f"{error}; replace it: --force, or write elsewhere: --out DIR") from None
+        raise LevadeError(str(error), remedies=(_REPLACE, _ELSEWHERE)) from None
     except LevadeError:
         return
     if (checkpoint.records or checkpoint.damage) and not checkpoint.finished:
         raise LevadeError(
-            f"{directory}: holds an interrupted run (seed {checkpoint.header.seed}); go on with it:"
-            f" levade solve --resume {directory}, replace it: --force, or write elsewhere: --out DIR"
+            f"{directory}: holds an interrupted run (seed {checkpoint.header.seed})",
+            remedies=(Remedy("go on with it", "resume", directory), _REPLACE, _ELSEWHERE),
         )
 
 
@@ -196,7 +198,7 @@ class _Run:
 
     def __init__(self, objective: Objective, header: Header, directory: Path, file: IO[str]) -> None:
         self._objective, self._seed, self._directory, self._file = objective, header.seed, directory, file
-        self._room = f"make room, then: levade solve --resume {directory}"
+        self._room = Remedy("make room, then go on", "resume", directory)
         self._saved = time.perf_counter()
         self._best: Trial | None = None
 
@@ -213,7 +215,7 @@ class _Run:
             progress = Progress(objective.task, directory)
 
         def watch(generation: Generation) -> Stopped | None:
-            with storing(directory, then=f"{generation.trials} trials are kept; {self._room}"):
+            with storing(directory, then=self._room, kept=f"{generation.trials} trials are kept"):
                 progress.write(generation)
                 self._save_interim(generation)
             return None if observe is None else observe(generation)

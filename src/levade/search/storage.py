@@ -7,7 +7,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import IO
 
-from levade.errors import LevadeError
+from levade.errors import LevadeError, Remedy
 
 
 class StorageError(LevadeError):
@@ -36,14 +36,16 @@ def closing(file: IO[str]) -> Iterator[None]:
 
 
 @contextmanager
-def storing(path: Path, *, then: str) -> Iterator[None]:
+def storing(path: Path, *, then: Remedy, kept: str = "") -> Iterator[None]:
     """Turn an OSError into a `StorageError` that names the path and says what to do.
 
     Args:
         path: What is written.
-        then: What to do about it, such as "make room, then resume".
+        then: What to do about it.
+        kept: What is not lost, for the message, such as "90 trials are kept".
     """
     try:
         yield
     except OSError as error:
-        raise StorageError(f"{path}: cannot be written ({error.strerror}); {then}") from None
+        what = f"{path}: cannot be written ({error.strerror}){kept and f'; {kept}'}"
+        raise StorageError(what, remedies=(then,)) from None

@@ -162,17 +162,20 @@ def _check(simulation: RecordedSimulation, rate: float, bound: float, runs: int)
     if not simulation.criteria:
         raise LevadeError(f"stabilise: the task {simulation.task.name} has no success criteria to choose by")
     if not (math.isfinite(rate) and 1.0 <= rate <= 1.0001 / simulation.timestep):
-        raise LevadeError(f"--rate {rate:g}: should be 1 to {1 / simulation.timestep:g} Hz, one measurement a step")
+        raise LevadeError(
+            f"{rate:g} should be 1 to {1 / simulation.timestep:g} Hz, one measurement a step", field="rate"
+        )
     slowest = 1.0 / (motion.horizon_steps * simulation.timestep)
     if rate < slowest:
         raise LevadeError(
-            f"--rate {rate:g}: no measurement within the motion's {1 / slowest:g} s; should be {slowest:.3g} Hz at least,"
-            " 250 is usual"
+            f"{rate:g} Hz has no measurement within the motion's {1 / slowest:g} s; should be {slowest:.3g} Hz at least,"
+            " 250 is usual",
+            field="rate",
         )
     if not (math.isfinite(bound) and 0.0 < bound <= 2.0):
-        raise LevadeError(f"--bound {bound:g}: should be more than 0 and at most 2 rad; 0.5 is usual")
+        raise LevadeError(f"{bound:g} should be more than 0 and at most 2 rad; 0.5 is usual", field="bound")
     if not 8 <= runs <= 100_000:
-        raise LevadeError(f"--runs {runs}: should be 8 to 100000; 96 is usual")
+        raise LevadeError(f"{runs} should be 8 to 100000; 96 is usual", field="runs")
 
 
 def _size(simulation: RecordedSimulation) -> float:

@@ -122,22 +122,25 @@ def _other_robot(content: Any, name: str | None, changes: Sequence[str], *, wher
     table: dict[str, Any] = {"robot": dataclasses.asdict(choice)}
     for change in changes:
         _apply(table, change)
-    with _set():
-        return dataclasses.asdict(build(RobotChoice, table["robot"], where="--set.robot"))
+    with _changing():
+        return dataclasses.asdict(build(RobotChoice, table["robot"], where=f"{_CHANGES}.robot"))
 
 
 def _changed(content: Mapping[str, Any]) -> Task:
-    with _set():
-        return task_from_dict(content, where="--set")
+    with _changing():
+        return task_from_dict(content, where=_CHANGES)
+
+
+_CHANGES = "changes"
 
 
 @contextmanager
-def _set() -> Iterator[None]:
-    """Errors about values that ``--set`` gave."""
+def _changing() -> Iterator[None]:
+    """Make errors about values that a change gave speak of the field ``changes``."""
     try:
         yield
     except LevadeError as error:
-        raise LevadeError(f"--set {str(error).removeprefix('--set').lstrip('.: ')}") from None
+        raise LevadeError(str(error).removeprefix(_CHANGES).lstrip(".: "), field=_CHANGES) from None
 
 
 def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False, robot: Robot | None = None) -> Task:
@@ -383,8 +386,9 @@ def _apply(content: dict[str, Any], change: str) -> None:
     """Change the value at a path of nested tables and lists."""
     path, equals, text = change.partition("=")
     if not equals:
-        raise LevadeError(f"--set {change}: should be path=value, such as horizon=0.4")
-    value = parse_yaml(text, where=f"--set {path}")
+        raise LevadeError(f"{change}: should be path=value, such as horizon=0.4", field=_CHANGES)
+    with _changing():
+        value = parse_yaml(text, where=f"{_CHANGES}.{path}")
     *parents, last = path.split(".")
     at: Any = content
     for i, key in enumerate([*parents, last]):
@@ -394,8 +398,8 @@ def _apply(content: dict[str, Any], change: str) -> None:
             place = ".".join(parents[:i]) or "the task"
             if not keys:
                 what = "empty" if isinstance(at, (dict, list)) else f"a single value, {kind_of(at)}"
-                raise LevadeError(f"--set {path}: {place} is {what}; set it as a whole")
-            raise LevadeError(f"--set {path}: no {key!r} in {place}; {did_you_mean(key, keys)}")
+                raise LevadeError(f"{path}: {place} is {what}; set it as a whole", field=_CHANGES)
+            raise LevadeError(f"{path}: no {key!r} in {place}; {did_you_mean(key, keys)}", field=_CHANGES)
         index: Any = int(key) if isinstance(at, list) else key
         if i == len(parents):
             at[index] = value

@@ -1,0 +1,63 @@
+"""Library errors speak of fields and of plain actions; here they are told in options and commands."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Sequence
+
+import typer
+
+from levade.errors import LevadeError, Remedy
+
+ACTIONS = {
+    "resume": "levade solve --resume {at}",
+    "solve again": "levade solve {at} --force",
+    "replace": "--force",
+    "elsewhere": "--out DIR",
+    "name tasks": "--tasks rearing",
+    "give a plan": "levade bench FILE",
+}
+"""`levade.errors.Remedy.action` -> what to type. ``{at}`` is the file or directory that it is done to."""
+
+
+def in_flags(error: LevadeError, app: typer.Typer, arguments: Sequence[str]) -> str:
+    """Say an error in the words of the command line.
+
+    Args:
+        error: The error. Its field becomes the option whose parameter has the same name; other fields stay as they are.
+        app: The command line.
+        arguments: Its arguments, which name the command.
+
+    Returns:
+        The message.
+    """
+    *most, last = [_typed(remedy) for remedy in error.remedies] or [""]
+    what = f"{', '.join(most)}, or {last}" if most else last
+    return f"{_begin(error.field, app, arguments)}{error.message}{what and f'; {what}'}"
+
+
+def _begin(field: str | None, app: typer.Typer, arguments: Sequence[str]) -> str:
+    if field is None:
+        return ""
+    for parameter in _command(app, arguments).params:
+        option = max(parameter.opts, key=len, default="")
+        if parameter.name == field and option.startswith("--"):
+            # one that can be repeated is followed by which of its values is wrong: --set horizon
+            return f"{option} " if getattr(parameter, "multiple", False) else f"{option}: "
+    return f"{field}: "
+
+
+def _command(app: typer.Typer, arguments: Sequence[str]):
+    """The command that the arguments name, such as ``tasks show``."""
+    command = typer.main.get_command(app)
+    for word in arguments:
+        if word not in getattr(command, "commands", {}):
+            break
+        command = command.commands[word]  # type: ignore[attr-defined]
+    return command
+
+
+def _typed(remedy: Remedy) -> str:
+    if remedy.action is None:
+        return remedy.words
+    return f"{remedy.words}: {ACTIONS[remedy.action].format(at=shlex.quote(str(remedy.at)))}"

@@ -1,0 +1,66 @@
+"""Errors of the library speak of fields and of plain actions."""
+
+from __future__ import annotations
+
+import ast
+import copy
+import pickle
+import re
+from pathlib import Path
+
+import pytest
+
+import levade
+from levade.errors import LevadeError, Remedy
+
+SOURCE = Path(levade.__file__).parent
+OPTION = re.compile(r"(^|[\s(\"'`])--[a-z]|\blevade [a-z]+ (\w+ )*--")
+NOT_OURS = {("robots/packages.py", "--no-deps ")}
+"""Options of pip."""
+COMMANDS = {("report/summary.py", "--seed"), ("report/summary.py", " --from MOTION"), ("viewer/still.py", "--watch")}
+"""Words of the command that a page shows to copy."""
+
+
+def messages(path: Path) -> list[str]:
+    """Every string of a module that is no docstring."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    alone = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+    return [
+        node.value
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in alone
+    ]
+
+
+def test_only_the_command_line_speaks_of_its_options() -> None:
+    found = {
+        (str(path.relative_to(SOURCE).as_posix()), text)
+        for path in SOURCE.rglob("*.py")
+        if "cli" not in path.relative_to(SOURCE).parts and path != SOURCE / "exports" / "player.py"
+        for text in messages(path)
+        if OPTION.search(text)
+    }
+    assert found == NOT_OURS | COMMANDS
+
+
+@pytest.mark.parametrize(
+    ("error", "text"),
+    [
+        (LevadeError("motion.npz: no such file"), "motion.npz: no such file"),
+        (LevadeError("0 should be more than 0", field="rate"), "rate: 0 should be more than 0"),
+        (LevadeError("there: exists", remedies=[Remedy("replace it", "replace")]), "there: exists; replace it"),
+        (
+            LevadeError("exists", field="out", remedies=[Remedy("go on"), Remedy("move it"), Remedy("delete it")]),
+            "out: exists; go on, move it or delete it",
+        ),
+    ],
+)
+def test_an_error_is_field_message_and_remedies(error: LevadeError, text: str) -> None:
+    assert str(error) == text
+
+
+def test_an_error_survives_the_way_between_processes() -> None:
+    error = LevadeError("exists", field="out", remedies=[Remedy("go on with it", "resume", Path("run"))])
+    for same in (pickle.loads(pickle.dumps(error)), copy.copy(error)):
+        assert (same.message, same.field, same.remedies) == (error.message, error.field, error.remedies)
+        assert str(same) == "out: exists; go on with it"
