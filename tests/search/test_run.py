@@ -298,7 +298,9 @@ def test_a_task_that_was_changed_in_between_is_refused(objective: Objective, tmp
     text = (tmp_path / TASK).read_text()
     assert "weight: 0.1" in text
     (tmp_path / TASK).write_text(text.replace("weight: 0.1", "weight: 0.2"))
-    with pytest.raises(LevadeError, match=r"task.yaml: has changed since the run began, .* start again: levade solve"):
+    with pytest.raises(
+        LevadeError, match=r"task.yaml: has changed since the run began, .*; put it back or start again"
+    ):
         resume(tmp_path)
     (tmp_path / TASK).write_text("horizon: [")
     with pytest.raises(LevadeError, match=r"task.yaml: not YAML"):
@@ -323,7 +325,9 @@ def test_there_has_to_be_a_run(tmp_path: Path, whole: Outcome) -> None:
         resume(whole.directory / MOTION)
 
 
-def test_an_interrupted_run_is_not_replaced_unasked(objective: Objective, whole: Outcome, tmp_path: Path) -> None:
+def test_an_interrupted_run_is_not_replaced_unasked(
+    objective: Objective, whole: Outcome, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     check_replaceable(tmp_path / "new")
     check_replaceable(whole.directory)  # finished: solving again replaces it
     run(objective, seed=3, directory=tmp_path, observe=stop_after(3))
@@ -331,6 +335,12 @@ def test_an_interrupted_run_is_not_replaced_unasked(objective: Objective, whole:
         LevadeError, match=r"holds an interrupted run \(seed 3\); go on with it, replace it or write elsewhere"
     ):
         check_replaceable(tmp_path)
+    with pytest.raises(SystemExit):
+        main(["solve", "rearing", "--out", str(tmp_path)])
+    assert capsys.readouterr().err == (
+        f"levade: {tmp_path}: holds an interrupted run (seed 3); go on with it: levade solve --resume {tmp_path},"
+        " replace it: --force, or write elsewhere: --out DIR\n"
+    )
 
 
 def test_an_interrupted_run_of_an_earlier_levade_is_not_replaced_unasked(objective: Objective, tmp_path: Path) -> None:
