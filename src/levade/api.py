@@ -78,20 +78,27 @@ class Result:
         return f"Result({'success' if self.success else 'no success'} {found}, {self.motion!r})"
 
 
-def load_robot(robot: RobotLike, **options: Any) -> Robot:
+def load_robot(robot: RobotLike, *, like: str | Path | Robot | None = None, **options: Any) -> Robot:
     """Load a robot.
 
     Args:
         robot: A built-in robot's name, ``package:robot``, the path of an MJCF, URDF or robot.yaml, or a `mujoco.MjSpec`. A
             `Robot` is returned as it is.
-        **options: As `levade.robots.load_robot` takes them for a name or a path: actuation, variant, linkage, kp, kd.
+        like: For a `mujoco.MjSpec` that is a changed `levade.Robot.spec`: the robot that it was. Its legs, limits, gains and
+            postures are kept. A spec on its own is understood as a file is.
+        **options: As `levade.robots.load_robot` takes them for a name or a path: actuation, variant, linkage, kp, kd. For a
+            `mujoco.MjSpec`: name.
 
     Raises:
         LevadeError: If it is not there, or not understood.
     """
     if isinstance(robot, Robot):
         return robot
-    return robot_of_spec(robot) if isinstance(robot, mujoco.MjSpec) else load_robot_file(robot, **options)
+    if isinstance(robot, mujoco.MjSpec):
+        return robot_of_spec(robot, like=None if like is None else load_robot(like), **options)
+    if like is not None:
+        raise LevadeError("robot: like goes with a mujoco.MjSpec; leave it out for a name or a file")
+    return load_robot_file(robot, **options)
 
 
 def solve(
@@ -143,6 +150,7 @@ def solve_many(
     *,
     seeds: Sequence[int] | None = None,
     robot: RobotLike | None = None,
+    trials: int | None = None,
     initial: Sequence[Initial | None] | None = None,
     threads: int = 0,
 ) -> list[Result]:
@@ -153,6 +161,7 @@ def solve_many(
             do equal tasks.
         seeds: Seed of each. Defaults to 0, 1, 2, ...
         robot: Another robot than the tasks'.
+        trials: Another budget than the tasks'. Objectives keep theirs.
         initial: What each begins around, if anything.
         threads: Engine threads; 0 for one per core.
 
@@ -166,7 +175,7 @@ def solve_many(
     objectives = []
     for task in tasks:
         if not isinstance(task, Objective):
-            task = known.get(id(task)) or known.setdefault(id(task), _objective(task, robot, threads=threads))
+            task = known.get(id(task)) or known.setdefault(id(task), _objective(task, robot, trials=trials, threads=threads))
         objectives.append(task)
     numbers = list(range(len(objectives))) if seeds is None else list(seeds)
     guesses = [

@@ -107,12 +107,14 @@ class Motion:
         model_xml: The model's MJCF, robot and scene.
         arrays: Name -> array, see `levade.motions.ARRAYS`; rows as in `levade.trajectory`.
         assets: Files that the model needs, by name.
+        source_task: The task that the search had, with its Python code. Not saved: a motion from a file has None.
     """
 
     meta: Mapping[str, Any]
     model_xml: str
     arrays: Mapping[str, Array]
     assets: Mapping[str, bytes]
+    source_task: Task | None = None
 
     @classmethod
     def load(cls, path: str | Path) -> Motion:
@@ -143,10 +145,14 @@ class Motion:
 
     @cached_property
     def task(self) -> Task:
-        """The task, with every default filled in. A cost that was Python code is a `levade.tasks.code.MissingCode`.
+        """The task, with every default filled in: `source_task`, or what the file says.
+
+        In a task from a file, a cost that was Python code is a `levade.tasks.code.MissingCode`.
 
         Raises LevadeError if this version of levade does not take it.
         """
+        if self.source_task is not None:
+            return self.source_task
         return task_from_dict(self.meta["task"], where="the motion's task", code=True)
 
     @property
@@ -340,4 +346,4 @@ class Motion:
                 "sensed": sensed_names(self.joint_names),
                 **about,
             }
-        return Motion(meta, self.model_xml, arrays, self.assets)
+        return Motion(meta, self.model_xml, arrays, self.assets, self.source_task)

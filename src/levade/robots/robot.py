@@ -28,7 +28,7 @@ from levade.robots.shapes import support
 from levade.robots.understanding import Leg
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Robot:
     """A legged robot, ready to be put into a scene.
 
@@ -44,8 +44,8 @@ class Robot:
     """
 
     name: str
-    mjcf: str = field(repr=False)
-    assets: Mapping[str, bytes] = field(repr=False)
+    mjcf: str
+    assets: Mapping[str, bytes]
     trunk: str
     legs: tuple[Leg, ...]
     limits: JointLimits
@@ -56,9 +56,13 @@ class Robot:
     linkage: bool = False
     source: str = ""
     findings: tuple[Finding, ...] = ()
-    origins: Mapping[str, str] = field(default_factory=dict, repr=False)
-    held: Mapping[str, float] = field(default_factory=dict, repr=False)
+    origins: Mapping[str, str] = field(default_factory=dict)
+    held: Mapping[str, float] = field(default_factory=dict)
     model_joints: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        legs = ", ".join(leg.name for leg in self.legs)
+        return f"Robot({self.name}: {len(self.joint_names)} joints, legs {legs})"
 
     @property
     def joint_names(self) -> tuple[str, ...]:

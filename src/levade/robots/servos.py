@@ -28,7 +28,7 @@ def read_servos(model: mujoco.MjModel) -> dict[str, Servo]:
     other actuators only the limit counts.
     """
     servos: dict[str, Servo] = {}
-    for i in range(model.nu):
+    for i in range(model.nactuator):  # an actuator may take several controls: nu is the number of these
         kind = int(model.actuator_trntype[i])
         if kind not in (int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT)):
             continue
@@ -36,6 +36,7 @@ def read_servos(model: mujoco.MjModel) -> dict[str, Servo]:
         if model.jnt_type[joint] != mujoco.mjtJoint.mjJNT_HINGE:
             continue
         name = model.joint(joint).name
+        control = int(model.actuator_ctrladr[i])
         gear = abs(float(model.actuator_gear[i, 0]))
         limits = []
         if model.actuator_forcelimited[i]:
@@ -48,8 +49,8 @@ def read_servos(model: mujoco.MjModel) -> dict[str, Servo]:
         kp = kd = None
         if fixed and affine and gain[0] > 0 and math.isclose(gain[0], -bias[1], rel_tol=1e-9):
             kp, kd = float(gain[0]) * gear**2, float(-bias[2]) * gear**2
-        elif fixed and not affine and model.actuator_ctrllimited[i]:  # a motor: its command is its force
-            limits.append(gear * float(gain[0]) * float(abs(model.actuator_ctrlrange[i]).min()))
+        elif fixed and not affine and model.actuator_ctrllimited[control]:  # a motor: its command is its force
+            limits.append(gear * float(gain[0]) * float(abs(model.actuator_ctrlrange[control]).min()))
         positive = [limit for limit in limits if limit > 0]
         servos[name] = Servo(min(positive, default=math.inf), kp, kd)
     for joint in range(model.njnt):

@@ -74,4 +74,4 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
         "stopped": str(solution.stopped),
     }
     arrays = {name: np.ascontiguousarray(arrays[name]).copy() for name in (*ARRAYS, *LATER_ARRAYS)}
-    return Motion(meta, engine.xml, arrays, dict(engine.assets))
+    return Motion(meta, engine.xml, arrays, dict(engine.assets), task)
