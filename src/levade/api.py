@@ -175,7 +175,9 @@ def solve_many(
     objectives = []
     for task in tasks:
         if not isinstance(task, Objective):
-            task = known.get(id(task)) or known.setdefault(id(task), _objective(task, robot, trials=trials, threads=threads))
+            task = known.get(id(task)) or known.setdefault(
+                id(task), _objective(task, robot, trials=trials, threads=threads)
+            )
         objectives.append(task)
     numbers = list(range(len(objectives))) if seeds is None else list(seeds)
     guesses = [
