@@ -18,7 +18,9 @@ parser.add_argument("--trials", type=int, default=1200)
 options = parser.parse_args()
 if options.motion is None:
     options.motion = "replay/motion.npz"
-    subprocess.run([sys.executable, "-m", "levade", "solve", "rearing", "--trials", str(options.trials), "--out", "replay"])
+    subprocess.run(
+        [sys.executable, "-m", "levade", "solve", "rearing", "--trials", str(options.trials), "--out", "replay"]
+    )
 
 data = np.load(options.motion)
 assets = {name[6:]: data[name].tobytes() for name in data if name.startswith("asset:")}

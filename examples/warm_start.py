@@ -11,7 +11,12 @@ trials = parser.parse_args().trials
 steep = levade.solve("rearing", trials=trials)
 print("-60 degrees:", steep)
 
-flatter = ["costs.orientation.pitch=-0.9", "success.pitch.target=-0.9", "costs.position.z=0.85", "success.height.target=0.85"]
+flatter = [
+    "costs.orientation.pitch=-0.9",
+    "success.pitch.target=-0.9",
+    "costs.position.z=0.85",
+    "success.height.target=0.85",
+]
 task = levade.load_task("rearing", changes=flatter)
 cold = levade.solve(task, trials=trials)
 warm = levade.solve(task, trials=trials, initial=steep.motion)
