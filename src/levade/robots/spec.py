@@ -58,7 +58,9 @@ def _changed(robot: Robot, name: str, model: mujoco.MjModel, text: str, assets: 
     ):
         for one in wanted:
             if mujoco.mj_name2id(model, find, one) < 0:
-                raise LevadeError(f"robot {name}: no {kind} {one!r}, which {robot.name} has; load the spec on its own instead")
+                raise LevadeError(
+                    f"robot {name}: no {kind} {one!r}, which {robot.name} has; load the spec on its own instead"
+                )
     moved = [i for i in range(model.njnt) if model.jnt_type[i] != mujoco.mjtJoint.mjJNT_FREE]
     extra = sorted({model.joint(i).name for i in moved} - set(robot.joint_names))
     if extra:
