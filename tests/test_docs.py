@@ -33,10 +33,17 @@ def test_the_documentation_lists_every_term() -> None:
     assert [term for term in TERMS if f"`{term}`" not in text] == []
 
 
-def test_the_python_example_of_the_readme_runs(capsys: pytest.CaptureFixture[str]) -> None:
-    code = block("README.md", "python", "from levade.search import")
-    exec(compile(code, "README.md", "exec"), {})
-    assert capsys.readouterr().out.startswith("True ")
+@pytest.mark.slow
+def test_the_python_example_of_the_readme_runs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    exec(compile(block("README.md", "python", "import levade"), "README.md", "exec"), {})
+    first, shape, second = capsys.readouterr().out.splitlines()
+    assert first.startswith("True {'pitch': ")
+    assert shape == "(150, 12)"
+    assert second.startswith("Result(success at trial ")
+    assert (tmp_path / "rearing.npz").is_file()
 
 
 def test_the_replay_of_the_documentation_gives_the_motion_in_the_file(
@@ -78,13 +85,16 @@ def follow(document: str, folder: Path) -> None:
             exec(compile(code, document, "exec"), scope)
 
 
+@pytest.mark.slow
 def test_your_task_step_by_step(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
     follow("docs/your-task.md", tmp_path)
     assert capsys.readouterr().out.startswith("True ")
-    assert {"mine.yaml", "task.schema.json", "bow", "bow-outdoors"} <= {path.name for path in tmp_path.iterdir()}
+    assert {"mine.yaml", "task.schema.json", "bow", "bow-outdoors", "gentle.npz", "gentle.html"} <= {
+        path.name for path in tmp_path.iterdir()
+    }
 
 
 def test_your_robot_step_by_step(

@@ -24,6 +24,7 @@ from levade.arrays import Array
 from levade.engines import ENGINES, EngineKind
 from levade.errors import LevadeError
 from levade.motions import Motion
+from levade.optimizers import can_restart
 from levade.robots import Robot, robot_of_spec
 from levade.robots import load_robot as load_robot_file
 from levade.search import InitialGuess, Objective, Solution, make_objective
@@ -122,7 +123,7 @@ def solve(
         seed: Seed of all random numbers. The same task, seed and versions give the same motion.
         robot: Another robot than the task's.
         optimizer: Another optimizer than the task's: a name; a class or function ``(space, *, seed)``; or an object with
-            ``ask`` and ``tell``. See `levade.optimizers.protocol`.
+            ``ask`` and ``tell``, with which the search makes one attempt only. See `levade.optimizers.protocol`.
         policy: A policy of one's own, or a function that makes one. See `levade.policies.JointPolicy`.
         engine: Another engine than the task's: a name, or a row for the table `levade.engines.ENGINES`.
         trials: Another budget than the task's.
@@ -283,6 +284,8 @@ def _objective(
     changes: dict[str, Any] = {} if trials is None else {"trials": trials}
     if optimizer is not None:
         changes |= {"optimizer": optimizer, "settings": {}}
+        if not can_restart(optimizer):
+            changes["restart"] = None
     if changes:
         task = replace(task, search=replace(task.search, **changes))
     if engine is not None:
