@@ -23,6 +23,7 @@ def block(document: str, language: str, containing: str) -> str:
     return next(found for found in blocks if containing in found)
 
 
+@pytest.mark.slow
 def test_the_task_in_the_documentation_is_solved() -> None:
     task = task_from_dict(yaml.safe_load(block("docs/tasks.md", "yaml", "kneel")), where="docs/tasks.md")
     assert solve(make_objective(task), seed=0).success
@@ -33,6 +34,7 @@ def test_the_documentation_lists_every_term() -> None:
     assert [term for term in TERMS if f"`{term}`" not in text] == []
 
 
+@pytest.mark.slow
 def test_the_python_example_of_the_readme_runs(capsys: pytest.CaptureFixture[str]) -> None:
     code = block("README.md", "python", "from levade.search import")
     exec(compile(code, "README.md", "exec"), {})
@@ -78,6 +80,7 @@ def follow(document: str, folder: Path) -> None:
             exec(compile(code, document, "exec"), scope)
 
 
+@pytest.mark.slow
 def test_your_task_step_by_step(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -87,6 +90,7 @@ def test_your_task_step_by_step(
     assert {"mine.yaml", "task.schema.json", "bow", "bow-outdoors"} <= {path.name for path in tmp_path.iterdir()}
 
 
+@pytest.mark.slow
 def test_your_robot_step_by_step(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
