@@ -107,7 +107,7 @@ class Motion:
         model_xml: The model's MJCF, robot and scene.
         arrays: Name -> array, see `levade.motions.ARRAYS`; rows as in `levade.trajectory`.
         assets: Files that the model needs, by name.
-        source_task: The task that the search had, with its Python code. Not saved: a motion from a file has None.
+        source_task: The task that the search had, if it holds Python code, which no file does. None otherwise.
     """
 
     meta: Mapping[str, Any]

@@ -14,7 +14,7 @@ from levade.motions.facts import robot_facts
 from levade.policies import Policy, policy_to_dict
 from levade.search.objective import Objective
 from levade.search.outcome import Solution
-from levade.tasks import task_to_dict
+from levade.tasks import holds_code, task_to_dict
 
 
 def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
@@ -74,4 +74,4 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
         "stopped": str(solution.stopped),
     }
     arrays = {name: np.ascontiguousarray(arrays[name]).copy() for name in (*ARRAYS, *LATER_ARRAYS)}
-    return Motion(meta, engine.xml, arrays, dict(engine.assets), task)
+    return Motion(meta, engine.xml, arrays, dict(engine.assets), task if holds_code(task) else None)

@@ -7,6 +7,7 @@ task = load_task("my-task.yaml", robot="my/robot.yaml")
 from levade.tasks.document import (
     TERMS,
     builtin_tasks,
+    holds_code,
     load_task,
     task_checksum,
     task_from_dict,
@@ -32,6 +33,7 @@ __all__ = [
     "StartChoice",
     "Task",
     "builtin_tasks",
+    "holds_code",
     "load_task",
     "looks_at_hold",
     "task_checksum",

@@ -306,6 +306,13 @@ def task_to_dict(task: Task, *, code: bool = False) -> dict[str, Any]:
     return {key: content[key] for key in _ORDER}
 
 
+def holds_code(task: Task) -> bool:
+    """Whether a task has a cost, a measure or an optimizer that is Python code, which a file cannot hold."""
+    content = task_to_dict(task, code=True)
+    tables = [*content["costs"].values(), *content["success"].values(), content["search"]["optimizer"]]
+    return any(isinstance(table, Mapping) and KEY in table for table in tables)
+
+
 def task_to_yaml(task: Task, *, code: bool = False) -> str:
     """Write the text of a task file with every default filled in. code: as in `task_to_dict`."""
     return _yaml(task_to_dict(task, code=code))
