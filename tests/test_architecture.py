@@ -129,6 +129,7 @@ def test_a_format_writes_its_file(example) -> None:
     assert angles.shape == (76, 12)  # 0.3 s at 250 Hz
 
 
+@pytest.mark.slow
 def test_the_task_is_solved(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from levade.cli import main
 

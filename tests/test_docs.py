@@ -23,6 +23,7 @@ def block(document: str, language: str, containing: str) -> str:
     return next(found for found in blocks if containing in found)
 
 
+@pytest.mark.slow
 def test_the_task_in_the_documentation_is_solved() -> None:
     task = task_from_dict(yaml.safe_load(block("docs/tasks.md", "yaml", "kneel")), where="docs/tasks.md")
     assert solve(make_objective(task), seed=0).success
@@ -97,6 +98,7 @@ def test_your_task_step_by_step(
     }
 
 
+@pytest.mark.slow
 def test_your_robot_step_by_step(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

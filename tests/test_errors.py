@@ -32,6 +32,7 @@ def messages(path: Path) -> list[str]:
     ]
 
 
+@pytest.mark.slow
 def test_only_the_command_line_speaks_of_its_options() -> None:
     found = {
         (str(path.relative_to(SOURCE).as_posix()), text)

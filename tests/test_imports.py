@@ -19,6 +19,7 @@ def test_help_and_version_need_neither_physics_nor_arrays() -> None:
     assert not loaded("import levade.cli") & {"numpy", "mujoco", "cma", "yaml"}
 
 
+@pytest.mark.slow
 def test_a_solve_needs_no_figures() -> None:
     """cma imports pyplot where it is installed, which takes longer than everything else together."""
     pytest.importorskip("matplotlib")
@@ -27,6 +28,7 @@ def test_a_solve_needs_no_figures() -> None:
     assert not needed & {"matplotlib", "matplotlib.pyplot", "scipy", "pyarrow", "PIL", "trimesh"}
 
 
+@pytest.mark.slow
 def test_figures_can_be_made_after_it() -> None:
     pytest.importorskip("matplotlib")
     assert "matplotlib.pyplot" in loaded("import levade.optimizers; from matplotlib import pyplot")

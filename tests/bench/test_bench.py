@@ -37,6 +37,7 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[Result]]
     return directory, done.results
 
 
+@pytest.mark.slow
 def test_a_result_is_what_the_solve_says(whole: tuple[Path, list[Result]]) -> None:
     directory, results = whole
     assert read(directory / RESULTS) == results
@@ -124,6 +125,7 @@ def easy(**changes: object) -> Plan:
 STAGES = [{"name": "full"}]
 
 
+@pytest.mark.slow
 def test_spent_to_success_is_counted_in_whole_generations() -> None:
     """Every trial succeeds: the first generation does, and polishing spends more."""
     (case,) = cases(easy(**{"search.polish": 16, "stages": STAGES}))

@@ -93,6 +93,7 @@ def test_a_peer_spends_its_budget_in_whole_generations(case: ModuleType, job, tm
         case.checked(dataclasses.replace(mine, budget=21), {result.key: result})
 
 
+@pytest.mark.slow
 def test_it_stops_at_success_unless_told_to_go_on(case: ModuleType, job) -> None:
     easy = ("success.pitch.tolerance=9", "success.height.tolerance=9")
     result = case.run_job(job(changes=easy))

@@ -38,6 +38,7 @@ def test_the_page_has_every_demand_and_every_key_of_robust() -> None:
     assert f"first: {Racing().first}, keep: {Racing().keep:g}" in PAGE
 
 
+@pytest.mark.slow
 def test_the_page_is_what_the_script_writes(robust: ModuleType) -> None:
     """But for the line about the machine."""
     rows = robust.kept()

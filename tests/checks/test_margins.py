@@ -27,6 +27,7 @@ def test_a_robot_that_stands_is_within_all_its_limits(standing: Motion) -> None:
     assert failed(standing) == {}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("joint", [0, 4, 11])
 @pytest.mark.parametrize("sign", [-1, 1])
 def test_a_joint_pushed_one_percent_over_its_torque_limit_fails_and_is_named(

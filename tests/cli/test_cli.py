@@ -209,6 +209,7 @@ def test_odd_names_are_printed_as_they_are(levade) -> None:
     assert "Written: out[bold]/motion.npz" in out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("extra", [LOOSE, []])
 def test_show(levade, extra: list[str]) -> None:
     solved = levade("solve", "rearing", "--seed", "2", *QUICK, *extra)[0]

@@ -15,6 +15,7 @@ def motion(unmet: Path) -> Path:
     return unmet / "motion.npz"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("to", FORMATS)
 def test_it_prints_what_was_written(motion: Path, tmp_path: Path, levade, to: str) -> None:
     if to == "ros2":

@@ -52,6 +52,7 @@ def test_every_remedy_of_the_library_can_be_typed() -> None:
     assert used == set(ACTIONS)
 
 
+@pytest.mark.slow
 def test_every_field_of_the_library_is_an_option() -> None:
     """Of some command: else nobody who types commands can find it."""
     fields = set()

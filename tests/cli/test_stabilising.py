@@ -24,6 +24,7 @@ def motion(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
+@pytest.mark.golden
 @pytest.mark.slow
 def test_it_writes_a_motion_that_a_check_knows_as_stabilised(motion: Path, levade) -> None:
     code, out, err = levade("stabilise", str(motion), "--runs", "32", "--json")
@@ -41,6 +42,7 @@ def test_it_writes_a_motion_that_a_check_knows_as_stabilised(motion: Path, levad
     assert "without the stabiliser" in out
 
 
+@pytest.mark.golden
 @pytest.mark.slow
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_search_that_is_stopped_keeps_its_best(motion: Path, tmp_path: Path, process, number: signal.Signals) -> None:

@@ -123,6 +123,7 @@ def test_friction_is_what_slows_the_sliding_robot(boxed: Engine, state: State) -
         assert -force[:, 0].sum() / force[:, 2].sum() == pytest.approx(factor * own, rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [one.name for one in fields(Perturbation)])
 def test_every_parameter_changes_the_motion(
     name: str, boxed: Engine, state: State, wave: Callable[..., JointReference]

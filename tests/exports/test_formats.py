@@ -308,6 +308,7 @@ def arm_and_wheels() -> Motion:
 HELD = {"arm_yaw": 0.4, "arm_pitch": -0.5, "RR_wheelj": 0.0, "FL_wheelj": 0.0, "RL_wheelj": 0.0, "FR_wheelj": 0.0}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("to", ["csv", "json", "mjlab", "unitree"])
 def test_joints_that_are_held_are_named(arm_and_wheels: Motion, tmp_path: Path, to: str) -> None:
     notes = export(arm_and_wheels, to, tmp_path).notes

@@ -105,6 +105,7 @@ def test_after_the_ramp_the_goal_is_reached(rearing: Motion, tmp_path: Path, ref
     assert worst < 0.3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rate", [500.0, 1000.0])
 def test_measured_references_reach_the_goal_on_other_drives_and_commanded_ones_do_not(
     rearing: Motion, tmp_path: Path, rate: float
@@ -343,6 +344,7 @@ def test_a_drive_that_knows_no_gains_but_its_own_stays_where_it_is_when_stopped(
     assert np.abs(height - height[100]).max() < 0.03  # at the zero pose legs are straight: 0.3 m higher
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP", "SIGINT"])
 def test_told_to_end_it_leaves_drives_that_damp(rearing: Motion, tmp_path: Path, name: str) -> None:
     export(rearing, "csv", tmp_path)
@@ -393,6 +395,7 @@ runpy.run_path("player.py", run_name="__main__")
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("to", ["csv", "json", "unitree", "mjlab"])
 def test_on_its_own_with_numpy_alone(rearing: Motion, tmp_path: Path, to: str) -> None:
     export(rearing, to, tmp_path)

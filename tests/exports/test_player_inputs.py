@@ -180,6 +180,7 @@ def loaded(path: Path) -> Played | str:
         return str(error)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("sealed", "every"), [(False, 5), (True, 2)])
 def test_an_altered_meta_is_refused_or_harmless(copied: Path, sealed: bool, every: int) -> None:
     """Without its checksum always refused; with one made for it, only what robots can be sent is played."""
@@ -212,6 +213,7 @@ def test_an_altered_meta_is_refused_or_harmless(copied: Path, sealed: bool, ever
     assert not [what for what in played if what.startswith(strict)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["motion.csv", "feedback.npz", "motion.json", "meta.json"])
 def test_files_with_bytes_changed_cut_or_swapped_are_refused(copied: Path, name: str) -> None:
     path = copied / ("motion.json" if name == "motion.json" else "motion.csv")
@@ -314,6 +316,7 @@ TRUNKS: dict[str, Callable[[Any], Any]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("clamp", [True, False])
 @pytest.mark.parametrize(
     ("method", "fault"), [*(("read", name) for name in READINGS), *(("read_trunk", name) for name in TRUNKS)]

@@ -87,6 +87,7 @@ def test_its_embodiment_is_the_robots() -> None:
     assert (limits.stall_torque > limits.torque * 0.999).all()
 
 
+@pytest.mark.slow
 def test_it_can_be_checked() -> None:
     certificate = check(Motion.load(DATA / "side-recovery-1.npz"), runs=3)
     assert certificate.numerics["half time step"].reference == "policy"

@@ -295,6 +295,7 @@ def test_its_embodiment_is_the_robots_own(linkage: bool, motion: Motion) -> None
             np.testing.assert_array_equal(getattr(mine, name), getattr(theirs, name))
 
 
+@pytest.mark.slow
 def test_a_cost_that_is_python_code_is_named_in_the_file(tmp_path: Path) -> None:
     """It can be recorded, saved, loaded, checked, shown and exported; only the cost itself is not there."""
     task = load_task("rearing", changes=[*HERE, "search.trials=8"])

@@ -88,6 +88,7 @@ def test_a_policy_that_is_not_what_was_recorded_is_not_believed(moving: Motion, 
         assert ReferenceCurve.of(motion).source == "interpolation"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("task", builtin_tasks())
 def test_every_built_in_task_has_an_analytic_reference(
     task: str, moving: Motion, changed: Callable[..., Motion]

@@ -53,6 +53,7 @@ def test_in_its_own_engine_it_is_the_motion_to_the_bit(engine: str, motion: Call
     assert replay.success == found.meta["success"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("made", "other"), [("mujoco", "ode"), ("ode", "mujoco")])
 def test_in_the_other_engine_it_is_much_the_same_at_first(
     made: str, other: str, motion: Callable[[str], Motion]

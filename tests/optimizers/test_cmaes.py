@@ -145,6 +145,7 @@ def test_tell_before_ask_and_costs_that_do_not_fit() -> None:
         optimizer.tell(np.zeros(optimizer.population))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("adaptation", ["csa", "tpa"])
 @pytest.mark.parametrize("kind", ["flat", "falls without end"])
 def test_it_never_asks_for_what_is_not_finite(adaptation: Literal["csa", "tpa"], kind: str) -> None:

@@ -42,6 +42,7 @@ def test_the_built_in_robot_is_sound() -> None:
     assert inspect(load_robot("hyq2max")) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("form", "changes", "message"),
     [

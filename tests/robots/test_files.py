@@ -35,6 +35,7 @@ def test_an_encoding_is_that_of_the_bytes(name: str) -> None:
     assert (robot.mass, len(robot.joint_names)) == (pytest.approx(12.4), 12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", ["urdf", "mjcf"])
 @pytest.mark.parametrize(
     ("codec", "declared"),
@@ -72,6 +73,7 @@ def test_what_is_no_text_is_refused(tmp_path: Path, content: bytes) -> None:
         load_robot(tmp_path / "toy.urdf")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["toy.mjcf", "toy.XML", "toy.urdf", "toy.txt", "toy", "robot.yaml"])
 @pytest.mark.parametrize("form", ["urdf", "mjcf"])
 def test_a_model_is_told_by_its_root_element(tmp_path: Path, quadruped: type, form: str, name: str) -> None:
@@ -123,6 +125,7 @@ def test_a_pointer_of_git_lfs_is_named_with_its_remedy(tmp_path: Path) -> None:
         load_robot(tmp_path / "toy.urdf")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("content", [POINTER, b"solid nothing\nendsolid\n", b"", b"\0" * 200, b"v 1 2\nf 1 2 3\n"])
 @pytest.mark.parametrize("suffix", [".stl", ".obj", ".msh"])
 def test_a_visual_mesh_that_cannot_be_read_stops_nothing(

@@ -55,6 +55,7 @@ def test_the_example_of_a_plate() -> None:
     np.testing.assert_allclose(moments, np.linalg.eigvalsh(tensor), rtol=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("digits", [3, 4, 6, 17])
 @pytest.mark.parametrize("share", [0.0, 0.02, 0.3, 0.5])
 def test_plates_and_rods_are_taken_however_they_lie(tmp_path: Path, quadruped: type, share: float, digits: int) -> None:

@@ -182,6 +182,7 @@ def contacts(robot: Robot, angles: np.ndarray) -> set[frozenset[str]]:
     return {frozenset((robot.model.geom(c.geom1).name, robot.model.geom(c.geom2).name)) for c in data.contact}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("leg", range(4))
 def test_a_leg_moves_freely_beside_the_trunk(robot: Robot, leg: int) -> None:
     """No contact with itself or the trunk at HAA = 0, HFE and KFE anywhere; nor outward, while it stays below HAA."""

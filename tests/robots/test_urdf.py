@@ -97,6 +97,7 @@ def test_fixed_links_are_fused_as_by_hand(file: Path, quadruped: type) -> None:
     np.testing.assert_allclose(robot.foot_positions(np.zeros(12))[0], [0.2, 0.13, -0.4], atol=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("reference", "place"),
     [

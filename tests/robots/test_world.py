@@ -43,6 +43,7 @@ def fall(robot: Robot, duration: float = 0.1) -> float:
     return before - float(data.subtree_com[0, 2])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("changes", "said"),
     [

@@ -173,6 +173,7 @@ ROBUST = (
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("more", [(STAGED,), ROBUST])
 def test_a_run_that_began_around_motions_resumes_to_the_same_bytes(
     more: tuple[str, ...], tmp_path: Path, assert_same_files: Callable[[Path, Path], None]

@@ -104,6 +104,7 @@ def assert_same(one: Solution, other: Solution) -> None:
     assert {**vars(one), "best": None} == {**vars(other), "best": None}
 
 
+@pytest.mark.slow
 def test_each_has_the_same_bits_as_alone_and_batches_are_shared(
     objectives: list[Objective], batches: list[int]
 ) -> None:
@@ -161,6 +162,7 @@ def test_each_may_begin_around_its_own_motion(objectives: list[Objective]) -> No
     assert_same(together[1], solve(two[1], seed=1, initial=guess))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", [(1, "nominal"), (3, "nominal"), (200, "nominal"), (2, "fixed")])
 def test_trials_of_several_have_the_bits_that_they_have_alone(
     objectives: list[Objective], shape: tuple[int, str]

@@ -81,6 +81,7 @@ def fixed() -> list[Generation]:
     return generations(objective())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("robust", BUDGET)
 def test_every_rollout_is_a_trial(robust: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """And every step of it a step that the engine says it made."""
@@ -167,6 +168,7 @@ def test_the_search_is_the_same_to_the_bit_for_any_number_of_threads_and_after_a
     assert Motion.load(tmp_path / "whole" / MOTION).meta["success"] == whole.solution.best.success
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("robust", [FIXED, REDRAWN, MEAN, STARTS])
 def test_a_search_that_is_interrupted_inside_a_generation_loses_nothing_that_was_simulated(
     robust: str, tmp_path: Path, assert_same_files: Callable[[Path, Path], None]
@@ -198,6 +200,7 @@ def test_a_search_that_is_interrupted_inside_a_generation_loses_nothing_that_was
     assert whole.solution.generations >= later + 2
 
 
+@pytest.mark.slow
 def test_records_survive_json() -> None:
     for robust in (FIXED, REDRAWN):
         records: list[Record] = []
@@ -285,6 +288,7 @@ def test_a_search_starts_anew_on_the_nominal_model_only() -> None:
 BARELY = ("success={pitch: {target: 0, tolerance: 0.02}}", "search.step=0.03")
 
 
+@pytest.mark.slow
 def test_of_several_motions_of_the_nominal_model_the_one_that_holds_on_most_others_goes_on(answered: Answered) -> None:
     """Each is found by a search of its own, of two generations here; the robust stage begins around the best of them."""
     made = objective(STARTS, *BARELY)

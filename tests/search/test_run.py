@@ -169,6 +169,7 @@ def test_a_run_of_any_optimizer_goes_on_to_the_same_end(
     assert not np.array_equal(other.motion["weights"], whole.motion["weights"])
 
 
+@pytest.mark.slow
 def test_a_run_from_when_the_default_was_called_levade_goes_on_to_the_same_end(tmp_path: Path) -> None:
     """Its task file has the alias, and its checkpoint the checksum of that file."""
     changes = [*CHANGES, "search.optimizer=cma-aimed"]
@@ -206,6 +207,7 @@ def test_a_finished_run_resumed_is_the_run(
     assert_same_end(tmp_path, whole)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("cut", [1, 7, 200, 201])
 def test_a_line_that_was_cut_off_is_computed_anew(
     objective: Objective, whole: Outcome, tmp_path: Path, cut: int, assert_same_end: SameEnd
@@ -265,6 +267,7 @@ def test_rubbish_after_the_last_line_is_left_out(
 HEADER = '{"task": "rearing", "seed": %s, "versions": %s, "task_checksum": 1, "format": %s}'
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("first", "message"),
     [
@@ -457,6 +460,7 @@ def test_a_disk_that_is_full_at_the_start(
         assert not (tmp_path / "new").exists()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("room", [5_000, 9_000, 14_000])
 def test_a_disk_that_fills_up_on_the_way(
     objective: Objective,

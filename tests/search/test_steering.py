@@ -154,6 +154,7 @@ def test_a_steered_run_that_is_interrupted_goes_on_to_the_same_end(
     assert_same_files(tmp_path, steered.directory)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", ["returns", "raises"])
 def test_stopping_by_hand_keeps_the_best_and_goes_on_later(
     objective: Objective, steered: Outcome, tmp_path: Path, how: str, assert_same_files: SameFiles

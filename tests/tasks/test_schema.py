@@ -47,6 +47,7 @@ def test_it_is_a_schema() -> None:
     json.dumps(task_schema())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", builtin_tasks())
 def test_every_built_in_task_is_valid_as_written_and_in_full(name: str) -> None:
     written = yaml.safe_load(builtin_tasks()[name].read_text(encoding="utf-8"))

@@ -34,6 +34,7 @@ from levade.tasks.units import UNITS, to_si
 BUILT_IN = list(builtin_tasks())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_a_task_survives_the_way_through_its_file(name: str, tmp_path: Path) -> None:
     task = load_task(name)
