@@ -46,6 +46,7 @@ EXPECTED: dict[str, str] = {
     "checkpoint.*": "has a line for each evaluation, not each generation; `checkpoint trials` are all its simulations",
     "motion.meta.schema": "names the layout",
     "motion.meta.task.search.optimizer": "the default has a new name, `cma-aimed`; `levade` is another name for it",
+    "*.meta.between_steps": "names the policy where it was forgotten, in exports of tasks with depart or settle",
     "check.margins.torque_speed.value*": "the line is the robot's own, which layout 2 has; before, it was read back from the"
     " motion's model, whose text has six digits",
 }
