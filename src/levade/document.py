@@ -77,12 +77,20 @@ def build(kind: type[T], content: Any, *, where: str) -> T:
 
     _check_keys(kind, content, where)
     try:
-        return pydantic.TypeAdapter(kind).validate_python(content)
+        return _adapter(kind).validate_python(content)
     except pydantic.ValidationError as error:
         raise LevadeError(f"{where}.{first_mistake(error)}") from None
     except LevadeError as error:
         said = str(error)
         raise LevadeError(said if said.startswith(f"{where}.") else f"{where}: {said}") from None
+
+
+@functools.cache
+def _adapter(kind: Any) -> Any:
+    """The pydantic adapter of a type: making one costs more than a hundred validations."""
+    import pydantic
+
+    return pydantic.TypeAdapter(kind)
 
 
 def first_mistake(error: Any) -> str:
