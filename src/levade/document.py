@@ -134,7 +134,8 @@ def _check_keys(kind: Any, content: Any, where: str) -> None:
         if dataclasses.is_dataclass(content):
             return
         if not isinstance(content, Mapping):
-            if not any(option is type(None) and content is None for option in options):
+            plain = (int, float, str) if not isinstance(content, (list, tuple)) else ()
+            if not any(option in plain or (option is type(None) and content is None) for option in options):
                 raise LevadeError(f"{where}: should be a table of keys and values, is {kind_of(content)}")
             return
         fields = typing.get_type_hints(kind)

@@ -5,6 +5,10 @@ step ``k``, which starts at ``k * timestep`` and ends at ``time[k] = (k + 1) * t
 those in force *during* the step, positions and velocities those reached at its *end*. Rows ``[:horizon_steps]`` are the
 motion proper, up to the horizon T; the rows after them, if any, are the hold.
 
+Where each trial has a horizon of its own, references begin together, in row 0 (``JointReference.horizons``), and trajectories
+have their horizons in the same row: a shorter trial begins later, at row ``Trajectories.begin``, and the rows before repeat
+its first. A look at the horizon, at the hold or at an extreme therefore needs no case for it.
+
 SI units; quaternions w-x-y-z; joint order is the robot's.
 """
 
@@ -32,6 +36,8 @@ class JointReference:
     horizon_steps: number of rows up to the horizon T; later rows are the hold.
     before: (joints,) or (n, joints) [rad], what the joints were told until the first row came, at rest; None where it is not
         known.
+    horizons: (n,) rows up to the horizon of each trial, at most ``horizon_steps``; None where all have that. After a trial's
+        own horizon and a hold as long as that of the longest, its last row repeats, and is not simulated.
     """
 
     position: Array
@@ -39,15 +45,23 @@ class JointReference:
     timestep: float
     horizon_steps: int
     before: Array | None = None
+    horizons: NDArray[np.intp] | None = None
 
     @property
     def steps(self) -> int:
         return self.position.shape[1]
 
+    @property
+    def ends(self) -> NDArray[np.intp] | None:
+        """Rows of each trial with its hold, shape (n,); None where all have ``steps``."""
+        return None if self.horizons is None else self.horizons + (self.steps - self.horizon_steps)
+
     def __getitem__(self, trials: slice | NDArray[np.integer | np.bool_] | list[int]) -> JointReference:
         """The same reference for a subset of the trials."""
         before = self.before if self.before is None or self.before.ndim == 1 else self.before[trials]
-        return replace(self, position=self.position[trials], velocity=self.velocity[trials], before=before)
+        horizons = None if self.horizons is None else self.horizons[trials]
+        position, velocity = self.position[trials], self.velocity[trials]
+        return replace(self, position=position, velocity=velocity, before=before, horizons=horizons)
 
     def repeated(self, n: int) -> JointReference:
         """The same reference for n trials, if it is of one trial; itself if it is of n."""
@@ -55,7 +69,8 @@ class JointReference:
             return self
         shape = (n, *self.position.shape[1:])
         position, velocity = np.broadcast_to(self.position, shape), np.broadcast_to(self.velocity, shape)
-        return replace(self, position=position, velocity=velocity)
+        horizons = None if self.horizons is None else np.broadcast_to(self.horizons, n)
+        return replace(self, position=position, velocity=velocity, horizons=horizons)
 
     @classmethod
     def stacked(cls, references: Sequence[JointReference]) -> JointReference:
@@ -79,7 +94,14 @@ class JointReference:
         position, velocity = (
             np.concatenate([getattr(one, name) for one in references]) for name in ("position", "velocity")
         )
-        return replace(first, position=position, velocity=velocity, before=before)
+        horizons = None
+        if any(one.horizons is not None for one in references):
+            each = [
+                np.full(len(one.position), one.horizon_steps) if one.horizons is None else one.horizons
+                for one in references
+            ]
+            horizons = np.concatenate(each)
+        return replace(first, position=position, velocity=velocity, before=before, horizons=horizons)
 
 
 @dataclass(frozen=True)
@@ -101,6 +123,8 @@ class Trajectories:
         None unless asked for.
     body_contact_force: body name -> (n, steps) [N], magnitude of the net force that the ground and the obstacles put on
         the body; holds the bodies that were asked for.
+    begin: (n,) the row in which each trial begins; rows before it repeat that one and do not count. None where all begin in
+        row 0.
     """
 
     joint_position: Array
@@ -117,6 +141,7 @@ class Trajectories:
     diverged: NDArray[np.bool_]
     foot_contact_force: Array | None = None
     body_contact_force: Mapping[str, Array] = field(default_factory=dict)
+    begin: NDArray[np.intp] | None = None
 
     def __getitem__(self, trials: slice) -> Trajectories:
         """The trajectories of some of the trials; views, not copies."""
@@ -125,6 +150,74 @@ class Trajectories:
         }
         forces = {body: force[trials] for body, force in self.body_contact_force.items()}
         return replace(self, **arrays, reference=self.reference[trials], body_contact_force=forces)
+
+    def aligned(self, trials: NDArray[np.intp]) -> Trajectories:
+        """Put horizons into one row: from trials that began together to what this class says of them.
+
+        Args:
+            trials: Which row of the arrays each trial of the result is, shape (n,).
+        """
+        horizons = self.reference.horizons
+        assert horizons is not None
+        begin = self.horizon_steps - horizons[trials]
+        rows = np.maximum(np.arange(self.steps) - begin[:, None], 0)
+
+        def moved(values: Array) -> Array:
+            return values[trials[:, None], rows]
+
+        # every array of trials and rows; what is of trials alone has one dimension
+        arrays = {
+            one.name: moved(value) if value.ndim > 1 else value[trials]
+            for one in fields(self)
+            if isinstance(value := getattr(self, one.name), np.ndarray)
+        }
+        forces = {body: moved(force) for body, force in self.body_contact_force.items()}
+        reference = replace(
+            self.reference[trials],
+            position=moved(self.reference.position),
+            velocity=moved(self.reference.velocity),
+            horizons=None,
+        )
+        return replace(self, **arrays, reference=reference, body_contact_force=forces, begin=begin)
+
+    def alone(self, trial: int) -> Trajectories:
+        """One trial, without the rows before it begins."""
+        one = self[trial : trial + 1]
+        if one.begin is None:
+            return one
+        first = int(one.begin[0])
+        arrays = {
+            field.name: value[:, first:]
+            for field in fields(one)
+            if isinstance(value := getattr(one, field.name), np.ndarray) and value.ndim > 1
+        }
+        reference = replace(
+            one.reference,
+            position=one.reference.position[:, first:],
+            velocity=one.reference.velocity[:, first:],
+            horizon_steps=self.horizon_steps - first,
+        )
+        forces = {body: force[:, first:] for body, force in one.body_contact_force.items()}
+        return replace(
+            one,
+            **arrays,
+            reference=reference,
+            horizon_steps=self.horizon_steps - first,
+            body_contact_force=forces,
+            begin=None,
+        )
+
+    @property
+    def horizon(self) -> Array:
+        """T of each trial [s], shape (n,)."""
+        begin = np.zeros(self.n, dtype=np.intp) if self.begin is None else self.begin
+        return (self.horizon_steps - begin) * self.timestep
+
+    def counted(self, rows: slice) -> NDArray[np.bool_] | None:
+        """Which of the rows belong to each trial, shape (n, rows); None where all do."""
+        if self.begin is None:
+            return None
+        return np.arange(*rows.indices(self.steps)) >= self.begin[:, None]
 
     @property
     def limits(self) -> JointLimits:

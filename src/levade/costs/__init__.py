@@ -15,6 +15,7 @@ A term is anything that takes Trajectories and returns one number per trial, unw
 """
 
 from levade.costs.contact import GroundContact
+from levade.costs.duration import Duration
 from levade.costs.effort import Effort
 from levade.costs.evaluate import DIVERGED, HIGHEST, Term, evaluate, total
 from levade.costs.limits import JointLimitExcess, ReferenceLimitExcess, SpeedLimitExcess, TorqueLimitExcess
@@ -31,6 +32,7 @@ __all__ = [
     "HIGHEST",
     "AngularVelocity",
     "Criterion",
+    "Duration",
     "Effort",
     "GroundContact",
     "JointLimitExcess",

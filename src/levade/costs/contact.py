@@ -51,5 +51,5 @@ class GroundContact:
             if self.measure == "time":
                 # a force that is not a number must not pass for no contact
                 force = np.where(np.isfinite(force), force > CONTACT_FORCE, np.nan)
-            total += integral(force, trajectories.timestep)
+            total += integral(force, trajectories, rows)
         return total

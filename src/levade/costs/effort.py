@@ -30,7 +30,8 @@ class Effort:
 
     def __call__(self, trajectories: Trajectories) -> Array:
         """(n,) [s], or [Nm^2 s] where not normalised."""
-        torque = trajectories.joint_torque[:, rows_over(trajectories, self.over)]
+        rows = rows_over(trajectories, self.over)
+        torque = trajectories.joint_torque[:, rows]
         if self.normalised:
             limit = trajectories.limits.torque
             unlimited = np.flatnonzero(~(np.isfinite(limit) & (limit > 0))).tolist()
@@ -40,5 +41,5 @@ class Effort:
                     " give the robot torque limits, or say normalised: false"
                 )
             torque = torque / limit
-            return integral(np.square(torque, out=torque), trajectories.timestep)
-        return integral(np.square(torque), trajectories.timestep)
+            return integral(np.square(torque, out=torque), trajectories, rows)
+        return integral(np.square(torque), trajectories, rows)

@@ -33,8 +33,9 @@ class JointLimitExcess:
 
     def __call__(self, trajectories: Trajectories) -> Array:
         """(n,) [rad^2 s]."""
-        angle = trajectories.joint_position[:, rows_over(trajectories, self.over)]
-        return integral(_range_excess(angle, trajectories.limits), trajectories.timestep)
+        rows = rows_over(trajectories, self.over)
+        angle = trajectories.joint_position[:, rows]
+        return integral(_range_excess(angle, trajectories.limits), trajectories, rows)
 
 
 @dataclass(frozen=True)
@@ -47,8 +48,9 @@ class ReferenceLimitExcess:
 
     def __call__(self, trajectories: Trajectories) -> Array:
         """(n,) [rad^2 s]."""
-        angle = trajectories.reference.position[:, rows_over(trajectories, self.over)]
-        return integral(_range_excess(angle, trajectories.limits), trajectories.timestep)
+        rows = rows_over(trajectories, self.over)
+        angle = trajectories.reference.position[:, rows]
+        return integral(_range_excess(angle, trajectories.limits), trajectories, rows)
 
 
 @dataclass(frozen=True)
@@ -76,7 +78,7 @@ class TorqueLimitExcess:
         if limits.torque_curves:
             limit = np.maximum(limits.torque_at(trajectories.joint_position[:, rows]), LEAST_TORQUE_SHARE * best)
         share = np.abs(trajectories.joint_torque[:, rows]) / limit
-        return integral(np.square(np.maximum(share - 1.0, 0.0)), trajectories.timestep)
+        return integral(np.square(np.maximum(share - 1.0, 0.0)), trajectories, rows)
 
 
 @dataclass(frozen=True)
@@ -93,8 +95,9 @@ class SpeedLimitExcess:
     def __call__(self, trajectories: Trajectories) -> Array:
         """(n,) [s]."""
         _check_positive("speed", trajectories.limits.velocity)
-        speed = np.abs(trajectories.joint_velocity[:, rows_over(trajectories, self.over)])
-        return integral(np.square(np.maximum(speed / trajectories.limits.velocity - 1.0, 0.0)), trajectories.timestep)
+        rows = rows_over(trajectories, self.over)
+        share = np.abs(trajectories.joint_velocity[:, rows]) / trajectories.limits.velocity
+        return integral(np.square(np.maximum(share - 1.0, 0.0)), trajectories, rows)
 
 
 def _range_excess(angle: Array, limits: JointLimits) -> Array:

@@ -10,7 +10,7 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from levade.arrays import Array
-from levade.costs.rows import mean_over_rows
+from levade.costs.rows import mean_in, mean_over_rows
 from levade.costs.success import Criterion, Legs, Quantity
 from levade.errors import LevadeError
 from levade.trajectory import Trajectories
@@ -60,4 +60,5 @@ class Miss:
         """(n,) [-]."""
         rows = slice(0, trajectories.horizon_steps) if self.at == "motion" else None
         error = np.abs(self._criterion.deviations(trajectories, rows))
-        return mean_over_rows(np.square(np.maximum(error - self.tolerance, 0.0) / self.scale))
+        squared = np.square(np.maximum(error - self.tolerance, 0.0) / self.scale)
+        return mean_over_rows(squared) if rows is None else mean_in(squared, trajectories, rows)

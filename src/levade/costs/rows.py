@@ -38,12 +38,31 @@ def rows_over(trajectories: Trajectories, over: Over) -> slice:
     return slice(0, trajectories.horizon_steps if over == "horizon" else trajectories.steps)
 
 
-def integral(rate: Array, timestep: float) -> Array:
-    """(n, rows, ...) to (n,): summed over all but the trials, times the time step [s].
+def integral(rate: Array, trajectories: Trajectories, rows: slice) -> Array:
+    """Integrate over time, and sum over all but the trials.
 
     Each trial's sum is over its own contiguous row, so that its bits do not depend on the batch it is in.
+
+    Args:
+        rate: At the rows, shape (n, rows, ...).
+        trajectories: Of n trials.
+        rows: Which of their rows.
+
+    Returns:
+        Shape (n,), in the unit of the rate times s.
     """
-    return np.ascontiguousarray(rate).reshape(len(rate), -1).sum(axis=1) * timestep
+    counted = trajectories.counted(rows)
+    if counted is not None:
+        rate = np.where(counted.reshape(*counted.shape, *[1] * (rate.ndim - 2)), rate, 0.0)
+    return np.ascontiguousarray(rate).reshape(len(rate), -1).sum(axis=1) * trajectories.timestep
+
+
+def mean_in(values: Array, trajectories: Trajectories, rows: slice) -> Array:
+    """The mean over those of the rows that belong to each trial: (n, rows) to (n,)."""
+    counted = trajectories.counted(rows)
+    if counted is None:
+        return mean_over_rows(values)
+    return np.ascontiguousarray(np.where(counted, values, 0.0)).sum(axis=1) / counted.sum(axis=1)
 
 
 def squared_distance(values: Array, target: tuple[float | None, ...], tolerance: float = 0.0) -> Array:

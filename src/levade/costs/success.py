@@ -22,7 +22,7 @@ from levade.trajectory import Trajectories
 
 Quantity = Literal[
     "roll", "pitch", "yaw", "tilt", "x", "y", "height", "speed", "vertical_speed", "angular_speed", "lowest_foot",
-    "highest_foot", "angle_margin", "speed_margin", "torque_speed_margin",
+    "highest_foot", "angle_margin", "speed_margin", "torque_speed_margin", "duration",
 ]  # fmt: skip
 
 QUANTITIES: dict[str, str] = {
@@ -41,6 +41,7 @@ QUANTITIES: dict[str, str] = {
     "angle_margin": "rad",
     "speed_margin": "of limit",
     "torque_speed_margin": "of limit",
+    "duration": "s",
 }
 """Quantity -> unit."""
 
@@ -106,6 +107,7 @@ class Criterion:
         angular_speed [rad/s]: norm of the angular velocity.
         angle_margin [rad], speed_margin, torque_speed_margin [share of the limit]: what the joint that has least left
             leaves of its range, its speed limit, its actuator's line (`levade.trajectory.JointLimits`).
+        duration [s]: the horizon T, where it is a decision of the search.
         lowest_foot, highest_foot [m]: height over z = 0 of the sole that is lowest, or highest, among the ``legs``.
     target, tolerance: required value, and the distance from it that still counts. Angles wrap.
     minimum, maximum: required bounds, instead of a target.
@@ -220,6 +222,8 @@ def quantity_values(quantity: AnyQuantity, trajectories: Trajectories, rows: sli
         return trajectories.trunk_com_position(rows)[..., ("x", "y", "height").index(quantity)]
     if quantity in MARGINS:
         return _margin(quantity, trajectories, rows)
+    if quantity == "duration":
+        return np.repeat(trajectories.horizon[:, None], len(range(*rows.indices(trajectories.steps))), axis=1)
     if quantity == "vertical_speed":
         return trajectories.trunk_com_velocity(rows)[..., 2]
     if quantity == "speed":

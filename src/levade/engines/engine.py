@@ -18,6 +18,7 @@ from typing import ClassVar
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from levade.arrays import Array
 from levade.embodiment import Embodiment
@@ -42,6 +43,7 @@ class Trials:
         commanded: What reaches their servos when, without feedback, 1 or n rows.
         models: Versions of the model, 1 or n rows; the nominal model if None.
         correcting: Feedback on them; none if None.
+        ends: Rows after which each needs no more, shape (n,), the longest trial first; None if all need every row.
     """
 
     n: int
@@ -50,6 +52,7 @@ class Trials:
     commanded: JointReference
     models: Models | None
     correcting: Correcting | None
+    ends: NDArray[np.intp] | None = None
 
 
 class Engine(ABC):
@@ -70,6 +73,8 @@ class Engine(ABC):
     """
 
     name: ClassVar[str]
+    stops: ClassVar[bool] = False
+    """Whether each trial is simulated no longer than it needs, where their horizons differ."""
 
     def __init__(
         self,
@@ -132,7 +137,7 @@ class Engine(ABC):
     ) -> Trajectories:
         """Simulate n trials. ``starts``, ``reference`` and ``models`` have n rows each, or one row for all trials.
 
-        A trial has the same bits alone and in any batch.
+        A trial has the same bits alone and in any batch. Trials of different horizons are simulated each to its own end.
 
         Args:
             starts: Where the trials start.
@@ -154,7 +159,15 @@ class Engine(ABC):
             if name != FOOT_CONTACT_FORCE and name not in self.bodies:
                 hint = did_you_mean(name, (FOOT_CONTACT_FORCE, *self.bodies))
                 raise LevadeError(f"record: no body {name!r} in the model; {hint}")
-        return self._simulate(self._trials(starts, reference, models, feedback, sensor_errors), record)
+        ends = reference.ends
+        if ends is None:
+            return self._simulate(self._trials(starts, reference, models, feedback, sensor_errors), record)
+        order = np.argsort(-ends, kind="stable")
+        starts = starts if len(starts) == 1 else starts[order]
+        models = models if models is None or len(models) == 1 else models[order]
+        errors = None if sensor_errors is None else sensor_errors[order]
+        done = self._simulate(self._trials(starts, reference[order], models, feedback, errors), record)
+        return done.aligned(np.argsort(order))
 
     @abstractmethod
     def _simulate(self, trials: Trials, record: Sequence[str]) -> Trajectories:
@@ -228,8 +241,9 @@ class Engine(ABC):
                 upper=self.embodiment.limits.upper,
                 errors=sensor_errors,
             )
-        self.steps += n * reference.steps
-        return Trials(n, starts, reference.repeated(n), delayed(reference, delay), models, correcting)
+        ends = reference.ends if self.stops and correcting is None else None
+        self.steps += n * reference.steps if ends is None else int(ends.sum())
+        return Trials(n, starts, reference.repeated(n), delayed(reference, delay), models, correcting, ends)
 
 
 def broke_down(time: float) -> LevadeError:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from importlib.metadata import version
@@ -29,6 +29,7 @@ class MujocoEngine(Engine):
     """MuJoCo."""
 
     name: ClassVar[str] = "mujoco"
+    stops: ClassVar[bool] = True
 
     def _prepare(self) -> None:
         self._batches: dict[tuple[bool, bool], Batch] = {}
@@ -97,20 +98,16 @@ class MujocoEngine(Engine):
         if models is not None:
             self._set_fields(batch, models.fields, n)
         rows, ctrl = self._rows(trials.starts), self.ctrl(trials.commanded, n)
-        if trials.correcting is None:
-            return simulate(batch, rows, ctrl, fields)
-        return self._corrected(batch, rows, ctrl, fields, trials.correcting)
+        if trials.correcting is not None:
+            return _in_parts(batch, rows, ctrl, fields, self._corrected(batch, ctrl, trials.correcting))
+        if trials.ends is not None:
+            return _in_parts(batch, rows, ctrl, fields, _ending(trials.ends))
+        return simulate(batch, rows, ctrl, fields)
 
-    def _corrected(
-        self, batch: Batch, rows: Array, ctrl: Array, fields: Sequence[str], correcting: Correcting
-    ) -> tuple[dict[str, Array], NDArray[np.bool_]]:
-        """As `simulate`, tick by tick, under feedback. ctrl: without it; changed to what is sent."""
+    def _corrected(self, batch: Batch, ctrl: Array, correcting: Correcting) -> Iterator[tuple[slice, int]]:
+        """Tick by tick, put what feedback sends into ctrl, and yield the tick's rows."""
         n, layout = len(ctrl), self.layout
         qpos, qvel = batch.bind("qpos"), batch.bind("qvel")
-        batch.state[:n] = rows
-        rows = batch.state[:n].copy()
-        diverged = np.zeros(n, dtype=bool)
-        out: dict[str, Array] = {}
         for tick, part in correcting:
             seen = sensed(
                 qpos[:n, layout.trunk_quaternion],
@@ -120,14 +117,7 @@ class MujocoEngine(Engine):
             )
             commanded = ctrl[:, part, layout.ctrl_position]
             ctrl[:, part, layout.ctrl_position] = correcting.corrected(tick, part, seen, commanded)
-            now, broken = simulate(batch, batch.state[:n].copy(), ctrl[:, part], fields)
-            for name, values in now.items():
-                whole = out.setdefault(name, np.zeros((n, ctrl.shape[1], *values.shape[2:]), values.dtype))
-                whole[:, part] = values
-                whole[diverged, part] = whole[diverged, part.start - 1][:, None]
-            batch.state[:n][broken | diverged] = rows[broken | diverged]  # nothing to see there any more
-            diverged |= broken
-        return out, diverged
+            yield part, n
 
     @cached_property
     def _free(self) -> mujoco.MjModel:
@@ -174,3 +164,36 @@ class MujocoEngine(Engine):
         row = np.empty(mujoco.mj_stateSize(self.model, STATE))
         mujoco.mj_getState(self.model, mujoco.MjData(self.model), row, STATE)
         return row
+
+
+def _ending(ends: NDArray[np.intp]) -> Iterator[tuple[slice, int]]:
+    """Rows from one end of trials to the next, and how many trials are still going: the first, as the longest come first."""
+    begin = 0
+    for end in np.unique(ends):
+        yield slice(begin, int(end)), int(np.count_nonzero(ends >= end))
+        begin = int(end)
+
+
+def _in_parts(
+    batch: Batch, rows: Array, ctrl: Array, fields: Sequence[str], parts: Iterator[tuple[slice, int]]
+) -> tuple[dict[str, Array], NDArray[np.bool_]]:
+    """As `simulate`, some steps at a time, each time of the first so many trials.
+
+    ``ctrl`` and the batch's state are read when a part begins, after the iterator has yielded it.
+    """
+    n = len(ctrl)
+    batch.state[:n] = rows
+    rows = batch.state[:n].copy()
+    diverged = np.zeros(n, dtype=bool)
+    out: dict[str, Array] = {}
+    for part, going in parts:
+        now, broken = simulate(batch, batch.state[:going].copy(), ctrl[:going, part], fields)
+        before = np.flatnonzero(diverged[:going])
+        for name, values in now.items():
+            whole = out.setdefault(name, np.zeros((n, ctrl.shape[1], *values.shape[2:]), values.dtype))
+            whole[:going, part] = values
+            whole[before, part] = whole[before, part.start - 1][:, None]
+        diverged[:going] |= broken
+        # nothing to see there any more
+        batch.state[:going][diverged[:going]] = rows[:going][diverged[:going]]
+    return out, diverged

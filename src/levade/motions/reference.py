@@ -147,9 +147,10 @@ def _policy_of_task(motion: Motion) -> Policy | None:
     """The policy of a motion whose file does not hold it; None where the task or the robot cannot be read."""
     try:
         robot = described_robot(motion)
-        return None if robot is None else make_policy(motion.task, robot, start=motion.reference.before)
+        policy = None if robot is None else make_policy(motion.task, robot, start=motion.reference.before)
     except LevadeError:
         return None
+    return policy if isinstance(policy, Policy) else None
 
 
 def described_robot(motion: Motion) -> Robot | None:

@@ -16,7 +16,7 @@ from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.motions import Motion
 from levade.optimizers import SearchSpace
-from levade.policies import JointPolicy, Policy
+from levade.policies import FreePolicy, JointPolicy, Policy
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,7 +90,8 @@ def initial_guess(policy: JointPolicy, given: Motion | Array | InitialGuess | Se
 def fitted(policy: JointPolicy, motion: Motion) -> Array:
     """Policy weights whose reference is nearest to a motion's [rad], shape (1, size).
 
-    A motion of another duration is stretched to the policy's horizon. Weights that give the motion itself are kept as they are.
+    A motion of another duration is stretched to the policy's horizon; where that is a decision, it becomes the motion's own,
+    within its bounds. Weights that give the motion itself are kept as they are.
 
     Raises:
         LevadeError: If the motion moves another number of joints.
@@ -101,6 +102,9 @@ def fitted(policy: JointPolicy, motion: Motion) -> Array:
             f"initial: the motion moves {position.shape[1]} joints, the task's robot has {policy.joints}; give a motion of"
             " the same robot"
         )
+    if isinstance(policy, FreePolicy):
+        steps = int(np.clip(len(position), *policy.bounds))
+        return policy.decision(fitted(policy.at(steps), motion), steps)
     weights = motion["weights"][None]
     if weights.shape[1] == policy.size and len(position) == policy.horizon_steps:
         same = policy.reference(weights, hold_steps=0).position[0]

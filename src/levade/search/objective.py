@@ -20,17 +20,15 @@ from levade.costs import evaluate
 from levade.engines import FOOT_CONTACT_FORCE, Engine, Models, State, make_engine, perturbed_models, start_state
 from levade.errors import LevadeError, did_you_mean
 from levade.optimizers import SearchSpace
-from levade.policies import JointPolicy, Policy, smoothness_factor
+from levade.policies import FreePolicy, JointPolicy, Policy
 from levade.robots import Robot, load_robot
 from levade.search.evaluation import Evaluation, Trials
 from levade.search.optimizing import make_attempt
+from levade.search.space import search_space
 from levade.tasks import Task, looks_at_hold
-from levade.tasks.policy import goal_posture, make_policy
+from levade.tasks.policy import make_policy
 from levade.tasks.reach import check_reach
 from levade.trajectory import JointReference, Trajectories
-
-ENDING = 0.25
-"""Share of the horizon in which an optimizer may finish a motion, without a change to what comes before."""
 
 AT_ONCE = 128
 """Roll-outs in one batch: what they record has to fit into memory."""
@@ -129,32 +127,13 @@ class Objective:
 
     def with_task(self, task: Task) -> Objective:
         """Another task with the same robot, scene, physics and start, on the same simulation."""
-        return Objective(self.simulation, task, None if isinstance(self.policy, Policy) else self.policy)
+        own = None if isinstance(self.policy, Policy | FreePolicy) else self.policy
+        return Objective(self.simulation, task, own)
 
     @cached_property
     def space(self) -> SearchSpace:
         """Where the task's search begins."""
-        search, policy, choice = self.task.search, self.policy, self.task.policy
-        one_sided = np.array([criterion.target is None for criterion in self.task.success.values()], dtype=bool)
-        if not isinstance(policy, Policy):
-            mean = policy.initial_weights(self.state.joint_reference[0])
-            return SearchSpace(mean, step=search.step, population=search.population, one_sided=one_sided)
-        if choice.initial == "hold":
-            mean = policy.hold(self.state.joint_reference[0])
-        else:
-            mean = policy.interpolate(self.state.joint_position[0], goal_posture(choice, self.robot))
-        if search.smoothness > 0 or search.modes is not None:
-            smooth = smoothness_factor(policy.kernels, search.smoothness, policy.independent_joints, modes=search.modes)
-        else:
-            smooth = np.eye(policy.size)
-        return SearchSpace(
-            mean,
-            smooth,
-            step=search.step,
-            population=search.population,
-            ending=_ending(policy),
-            one_sided=one_sided,
-        )
+        return search_space(self.task, self.robot, self.policy, self.state)
 
     def rollout(self, weights: Array, *, hold_steps: int | None = None, feet: bool = False) -> Trajectories:
         """Simulate candidates on the nominal model.
@@ -318,14 +297,3 @@ def _bodies(task: Task, simulation: Simulation) -> tuple[str, ...]:
                 raise LevadeError(f"costs.{name}.bodies: no body {body!r} in {simulation.robot.name}; {hint}")
             named.add(body)
     return tuple(sorted(named))
-
-
-def _ending(policy: Policy) -> Array | None:
-    """One direction for each independent joint, shape (q, d): a ramp over the last quarter of its weights, up to 1.
-
-    None where the motion ends as it must, whatever the weights (`levade.policies.Ends`).
-    """
-    if policy.ends is not None and policy.ends.settle > 0:
-        return None
-    ramp = np.clip(1.0 - (1.0 - np.linspace(0.0, 1.0, policy.kernels.kernels)) / ENDING, 0.0, 1.0)
-    return np.kron(np.eye(policy.independent_joints), ramp)

@@ -11,7 +11,7 @@ from levade.arrays import Array
 from levade.costs import errors, evaluate, success
 from levade.motions import ARRAYS, LATER_ARRAYS, SCHEMA, Motion, versions
 from levade.motions.facts import robot_facts
-from levade.policies import Policy, policy_to_dict
+from levade.policies import FreePolicy, Policy, policy_to_dict
 from levade.search.objective import Objective
 from levade.search.outcome import Solution
 from levade.tasks import holds_code, task_to_dict
@@ -20,8 +20,10 @@ from levade.tasks import holds_code, task_to_dict
 def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
     """Simulate the best trial of a solution once more, with everything recorded."""
     engine, state = objective.engine, objective.state
-    weights = solution.best.weights
-    trajectories = objective.rollout(weights[None], feet=True)
+    policy, weights = objective.policy, solution.best.weights
+    trajectories = objective.rollout(weights[None], feet=True).alone(0)
+    if isinstance(policy, FreePolicy):
+        policy, weights = policy.chosen(weights)
     reference = trajectories.reference
     assert trajectories.foot_contact_force is not None
     arrays: dict[str, Array] = {
@@ -54,14 +56,14 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
         **robot_facts(objective.robot.embodiment, objective.robot.legs),
         "held": dict(objective.robot.held),
         "model_joints": list(objective.robot.model_joints),
-        "policy": policy_to_dict(objective.policy) if isinstance(objective.policy, Policy) else None,
+        "policy": policy_to_dict(policy) if isinstance(policy, Policy) else None,
         "engine": task.physics.engine,
         "versions": versions(task.physics.engine),
         "seed": seed,
         "initial": solution.initial,
         "timestep": task.physics.timestep,
-        "horizon": task.horizon_steps * task.physics.timestep,
-        "horizon_steps": task.horizon_steps,
+        "horizon": trajectories.horizon_steps * task.physics.timestep,
+        "horizon_steps": trajectories.horizon_steps,
         # for a robust search also on enough of its perturbed models, which only the search can tell
         "success": met and (task.robust is None or solution.best.success),
         "diverged": bool(trajectories.diverged[0]),

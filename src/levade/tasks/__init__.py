@@ -15,7 +15,7 @@ from levade.tasks.document import (
     task_to_dict,
     task_to_yaml,
 )
-from levade.tasks.parts import Change, Cost, PolicyChoice, RobotChoice, Search, Stage, StartChoice
+from levade.tasks.parts import Change, Cost, HorizonRange, PolicyChoice, RobotChoice, Search, Stage, StartChoice
 from levade.tasks.robust import Racing, Robust
 from levade.tasks.task import Task
 from levade.tasks.validation import looks_at_hold
@@ -24,6 +24,7 @@ __all__ = [
     "TERMS",
     "Change",
     "Cost",
+    "HorizonRange",
     "PolicyChoice",
     "Racing",
     "RobotChoice",

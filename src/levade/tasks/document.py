@@ -12,6 +12,7 @@ from typing import Any
 
 from levade.costs import (
     AngularVelocity,
+    Duration,
     Effort,
     GroundContact,
     JointLimitExcess,
@@ -53,6 +54,7 @@ TERMS = {
     "joint_velocity": JointVelocity,
     "posture": Posture,
     "effort": Effort,
+    "duration": Duration,
     "joint_limits": JointLimitExcess,
     "reference_limits": ReferenceLimitExcess,
     "torque_limits": TorqueLimitExcess,

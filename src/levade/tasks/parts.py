@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
@@ -45,6 +46,39 @@ class StartChoice:
         chosen = self.settled or self.fall
         assert chosen is not None
         return chosen
+
+
+@dataclass(frozen=True)
+class HorizonRange:
+    """A horizon T that is a decision of the search: each trial has its own.
+
+    minimum, maximum: bounds [s], both always there. initial: where the search begins [s]; the geometric mean of the bounds if
+        None, as T is searched in its logarithm.
+    """
+
+    minimum: float
+    maximum: float
+    initial: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("minimum", "maximum", "initial"):
+            value = getattr(self, name)
+            if value is not None and not (math.isfinite(value) and value > 0):
+                raise LevadeError(f"horizon.{name}: {value} s should be a positive number of seconds")
+        if self.minimum > self.maximum:
+            raise LevadeError(f"horizon.minimum: {self.minimum} s is above the maximum, {self.maximum} s")
+        if self.initial is not None and not self.minimum <= self.initial <= self.maximum:
+            raise LevadeError(
+                f"horizon.initial: {self.initial} s should be within the bounds, {self.minimum} to {self.maximum} s"
+            )
+
+    def __str__(self) -> str:
+        return f"{self.minimum:g} to {self.maximum:g} s"
+
+    @property
+    def begin(self) -> float:
+        """Where the search begins [s]."""
+        return math.sqrt(self.minimum * self.maximum) if self.initial is None else self.initial
 
 
 @dataclass(frozen=True)

@@ -6,16 +6,22 @@ from collections.abc import Callable
 
 from levade.arrays import Array
 from levade.errors import LevadeError, located
-from levade.policies import Ends, Follower, GaussianKernels, Group, Policy
+from levade.policies import Ends, Follower, FreePolicy, GaussianKernels, Group, Policy
 from levade.robots import Leg, Robot, mirror_signs
-from levade.tasks.parts import PolicyChoice
+from levade.tasks.parts import HorizonRange, PolicyChoice
 from levade.tasks.task import Task
 
 
-def make_policy(task: Task, robot: Robot, *, start: Array | None = None) -> Policy:
-    """The task's policy on the robot's joints; LevadeError where its groups do not fit the robot's legs.
+def make_policy(task: Task, robot: Robot, *, start: Array | None = None) -> Policy | FreePolicy:
+    """Make the task's policy on the robot's joints.
 
-    start: (joints,) [rad], what the joints were told last; the policy's goal if None.
+    Args:
+        task: The task.
+        robot: The robot.
+        start: What the joints were commanded last [rad], shape (joints,). Defaults to the policy's goal.
+
+    Raises:
+        LevadeError: If its groups do not fit the robot's legs.
     """
     choice = task.policy
     ends = None
@@ -25,7 +31,11 @@ def make_policy(task: Task, robot: Robot, *, start: Array | None = None) -> Poli
         goal = goal_posture(choice, robot)
         with located("policy."):
             ends = Ends(goal if start is None else start, goal, choice.depart, choice.settle)
-    return Policy(kernels, leg_groups(choice, robot), task.horizon, task.physics.timestep, task.hold_steps, ends)
+    horizon = task.horizon.begin if isinstance(task.horizon, HorizonRange) else task.horizon
+    policy = Policy(kernels, leg_groups(choice, robot), horizon, task.physics.timestep, task.hold_steps, ends)
+    if not isinstance(task.horizon, HorizonRange):
+        return policy
+    return FreePolicy(policy, (task.horizon.minimum, task.horizon.maximum))
 
 
 def goal_posture(choice: PolicyChoice, robot: Robot) -> Array:

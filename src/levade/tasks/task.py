@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from levade.costs import Criterion
 from levade.engines import Physics, Settled
 from levade.scenes import Scene
-from levade.tasks.parts import Change, Cost, PolicyChoice, RobotChoice, Search, Stage, StartChoice
+from levade.tasks.parts import Change, Cost, HorizonRange, PolicyChoice, RobotChoice, Search, Stage, StartChoice
 from levade.tasks.robust import Robust
 from levade.tasks.validation import (
     check_costs,
@@ -25,14 +25,15 @@ from levade.tasks.validation import (
 class Task:
     """The declarative whole. Tasks are YAML files; `levade.tasks.load_task` reads them.
 
-    horizon: T [s]. hold: [s] after T in which the reference stays at its last value.
+    horizon: T [s], or bounds between which the search finds it. hold: [s] after T in which the reference stays at its last
+        value.
     costs: name -> term and weight. success: name -> criterion; a motion succeeds when all hold.
     stages: in order; each changes the weights of the task's costs, and the last one should leave them as they are.
     robust: None looks for a motion of the nominal model alone.
     """
 
     name: str
-    horizon: float
+    horizon: float | HorizonRange
     costs: Mapping[str, Cost]
     success: Mapping[str, Criterion]
     description: str = ""
@@ -65,7 +66,9 @@ class Task:
 
     @property
     def horizon_steps(self) -> int:
-        return max(1, round(self.horizon / self.physics.timestep))
+        """Rows up to the horizon; up to the longest where the search finds it."""
+        longest = self.horizon.maximum if isinstance(self.horizon, HorizonRange) else self.horizon
+        return max(1, round(longest / self.physics.timestep))
 
     @property
     def hold_steps(self) -> int:

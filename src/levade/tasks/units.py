@@ -75,7 +75,11 @@ def to_si(
         table = {}
         for key, value in content.items():
             inside = f"{where}.{key}"
-            if key in ("posture", "goal") and isinstance(value, Mapping) and "weight" not in value:
+            if key == "horizon" and isinstance(value, Mapping):
+                table[key] = {
+                    name: to_si(bound, where=f"{inside}.{name}", measures="a duration") for name, bound in value.items()
+                }
+            elif key in ("posture", "goal") and isinstance(value, Mapping) and "weight" not in value:
                 table[key] = {
                     joint: to_si(angle, where=f"{inside}.{joint}", measures="an angle")
                     for joint, angle in value.items()

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from levade.costs import Criterion
 from levade.errors import LevadeError, did_you_mean
 from levade.optimizers import OPTIMIZERS, can_restart, settings
-from levade.tasks.parts import Change, Cost, PolicyChoice, Search, Stage
+from levade.tasks.parts import Change, Cost, HorizonRange, PolicyChoice, Search, Stage
 from levade.tasks.robust import Robust
 
 LONGEST = 120.0
@@ -31,8 +31,11 @@ def check_name(name: str) -> None:
         raise LevadeError(f"name: {name!r} should be a word or two that can name a directory")
 
 
-def check_durations(horizon: float, hold: float, timestep: float) -> None:
+def check_durations(horizon: float | HorizonRange, hold: float, timestep: float) -> None:
     """Horizon, hold and time step [s]."""
+    if isinstance(horizon, HorizonRange):
+        check_durations(horizon.minimum, hold, timestep)
+        horizon = horizon.maximum
     if not (math.isfinite(horizon) and horizon >= timestep):
         raise LevadeError(f"horizon: {horizon} s should be at least one time step ({timestep} s); 0.3 to 3 s is usual")
     if not (math.isfinite(hold) and hold >= 0):

@@ -289,9 +289,10 @@ def _task_facts(objective: Objective) -> list[list[str]]:
             *([f"{len(task.scene.boxes)} box{'es' * (len(task.scene.boxes) > 1)}"] if task.scene.boxes else []),
         ]
     )
+    horizon = f"{task.horizon:g} s" if isinstance(task.horizon, float) else f"{task.horizon}, found by the search"
     return [
         ["Robot", robot.name + (f", {robot.variant}" if robot.variant else "")],
-        ["Horizon", f"{task.horizon:g} s" + (f", then {task.hold:g} s of hold" if task.hold else "")],
+        ["Horizon", horizon + (f", then {task.hold:g} s of hold" if task.hold else "")],
         ["Start", start],
         ["Scene", scene or "level ground"],
         ["Policy", f"{objective.policy.size} weights: {task.policy.kernels} kernels a joint, {groups}"],

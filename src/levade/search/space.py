@@ -1,0 +1,74 @@
+"""Where the search of a task begins: the first distribution of its decisions."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from levade.arrays import Array
+from levade.engines import State
+from levade.optimizers import SearchSpace
+from levade.policies import FreePolicy, JointPolicy, Policy, smoothness_factor
+from levade.robots import Robot
+from levade.tasks import Task
+from levade.tasks.policy import goal_posture
+
+ENDING = 0.25
+"""Share of the horizon in which an optimizer may finish a motion, without a change to what comes before."""
+
+DURATION = 0.2
+"""Initial standard deviation of ``log T`` where the duration is a decision."""
+
+
+def search_space(task: Task, robot: Robot, policy: JointPolicy, start: State) -> SearchSpace:
+    """Make the search space of a task.
+
+    Args:
+        task: The task.
+        robot: Its robot.
+        policy: What turns decisions into references.
+        start: Where roll-outs start, one row.
+    """
+    one_sided = np.array([criterion.target is None for criterion in task.success.values()], dtype=bool)
+    if isinstance(policy, FreePolicy):
+        space = _of_weights(task, robot, policy.policy, start)
+        return _with_duration(dataclasses.replace(space, one_sided=one_sided), policy)
+    if isinstance(policy, Policy):
+        return dataclasses.replace(_of_weights(task, robot, policy, start), one_sided=one_sided)
+    mean = policy.initial_weights(start.joint_reference[0])
+    return SearchSpace(mean, step=task.search.step, population=task.search.population, one_sided=one_sided)
+
+
+def _of_weights(task: Task, robot: Robot, policy: Policy, start: State) -> SearchSpace:
+    search, choice = task.search, task.policy
+    if choice.initial == "hold":
+        mean = policy.hold(start.joint_reference[0])
+    else:
+        mean = policy.interpolate(start.joint_position[0], goal_posture(choice, robot))
+    if search.smoothness > 0 or search.modes is not None:
+        smooth = smoothness_factor(policy.kernels, search.smoothness, policy.independent_joints, modes=search.modes)
+    else:
+        smooth = np.eye(policy.size)
+    return SearchSpace(mean, smooth, step=search.step, population=search.population, ending=_ending(policy))
+
+
+def _with_duration(space: SearchSpace, policy: FreePolicy) -> SearchSpace:
+    """The same with one more decision, `DURATION` wide; it is no part of what ends a motion."""
+    d, m = space.factor.shape
+    factor = np.zeros((d + 1, m + 1))
+    factor[:d, :m], factor[d, m] = space.factor, DURATION / space.step
+    ending = None if space.ending is None else np.pad(space.ending, ((0, 0), (0, 1)))
+    mean = policy.decision(space.mean[None], policy.policy.horizon_steps)[0]
+    return dataclasses.replace(space, mean=mean, factor=factor, ending=ending)
+
+
+def _ending(policy: Policy) -> Array | None:
+    """One direction for each independent joint, shape (q, d): a ramp over the last quarter of its weights, up to 1.
+
+    None where the motion ends as it must, whatever the weights (`levade.policies.Ends`).
+    """
+    if policy.ends is not None and policy.ends.settle > 0:
+        return None
+    ramp = np.clip(1.0 - (1.0 - np.linspace(0.0, 1.0, policy.kernels.kernels)) / ENDING, 0.0, 1.0)
+    return np.kron(np.eye(policy.independent_joints), ramp)
