@@ -63,7 +63,9 @@ def test_soft_contact_is_told_of_with_settings_that_are_stiff_enough(tmp_path: P
 
 
 def depth_at_rest(z: float, solref: Array, solimp: Array, weight: float, mass: float) -> float:
-    """[m], where a foot with a weight [N] on it rests, by the manual: (1 - d) a0 = d (b v + k z) with v = 0 and a0 = weight / mass.
+    """[m], where a foot with a weight [N] on it rests.
+
+    By MuJoCo's manual: (1 - d) a0 = d (b v + k z), with v = 0 and a0 = weight / mass.
 
     z: [m], at which the impedance d is looked up. mass: [kg], of the foot as a contact feels it.
     """

@@ -1,11 +1,11 @@
 """How hard a robot's parts are where they touch something: MuJoCo's ``solref`` and ``solimp``.
 
-A spring and damper pushes what has sunk in out of the ground again. MuJoCo gives them by time, not by stiffness, so a foot with weight
-f on it rests at a depth z where, for a foot of effective mass m (`mujoco.MjModel.body_invweight0` is 1 / m),
+A spring and damper pushes what has sunk in out of the ground again. MuJoCo gives them by time, not by stiffness. A foot of
+effective mass m (`mujoco.MjModel.body_invweight0` is 1 / m) with a weight f on it rests at a depth z of
 
     z = (1 - d) / d^2 * (dmax * timeconst * dampratio)^2 * f / m,      d = solimp at z
 
-The default of 20 ms lets light feet sink in by a millimetre or two, and by their whole radius in landing. `STIFF` is a sixteenth of that.
+The default of 20 ms lets light feet sink in by a millimetre or two in standing, and by their radius in landing.
 """
 
 from __future__ import annotations
