@@ -18,6 +18,8 @@ from levade.scenes.terrain import Gap, Terrain
 
 GROUND, PLATFORM = "ground", "platform"
 """Name of the ground's geom; obstacles are named ``box0``, ``box1``, ..., ``terrain``, ground between gaps ``platform0``."""
+TERRAIN = "terrain"
+_OBSTACLE, _SKY = "obstacle", "sky"
 _FAR = 50.0
 """[m]: how far ground with gaps in it reaches, instead of to infinity."""
 
@@ -104,12 +106,12 @@ def compose(robot: Robot, scene: Scene, *, gain_scale: float = 1.0, damping_scal
             size=[edge / 2 for edge in box.size],
             pos=list(box.position),
             quat=_quaternion(box.roll, box.pitch, box.yaw),
-            material="obstacle",
+            material=_OBSTACLE,
         )
         for i, box in enumerate(scene.boxes)
     ]
     if scene.terrain is not None:
-        obstacles.append(scene.terrain.add_to(spec, "terrain", GROUND))
+        obstacles.append(scene.terrain.add_to(spec, TERRAIN, GROUND))
     for geom in (ground, *_platforms(spec, scene), *obstacles):
         # everything of the robot that collides at all meets the scene; the scene never meets itself (all static)
         geom.contype = geom.conaffinity = 0x7FFFFFFF
@@ -123,6 +125,16 @@ def compose(robot: Robot, scene: Scene, *, gain_scale: float = 1.0, damping_scal
     if scene.contact == "stiff":
         stiffen(spec)
     return spec
+
+
+def remove_scene(spec: mujoco.MjSpec) -> None:
+    """Take away what `compose` put around the robot, which itself has nothing in the world but its trunk."""
+    world = spec.worldbody
+    for element in (*world.geoms, *world.lights):
+        spec.delete(element)
+    for element in (*spec.hfields, *spec.materials, *spec.textures):
+        if element.name in (GROUND, _OBSTACLE, _SKY, TERRAIN):
+            spec.delete(element)
 
 
 def _platforms(spec: mujoco.MjSpec, scene: Scene) -> list[mujoco.MjsGeom]:
@@ -156,7 +168,7 @@ def _down_the_slope(scene: Scene, along: float, below: float) -> list[float]:
 def _furnish(spec: mujoco.MjSpec) -> None:
     """Light and surfaces: what pictures need, and the physics does not see."""
     spec.add_texture(
-        name="sky",
+        name=_SKY,
         type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,
         builtin=mujoco.mjtBuiltin.mjBUILTIN_GRADIENT,
         rgb1=[0.93, 0.95, 0.97],
@@ -175,7 +187,7 @@ def _furnish(spec: mujoco.MjSpec) -> None:
     )
     ground = spec.add_material(name=GROUND, texrepeat=[1.0, 1.0], texuniform=True, reflectance=0.0)
     ground.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = GROUND
-    spec.add_material(name="obstacle", rgba=[0.80, 0.62, 0.42, 1.0])
+    spec.add_material(name=_OBSTACLE, rgba=[0.80, 0.62, 0.42, 1.0])
     spec.worldbody.add_light(
         name="sun",
         type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
