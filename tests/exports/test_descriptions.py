@@ -133,7 +133,7 @@ def with_assets(motion: Motion, assets: Mapping[str, bytes]) -> Motion:
 
 @pytest.mark.parametrize("name", ["../evil.stl", "/tmp/evil.stl", "a\\b.stl", "C:/evil.stl", "robot.xml", "", "a\nb"])
 def test_files_of_a_strangers_model_stay_in_the_folder(rearing: Motion, tmp_path: Path, name: str) -> None:
-    with pytest.raises(LevadeError, match="motion: its model needs a file .*, which cannot be put next to it"):
+    with pytest.raises(LevadeError, match=r"motion: its model needs a file .*, which cannot be put next to it"):
         export(with_assets(rearing, {name: b"x"}), "mjcf", tmp_path / "out")
     assert list(tmp_path.iterdir()) == []
 
