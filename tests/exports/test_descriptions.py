@@ -57,7 +57,7 @@ def write_urdf(robot: Robot, model: mujoco.MjModel, folder: Path) -> Path:
     return folder / "robot.urdf"
 
 
-@pytest.mark.parametrize("name", ["hyq2max", "wedged"])
+@pytest.mark.parametrize("name", [pytest.param("hyq2max", marks=pytest.mark.slow), "wedged"])
 def test_the_same_robot_gives_the_same_bytes_in_every_scene(name: str, wedged: Robot, tmp_path: Path) -> None:
     robot = wedged if name == "wedged" else load_robot(name)
     descriptions = set()

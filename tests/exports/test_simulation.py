@@ -141,6 +141,7 @@ def test_the_goal_is_the_tasks(rearing: Motion, facts: dict[str, Any]) -> None:
     assert json.loads(json.dumps(facts)) == facts
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("contact", [None, "stiff"])
 def test_feet_in_the_floor_at_the_start_are_said(tmp_path: Path, quadruped: type, contact: str | None) -> None:
     text = quadruped().mjcf().replace('_foot" size', '_foot" solimp="0.015 1 0.031" priority="1" size')
