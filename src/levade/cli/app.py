@@ -353,7 +353,8 @@ def view(
 def export(
     motion: Annotated[Path, typer.Argument(metavar="MOTION", help="A motion.npz.")],
     to: Annotated[
-        str | None, typer.Option(metavar="FORMAT", help="csv, json, ros2, mjlab or unitree; see docs/export.md.")
+        str | None,
+        typer.Option(metavar="FORMAT", help="csv, json, ros2, mjlab, unitree, urdf or mjcf; see docs/export.md."),
     ] = None,
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="To write; by default MOTION-FORMAT.")] = None,
     rate: Annotated[float | None, typer.Option(metavar="HZ", help="Rows a second; by default the format's.")] = None,

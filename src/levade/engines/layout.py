@@ -140,3 +140,10 @@ def add_contact_sensors(spec: mujoco.MjSpec, feet: Sequence[str]) -> None:
         add(foot + _FOOT_SENSOR, objtype=geom, objname=foot)
     for element in spec.bodies[1:]:
         add(element.name + _BODY_SENSOR, objtype=body, objname=element.name, reftype=body, refname="world")
+
+
+def remove_contact_sensors(spec: mujoco.MjSpec, feet: Sequence[str]) -> None:
+    """Take away what `add_contact_sensors` added."""
+    names = {foot + _FOOT_SENSOR for foot in feet} | {body.name + _BODY_SENSOR for body in spec.bodies[1:]}
+    for sensor in [sensor for sensor in spec.sensors if sensor.name in names]:
+        spec.delete(sensor)

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from levade.arrays import Array
-from levade.exports.content import Content, describe, held
+from levade.exports.content import Content, describe
 from levade.exports.player import checksum
 from levade.exports.samples import Samples
 from levade.feedback import Feedback
@@ -58,7 +58,7 @@ def write(content: Content, directory: Path) -> list[str]:
     if content.feedback is not None:
         write_feedback(feedback, content.feedback)
         belongs.append(feedback.read_bytes())
-    meta = describe(content.playing, content.provenance, content.feedback, held(content.motion))
+    meta = describe(content, content.playing)
     write_json(directory / META, meta | {"checksum": checksum(meta, *belongs)}, indent=2)
     write_player(directory)
     return []

@@ -5,14 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 
 from levade.exports.as_csv import write_json, write_player
-from levade.exports.content import Content, describe, held
+from levade.exports.content import Content, describe
 from levade.exports.player import canonical, checksum
 
 
 def write(content: Content, directory: Path) -> list[str]:
     """motion.json, and player.py, which reads it."""
     samples = content.samples
-    meta = describe(samples, content.provenance, content.feedback, held(content.motion))
+    meta = describe(content, samples)
     document = {
         "time": samples.time.tolist(),
         "command": {name: getattr(samples, f"command_{name}").tolist() for name in ("position", "velocity", "torque")},

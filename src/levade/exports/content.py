@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -27,6 +26,15 @@ UNITS = {
     "trunk/linear_velocity": "m/s, of the trunk frame's origin, world axes",
     "trunk/angular_velocity": "rad/s, world axes",
     "contact_force": "N, on the foot, world axes, mean until the next row",
+    "simulation/gravity": "m/s2, world axes",
+    "simulation/joints/armature": "kg m2",
+    "simulation/joints/damping": "Nm s/rad",
+    "simulation/joints/friction": "Nm, dry",
+    "simulation/joints/spring": "Nm/rad, rad",
+    "simulation/joints/drive": "kp Nm/rad, kd Nm s/rad, torques Nm, no_load_speed rad/s, time_constant s",
+    "simulation/shapes/friction": "coefficient of sliding friction",
+    "simulation/start_depth": "m",
+    "simulation/success": "m, rad, m/s, rad/s",
 }
 
 
@@ -34,7 +42,8 @@ UNITS = {
 class Content:
     """samples: at the rate asked for. playing: at a rate that a robot can follow; mostly the same.
 
-    provenance: task, robot, scene, seed, versions, command. feedback: the stabiliser; None if none goes with the rows.
+    provenance: task, robot, scene, seed, versions, command. simulation: see `levade.exports.simulation`.
+    feedback: the stabiliser; None if none goes with the rows.
     """
 
     motion: Motion
@@ -42,6 +51,7 @@ class Content:
     samples: Samples
     playing: Samples
     provenance: dict[str, Any]
+    simulation: dict[str, Any]
     feedback: Feedback | None = None
 
 
@@ -83,26 +93,20 @@ def held(motion: Motion) -> dict[str, float]:
     return dict(motion.held)
 
 
-def describe(
-    samples: Samples,
-    provenance: dict[str, Any],
-    feedback: Feedback | None = None,
-    held: Mapping[str, float] | None = None,
-) -> dict[str, Any]:
+def describe(content: Content, samples: Samples) -> dict[str, Any]:
     """Describe a table of samples beyond its rows.
 
     Args:
-        samples: The rows.
-        provenance: See `provenance`.
-        feedback: The stabiliser, if one goes with the rows.
-        held: See `held`.
+        content: What is exported.
+        samples: The rows, those of the content or of its ``playing``.
 
     Returns:
         JSON. Limits are null where there is none.
     """
+    feedback = content.feedback
     joints = samples.joints
     return {
-        "provenance": provenance,
+        "provenance": content.provenance,
         "rate": samples.rate,
         "rows": len(samples.time),
         "duration": float(samples.time[-1]),
@@ -113,7 +117,8 @@ def describe(
         "kd": joints.kd.tolist(),
         "limits": {name: finite(getattr(joints, name)) for name in ("lower", "upper", "velocity", "torque")},
         "start": {"position": joints.start_position.tolist(), "torque": joints.start_torque.tolist()},
-        "held": dict(held or {}),
+        "held": held(content.motion),
+        "simulation": content.simulation,
         "units": UNITS,
         "feedback": None if feedback is None else _describe(feedback, joints.names),
     }

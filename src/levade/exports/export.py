@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+import mujoco
 import numpy as np
 
 from levade.errors import LevadeError, did_you_mean
-from levade.exports import as_csv, as_json, as_mjlab, as_ros2, as_unitree
+from levade.exports import as_csv, as_json, as_mjcf, as_mjlab, as_ros2, as_unitree, as_urdf
 from levade.exports.content import Content, held, provenance, surroundings
 from levade.exports.directory import filling
 from levade.exports.samples import Samples, sample
+from levade.exports.simulation import simulation
 from levade.feedback import Feedback
 from levade.motions import Motion
+from levade.robots.settling import sunk_feet
 
 SLOW = 200.0
 """[Hz]: commands that stay in force for longer than 5 ms are no longer those of a motion of tenths of seconds."""
@@ -43,6 +46,8 @@ FORMATS = {
     "ros2": Format("an MCAP bag and a JointTrajectory in YAML", as_ros2.write, check=as_ros2.check),
     "mjlab": Format("a reference motion for mjlab's tracking task", as_mjlab.write, as_mjlab.RATE, plays=False),
     "unitree": Format("low-level motor commands", as_unitree.write, as_unitree.RATE, check=as_unitree.motors),
+    "urdf": Format("the robot as URDF, with its meshes", as_urdf.write),
+    "mjcf": Format("robot and scene as MuJoCo models", as_mjcf.write, check=as_mjcf.check),
 }
 
 
@@ -88,7 +93,8 @@ def export(
     samples = at(rate if rate is not None else form.rate or own)
     playing = samples if form.plays else at(own)
     feedback = _feedback(motion, playing, own_gains=kp is None and kd is None)
-    content = Content(motion, model, samples, playing, provenance(motion, command), feedback)
+    facts = simulation(motion, model)
+    content = Content(motion, model, samples, playing, provenance(motion, command), facts, feedback)
     with filling(directory) as partial:
         notes = form.write(content, partial)
         names = sorted(path.relative_to(partial) for path in partial.rglob("*") if path.is_file())
@@ -96,7 +102,8 @@ def export(
         feedback is None and Path(as_csv.META) in names
     ):  # of an earlier export to the same directory: nothing here says any more that it belongs to it
         (directory / as_csv.FEEDBACK).unlink(missing_ok=True)
-    notes = [*_notes(motion, playing), *_feedback_notes(motion, feedback), *notes]
+    sunk = _sunk_notes(model, facts["start_depth"])
+    notes = [*_notes(motion, playing), *sunk, *_feedback_notes(motion, feedback), *notes]
     return Exported(to, directory, tuple(directory / name for name in names), samples, tuple(notes))
 
 
@@ -116,6 +123,19 @@ def _feedback_notes(motion: Motion, feedback: Feedback | None) -> list[str]:
     return [
         f"the stabiliser is left out: it goes with the simulation's gains, and with rates that are"
         f" multiples of {1 / own.period:g} Hz"
+    ]
+
+
+def _sunk_notes(model: mujoco.MjModel, depth: Mapping[str, float]) -> list[str]:
+    """That the robot's feet lie in the floor at the start, where they do; depth: [m], of each foot."""
+    deep = sunk_feet(model, depth)
+    if not deep:
+        return []
+    foot = max(deep, key=lambda foot: depth[foot] / deep[foot])
+    return [
+        f"at the start {', '.join(deep)} are up to {1000 * depth[foot]:.2g} mm in the ground, of a radius of"
+        f" {1000 * deep[foot]:.2g} mm: contact is soft, and on hard ground the robot starts higher; solve the task with"
+        " scene: {contact: stiff}"
     ]
 
 

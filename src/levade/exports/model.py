@@ -1,8 +1,9 @@
-"""What an export needs of the motion's own model: gains, the state at the start, and the torque that keeps it."""
+"""What an export needs of the motion's own model: actuators, the state at the start, and the torque that keeps it."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import mujoco
 import numpy as np
@@ -19,18 +20,56 @@ def gains(model: mujoco.MjModel, joints: Sequence[str]) -> tuple[Array, Array]:
     """
     kp, kd = np.zeros(len(joints)), np.zeros(len(joints))
     for i, name in enumerate(joints):
-        joint = model.joint(name).id
-        driving = np.flatnonzero(
-            (model.actuator_trnid[:, 0] == joint) & (model.actuator_trntype == mujoco.mjtTrn.mjTRN_JOINT)
-        )
-        kind = model.actuator_gaintype[driving[0]] if len(driving) == 1 else None
-        if kind == mujoco.mjtGain.mjGAIN_DCMOTOR:
-            kp[i], kd[i] = model.actuator_gainprm[driving[0], [4, 6]]
-        elif kind == mujoco.mjtGain.mjGAIN_PID:
-            kp[i], kd[i] = -model.actuator_biasprm[driving[0], [1, 2]]
-        else:
+        drive = drive_of(model, name)
+        if drive is None:
             raise LevadeError(f"motion: joint {name} has no single pid or dcmotor actuator; give its gains, kp and kd")
+        kp[i], kd[i] = drive.kp, drive.kd
     return kp, kd
+
+
+@dataclass(frozen=True)
+class Drive:
+    """A joint's actuator, see `levade.robots.actuation`.
+
+    kind: "pid" or "dcmotor". kp: [Nm/rad]. kd: [Nm s/rad]. torque: [Nm], the most it delivers, infinite for no limit.
+    stall_torque [Nm] and no_load_speed [rad/s]: the line that bounds the torque while driving; infinite for none.
+    time_constant: [s], of the lag from commanded to delivered torque; 0 for none.
+    """
+
+    kind: str
+    kp: float
+    kd: float
+    torque: float
+    stall_torque: float = np.inf
+    no_load_speed: float = np.inf
+    time_constant: float = 0.0
+
+
+def drive_of(model: mujoco.MjModel, joint: str) -> Drive | None:
+    """Read a joint's actuator from the model; None unless it has a single pid or dcmotor."""
+    at_joint = model.actuator_trntype == mujoco.mjtTrn.mjTRN_JOINT
+    driving = np.flatnonzero((model.actuator_trnid[:, 0] == model.joint(joint).id) & at_joint)
+    if len(driving) != 1:
+        return None
+    i = int(driving[0])
+    torque = float(model.actuator_forcerange[i, 1]) if model.actuator_forcelimited[i] else np.inf
+    gain, bias = model.actuator_gainprm[i], model.actuator_biasprm[i]
+    if model.actuator_gaintype[i] == mujoco.mjtGain.mjGAIN_PID:
+        return Drive("pid", -float(bias[1]), -float(bias[2]), torque)
+    if model.actuator_gaintype[i] != mujoco.mjtGain.mjGAIN_DCMOTOR:
+        return None
+    # resistance, motor constant and voltage limit: the line is (voltage - constant * speed) * constant / resistance
+    resistance, constant, voltage = float(gain[0]), float(gain[1]), float(gain[7])
+    lined = resistance > 0 and voltage > 0
+    return Drive(
+        kind="dcmotor",
+        kp=float(gain[4]),
+        kd=float(gain[6]),
+        torque=torque,
+        stall_torque=voltage * constant / resistance if lined else np.inf,
+        no_load_speed=voltage / constant if lined else np.inf,
+        time_constant=float(model.actuator_dynprm[i, 0]) if model.actuator_actadr[i] >= 0 else 0.0,
+    )
 
 
 def holding_torque(motion: Motion, model: mujoco.MjModel) -> Array:

@@ -7,18 +7,20 @@ every trial begins.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import mujoco
 import numpy as np
 
 from levade.errors import LevadeError
+from levade.robots import contact
 from levade.robots.dimensions import dimensions
 from levade.robots.findings import Finding, named, warning
 from levade.robots.preparing import TIMESTEP
 from levade.robots.quiet import quiet
 from levade.robots.robot import Robot
+from levade.robots.shapes import thickness
 
 TIME = 1.0
 """[s], as the built-in tasks settle."""
@@ -41,9 +43,14 @@ class Settled:
     broken: bool
 
 
-def settle(robot: Robot) -> Settled:
-    """Put a robot down on flat ground, in its neutral posture, level, its lowest foot touching."""
-    model = _on_ground(robot)
+def settle(robot: Robot, *, stiff: bool = False) -> Settled:
+    """Put a robot down on flat ground, in its neutral posture, level, its lowest foot touching.
+
+    Args:
+        robot: The robot.
+        stiff: Whether contact is that of a scene with ``contact: stiff``, instead of the robot's own.
+    """
+    model = _on_ground(robot, stiff=stiff)
     data = mujoco.MjData(model)
     trunk = model.body(robot.trunk).id
     neutral, height = robot.postures["neutral"], robot.neutral_height
@@ -102,27 +109,39 @@ def _remedy(robot: Robot) -> str:
 
 
 def _sunk(robot: Robot, settled: Settled) -> Iterator[Finding]:
-    model = robot.model
-    radius = {foot: _radius(model, model.geom(foot).id) for foot in robot.feet}
-    deep = [foot for foot in robot.feet if settled.sink[foot] > _SINK * radius[foot]]
-    if deep:
-        worst = max(deep, key=lambda foot: settled.sink[foot] / radius[foot])
-        what = (
-            f"sink {1000 * settled.sink[worst]:.2g} mm into the ground in standing ({1000 * radius[worst]:.2g} mm is their"
-            " radius), and more in landing: contact is soft"
-        )
-        remedy = 'stiffer contact in the model: solref="0.02 1" solimp="0.9 0.95 0.001" of the feet\'s geoms'
-        yield warning(named("foot", deep), what, remedy)
+    deep = sunk_feet(robot.model, settled.sink)
+    if not deep:
+        return
+    worst = max(deep, key=lambda foot: settled.sink[foot] / deep[foot])
+    what = (
+        f"sink {_millimetres(settled.sink[worst])} into the ground in standing ({_millimetres(deep[worst])} is their"
+        " radius), and more in landing: contact is soft"
+    )
+    hard = settle(robot, stiff=True)
+    less = _millimetres(max(0.0, *(hard.sink[foot] for foot in deep)))
+    remedy = f"scene: {{contact: stiff}} in the task ({less} in standing), or {contact.as_mjcf()} on the feet's geoms"
+    yield warning(named("foot", list(deep)), what, remedy)
 
 
-def _radius(model: mujoco.MjModel, geom: int) -> float:
-    """[m], of a round foot; of others, half their least extent."""
-    if model.geom_type[geom] in (int(mujoco.mjtGeom.mjGEOM_SPHERE), int(mujoco.mjtGeom.mjGEOM_CAPSULE)):
-        return float(model.geom_size[geom, 0])
-    return float(model.geom_aabb[geom, 3:].min())
+def sunk_feet(model: mujoco.MjModel, depth: Mapping[str, float]) -> dict[str, float]:
+    """Find feet that are deep in the ground for their size.
+
+    Args:
+        model: The robot, alone or in a scene.
+        depth: Geom name of a foot -> how far it is below the ground's surface [m].
+
+    Returns:
+        Foot -> its radius [m], of each that is deeper than a quarter of it.
+    """
+    radius = {foot: thickness(model, model.geom(foot).id) for foot in depth}
+    return {foot: radius[foot] for foot in depth if depth[foot] > _SINK * radius[foot]}
 
 
-def _on_ground(robot: Robot) -> mujoco.MjModel:
+def _millimetres(length: float) -> str:
+    return f"{1000 * length:.2g} mm"
+
+
+def _on_ground(robot: Robot, *, stiff: bool) -> mujoco.MjModel:
     """The robot with its actuators on flat ground, without what is only looked at; options are those of the tasks."""
     spec = robot.spec()
     for geom in list(spec.geoms):
@@ -133,6 +152,8 @@ def _on_ground(robot: Robot) -> mujoco.MjModel:
         spec.delete(mesh)
     ground = spec.worldbody.add_geom(name=_GROUND, type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0.0, 0.0, 0.05])
     ground.contype = ground.conaffinity = 0x7FFFFFFF
+    if stiff:
+        contact.stiffen(spec)
     spec.option.timestep = TIMESTEP
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     spec.option.cone, spec.option.impratio = mujoco.mjtCone.mjCONE_ELLIPTIC, 10.0

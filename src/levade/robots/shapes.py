@@ -49,6 +49,13 @@ def reach(model: mujoco.MjModel, data: mujoco.MjData, geom: int, origin: Array) 
     return best
 
 
+def thickness(model: mujoco.MjModel, geom: int) -> float:
+    """[m], the radius of a sphere or capsule; of other shapes, half their least extent."""
+    if model.geom_type[geom] in (int(mujoco.mjtGeom.mjGEOM_SPHERE), int(mujoco.mjtGeom.mjGEOM_CAPSULE)):
+        return float(model.geom_size[geom, 0])
+    return float(model.geom_aabb[geom, 3:].min())
+
+
 def tip(model: mujoco.MjModel, data: mujoco.MjData, geom: int, joint: int) -> Array:
     """(3,) [m], in the world: where a foot ends: the centre of a sphere, else the point farthest from its joint."""
     if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_SPHERE:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from dataclasses import dataclass
+from typing import Literal
 
 import mujoco
 import numpy as np
@@ -12,10 +13,13 @@ import numpy as np
 from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.robots import Robot
+from levade.robots.contact import stiffen
 from levade.scenes.terrain import Gap, Terrain
 
 GROUND, PLATFORM = "ground", "platform"
 """Name of the ground's geom; obstacles are named ``box0``, ``box1``, ..., ``terrain``, ground between gaps ``platform0``."""
+TERRAIN = "terrain"
+_OBSTACLE, _SKY = "obstacle", "sky"
 _FAR = 50.0
 """[m]: how far ground with gaps in it reaches, instead of to infinity."""
 
@@ -46,6 +50,8 @@ class Scene:
 
     friction: Coulomb friction coefficient of every contact with the ground and the obstacles; where left out, the
         robot's own parts decide (feet and shell may differ), or 1 if they are below and do not take priority.
+    contact: how hard everything is that touches. None leaves it to the robot's file; "stiff" is
+        `levade.robots.contact.STIFF_SOLREF`, in which feet sink in by less than a millimetre. Of no effect in ODE.
     slope: [rad], of the ground along x, uphill positive. boxes: obstacles. gaps: ditches across the ground, which slopes
         with them; they may not overlap. terrain: a height field on the ground.
     """
@@ -55,10 +61,13 @@ class Scene:
     boxes: tuple[Box, ...] = ()
     gaps: tuple[Gap, ...] = ()
     terrain: Terrain | None = None
+    contact: Literal["stiff"] | None = None
 
     def __post_init__(self) -> None:
         if self.friction is not None and not (math.isfinite(self.friction) and self.friction > 0):
             raise LevadeError(f"scene.friction: {self.friction} should be a positive coefficient; 0.6 to 1 is usual")
+        if self.contact not in (None, "stiff"):
+            raise LevadeError(f"scene.contact: no contact {self.contact!r}; stiff, or leave it out for the robot's own")
         if not abs(self.slope) < math.pi / 2:
             raise LevadeError(f"scene.slope: {self.slope} rad is no slope to stand on; between -pi/2 and pi/2")
         ordered = sorted(self.gaps, key=lambda gap: gap.x)
@@ -97,12 +106,12 @@ def compose(robot: Robot, scene: Scene, *, gain_scale: float = 1.0, damping_scal
             size=[edge / 2 for edge in box.size],
             pos=list(box.position),
             quat=_quaternion(box.roll, box.pitch, box.yaw),
-            material="obstacle",
+            material=_OBSTACLE,
         )
         for i, box in enumerate(scene.boxes)
     ]
     if scene.terrain is not None:
-        obstacles.append(scene.terrain.add_to(spec, "terrain", GROUND))
+        obstacles.append(scene.terrain.add_to(spec, TERRAIN, GROUND))
     for geom in (ground, *_platforms(spec, scene), *obstacles):
         # everything of the robot that collides at all meets the scene; the scene never meets itself (all static)
         geom.contype = geom.conaffinity = 0x7FFFFFFF
@@ -113,7 +122,19 @@ def compose(robot: Robot, scene: Scene, *, gain_scale: float = 1.0, damping_scal
             geom.friction = [scene.friction, 0.005, 0.0001]
             foot = robot.model.geom(robot.feet[0])
             geom.condim, geom.solref, geom.solimp = 3, foot.solref.copy(), foot.solimp.copy()
+    if scene.contact == "stiff":
+        stiffen(spec)
     return spec
+
+
+def remove_scene(spec: mujoco.MjSpec) -> None:
+    """Take away what `compose` put around the robot, which itself has nothing in the world but its trunk."""
+    world = spec.worldbody
+    for element in (*world.geoms, *world.lights):
+        spec.delete(element)
+    for element in (*spec.hfields, *spec.materials, *spec.textures):
+        if element.name in (GROUND, _OBSTACLE, _SKY, TERRAIN):
+            spec.delete(element)
 
 
 def _platforms(spec: mujoco.MjSpec, scene: Scene) -> list[mujoco.MjsGeom]:
@@ -147,7 +168,7 @@ def _down_the_slope(scene: Scene, along: float, below: float) -> list[float]:
 def _furnish(spec: mujoco.MjSpec) -> None:
     """Light and surfaces: what pictures need, and the physics does not see."""
     spec.add_texture(
-        name="sky",
+        name=_SKY,
         type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,
         builtin=mujoco.mjtBuiltin.mjBUILTIN_GRADIENT,
         rgb1=[0.93, 0.95, 0.97],
@@ -166,7 +187,7 @@ def _furnish(spec: mujoco.MjSpec) -> None:
     )
     ground = spec.add_material(name=GROUND, texrepeat=[1.0, 1.0], texuniform=True, reflectance=0.0)
     ground.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = GROUND
-    spec.add_material(name="obstacle", rgba=[0.80, 0.62, 0.42, 1.0])
+    spec.add_material(name=_OBSTACLE, rgba=[0.80, 0.62, 0.42, 1.0])
     spec.worldbody.add_light(
         name="sun",
         type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,

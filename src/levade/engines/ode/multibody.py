@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from levade.arrays import Array
 from levade.engines.ode.shapes import Shape, shape_of
+from levade.engines.touching import friction_between, may_touch
 from levade.errors import LevadeError
 
 Index = NDArray[np.intp]
@@ -258,31 +259,10 @@ def _drives(model: mujoco.MjModel, hinges: Hinges) -> Drives:
 
 def _pairs(model: mujoco.MjModel, geoms: list[int], links: list[int]) -> tuple[Index, Array]:
     """Pairs of shapes that may touch, by MuJoCo's rules, and the friction coefficient of each."""
-    excluded = {int(signature) for signature in model.exclude_signature}
-    disabled = bool(model.opt.disableflags & int(mujoco.mjtDisableBit.mjDSBL_FILTERPARENT))
     pairs, friction = [], []
     for i, one in enumerate(geoms):
         for j in range(i):
-            other = geoms[j]
-            bodies = sorted((int(model.geom_bodyid[one]), int(model.geom_bodyid[other])))
-            affine = (model.geom_contype[one] & model.geom_conaffinity[other]) or (
-                model.geom_contype[other] & model.geom_conaffinity[one]
-            )
-            if not affine or links[i] == links[j] or (bodies[0] << 16) + bodies[1] in excluded:
-                continue
-            weld = [int(model.body_weldid[body]) for body in bodies]
-            over = [int(model.body_weldid[model.body_parentid[w]]) for w in weld]
-            if not disabled and 0 not in weld and (weld[0] == over[1] or weld[1] == over[0]):
-                continue
-            pairs.append((i, j) if links[i] >= 0 else (j, i))
-            friction.append(_friction(model, one, other))
+            if may_touch(model, one, geoms[j]):
+                pairs.append((i, j) if links[i] >= 0 else (j, i))
+                friction.append(friction_between(model, one, geoms[j]))
     return np.array(pairs, dtype=np.intp).reshape(-1, 2), np.array(friction, dtype=float)
-
-
-def _friction(model: mujoco.MjModel, one: int, other: int) -> float:
-    """MuJoCo's rule: the geom of higher priority decides; of equal ones, the larger coefficient."""
-    priority = model.geom_priority[one] - model.geom_priority[other]
-    deciding = [one] if priority > 0 else [other] if priority < 0 else [one, other]
-    if max(model.geom_condim[geom] for geom in deciding) == 1:
-        return 0.0
-    return float(max(model.geom_friction[geom, 0] for geom in deciding))
