@@ -19,7 +19,7 @@ from levade.motions import Motion
 from levade.search import Generation, Stopped, make_objective
 from levade.search.initial import initial_guess
 from levade.search.run import Outcome, check_replaceable, read_run, resume, run
-from levade.tasks import load_task
+from levade.tasks import HorizonRange, load_task
 
 
 def solve_and_report(
@@ -92,6 +92,7 @@ def summary(outcome: Outcome) -> dict[str, object]:
         "task": motion.task_name,
         "robot": motion.robot,
         "seed": outcome.seed,
+        "horizon": motion.horizon,
         "success": result.success,
         "trials": solution.trials,
         "trials_to_success": solution.trials_to_success,
@@ -124,6 +125,8 @@ def _tell(console: Console, outcome: Outcome, earlier: list[Motion]) -> None:
     solution, directory = outcome.solution, escape(str(outcome.directory))
     for part in motion_summary(outcome.motion):
         console.print(part)
+    if isinstance(outcome.motion.task.horizon, HorizonRange):
+        console.print(f"The search chose T = {outcome.motion.horizon:.3g} s, of {outcome.motion.task.horizon}.")
     first = solution.trials_to_success
     spent = f"{solution.trials} trials in {outcome.wall:.1f} s"
     if outcome.motion.met_on_the_model_only:

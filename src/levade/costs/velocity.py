@@ -3,13 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from levade.arrays import Array
-from levade.costs.rows import At, check_target, mean_over_rows, rows_at, squared_distance
+from levade.costs.rows import (
+    At,
+    beyond,
+    check_target,
+    check_tolerance,
+    mean_over_rows,
+    rows_at,
+    squared_distance,
+)
+from levade.errors import LevadeError
+from levade.rotations import conjugate, roll_pitch_yaw, rotate
 from levade.trajectory import Trajectories
+
+Frame = Literal["world", "trunk", "heading"]
+"""Axes of a velocity: the world's; the trunk's; or the world's turned about z until x is the trunk's heading (yaw)."""
 
 
 @dataclass(frozen=True)
@@ -17,7 +30,8 @@ class LinearVelocity:
     """Squared difference [m^2/s^2] from a required velocity of the trunk's centre of mass, components left out are
     free.
 
-    x, y, z: [m/s], world axes. at: when; over the hold it is the mean.
+    x, y, z: [m/s]. frame: their axes, see `Frame`; "heading" means forward, left and up. tolerance: [m/s], a difference
+        that costs nothing. at: when; over the hold it is the mean.
     """
 
     unit: ClassVar[str] = "m^2/s^2"
@@ -26,21 +40,29 @@ class LinearVelocity:
     y: float | None = None
     z: float | None = None
     at: At = "horizon"
+    frame: Frame = "world"
+    tolerance: float = 0.0
 
     def __post_init__(self) -> None:
         check_target("linear_velocity", x=self.x, y=self.y, z=self.z)
+        check_tolerance("linear_velocity", self.tolerance)
+        _check_frame("linear_velocity", self.frame)
 
     def __call__(self, trajectories: Trajectories) -> Array:
         """(n,) [m^2/s^2]."""
-        velocity = trajectories.trunk_com_velocity(rows_at(trajectories, self.at))
-        return squared_distance(velocity, (self.x, self.y, self.z))
+        rows = rows_at(trajectories, self.at)
+        velocity = trajectories.trunk_com_velocity(rows)
+        if self.frame != "world":
+            velocity = _from_world(velocity, trajectories.trunk_quaternion[:, rows], self.frame)
+        return squared_distance(velocity, (self.x, self.y, self.z), self.tolerance)
 
 
 @dataclass(frozen=True)
 class AngularVelocity:
     """Squared difference [rad^2/s^2] from a required angular velocity of the trunk, components left out are free.
 
-    x, y, z: [rad/s], trunk axes, so roll, pitch and yaw rate of the gyroscope. at: when; over the hold it is the mean.
+    x, y, z: [rad/s]; in trunk axes roll, pitch and yaw rate of the gyroscope. frame: their axes, see `Frame`. tolerance:
+        [rad/s], a difference that costs nothing. at: when; over the hold it is the mean.
     """
 
     unit: ClassVar[str] = "rad^2/s^2"
@@ -49,28 +71,70 @@ class AngularVelocity:
     y: float | None = None
     z: float | None = None
     at: At = "horizon"
+    frame: Frame = "trunk"
+    tolerance: float = 0.0
 
     def __post_init__(self) -> None:
         check_target("angular_velocity", x=self.x, y=self.y, z=self.z)
+        check_tolerance("angular_velocity", self.tolerance)
+        _check_frame("angular_velocity", self.frame)
 
     def __call__(self, trajectories: Trajectories) -> Array:
         """(n,) [rad^2/s^2]."""
-        velocity = trajectories.trunk_angular_velocity[:, rows_at(trajectories, self.at)]
-        return squared_distance(velocity, (self.x, self.y, self.z))
+        rows = rows_at(trajectories, self.at)
+        velocity = trajectories.trunk_angular_velocity[:, rows]
+        if self.frame != "trunk":
+            quaternion = trajectories.trunk_quaternion[:, rows]
+            velocity = _from_world(rotate(quaternion, velocity), quaternion, self.frame)
+        return squared_distance(velocity, (self.x, self.y, self.z), self.tolerance)
 
 
 @dataclass(frozen=True)
 class JointVelocity:
-    """Sum over the joints of the squared joint velocity [rad^2/s^2]: how far the joints are from rest.
+    """Sum over the joints of the squared difference from a required joint velocity [rad^2/s^2], which is rest by default.
 
-    at: when; over the hold it is the mean.
+    velocity: [rad/s] per joint, in the robot's joint order; joints set to None are free. All at rest if left out. tolerance:
+        [rad/s], a difference of each joint that costs nothing. at: when; over the hold it is the mean.
+    Raises LevadeError if the robot has another number of joints.
     """
 
     unit: ClassVar[str] = "rad^2/s^2"
 
     at: At = "horizon"
+    velocity: tuple[float | None, ...] | None = None
+    tolerance: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self.velocity is not None:
+            check_target("joint_velocity", **{f"velocity[{i}]": one for i, one in enumerate(self.velocity)})
+        check_tolerance("joint_velocity", self.tolerance)
 
     def __call__(self, trajectories: Trajectories) -> Array:
         """(n,) [rad^2/s^2]."""
         velocity = trajectories.joint_velocity[:, rows_at(trajectories, self.at)]
-        return mean_over_rows(np.square(velocity).sum(axis=2))
+        if self.velocity is not None:
+            joints = velocity.shape[2]
+            if len(self.velocity) != joints:
+                raise LevadeError(
+                    f"joint_velocity.velocity: {len(self.velocity)} speeds for a robot of {joints} joints; one a joint"
+                )
+            wanted = [i for i, one in enumerate(self.velocity) if one is not None]
+            velocity = velocity[:, :, wanted] - np.array([self.velocity[i] for i in wanted])
+        return mean_over_rows(beyond(np.square(velocity), self.tolerance).sum(axis=2))
+
+
+def _from_world(velocity: Array, quaternion: Array, frame: Frame) -> Array:
+    """A velocity (n, rows, 3) in world axes, in the axes of another frame."""
+    if frame == "world":
+        return velocity
+    if frame == "trunk":
+        return rotate(conjugate(quaternion), velocity)
+    yaw = roll_pitch_yaw(quaternion)[..., 2]
+    cosine, sine = np.cos(yaw), np.sin(yaw)
+    x, y, z = (velocity[..., i] for i in range(3))
+    return np.stack([cosine * x + sine * y, cosine * y - sine * x, z], axis=-1)
+
+
+def _check_frame(term: str, frame: str) -> None:
+    if frame not in ("world", "trunk", "heading"):
+        raise LevadeError(f"{term}.frame: {frame!r} is unknown; world, trunk or heading")

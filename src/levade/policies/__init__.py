@@ -8,7 +8,7 @@ reference = policy.reference(policy.hold(posture)[None])
 """
 
 from levade.policies.ends import Ends
-from levade.policies.free import FreePolicy
+from levade.policies.free import FreeGoal, FreePolicy
 from levade.policies.groups import Follower, Group, independent_joints
 from levade.policies.kernels import GaussianKernels
 from levade.policies.policy import Policy, refine
@@ -19,6 +19,7 @@ from levade.policies.tables import policy_from_dict, policy_to_dict
 __all__ = [
     "Ends",
     "Follower",
+    "FreeGoal",
     "FreePolicy",
     "GaussianKernels",
     "Group",

@@ -37,15 +37,19 @@ class Ends:
         if self.depart + self.settle > 1:
             raise LevadeError(f"settle: {self.settle} and depart: {self.depart} are together more than the horizon")
 
+    def settling(self, share: Array) -> tuple[Array, Array]:
+        """How much of the goal is in the reference at shares (rows,) of the horizon, and the derivative; (rows, 1)."""
+        if self.settle == 0:
+            return np.zeros((len(share), 1)), np.zeros((len(share), 1))
+        return _step(share, 1.0 - self.settle, 1.0)
+
     def blend(self, share: Array) -> tuple[Array, Array, Array, Array]:
         """How much of the kernels' reference counts and what is added to it, at shares (rows,) of the horizon.
 
         Returns the factor (rows, 1) [-] and the addition (rows, joints) [rad], and their derivatives by the share.
         """
         rise, rise_rate = _step(share, 0.0, self.depart)
-        fall, fall_rate = _step(share, 1.0 - self.settle, 1.0)
-        if self.settle == 0:
-            fall, fall_rate = np.zeros_like(fall), np.zeros_like(fall)
+        fall, fall_rate = self.settling(share)
         added = (1.0 - rise) * self.start + fall * self.goal
         return rise - fall, added, rise_rate - fall_rate, fall_rate * self.goal - rise_rate * self.start
 

@@ -1,11 +1,16 @@
-"""A policy whose duration is a decision of each trial, next to its weights.
+"""A policy of which the duration, the final posture, or both are decisions of each trial, next to its weights.
 
     free = FreePolicy(policy, horizon=(0.3, 1.5))
     reference = free.reference(decisions)               # each trial has its own horizon
     policy, weights = free.chosen(decisions[0])         # one of the trials, as a policy of that duration
 
-A decision is the policy's weights and, last, ``log(T / T0)`` with T0 the policy's own horizon. Beyond the bounds it counts as
-the bound. Kernels and blends stay spread over [0, T].
+The decisions of a trial are, one after another:
+
+- the policy's weights [rad];
+- ``log(T / T0)``, with T0 the policy's own horizon, if the duration is free;
+- the angles in which the free joints settle [rad], if the final posture is (`FreeGoal`).
+
+What is beyond a bound counts as the bound. Kernels and blends stay spread over [0, T].
 """
 
 from __future__ import annotations
@@ -26,32 +31,61 @@ _KEPT = 64
 
 
 @dataclass(frozen=True, eq=False)
-class FreePolicy:
-    """A policy of which each trial has a duration of its own.
+class FreeGoal:
+    """Joints of which the search finds the final angle: those of leaders, which their followers mirror.
 
     Attributes:
-        policy: The policy at the duration where a search begins.
-        horizon: Least and largest T [s].
+        joints: Which of the policy's independent joints, shape (k,).
+        lower: Least angle of each [rad], shape (k,).
+        upper: Largest angle of each [rad], shape (k,).
 
     Raises:
-        LevadeError: If the bounds do not enclose the policy's own horizon.
+        LevadeError: If a lower bound is above its upper one, or not finite.
+    """
+
+    joints: NDArray[np.intp]
+    lower: Array
+    upper: Array
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite(self.lower).all() and np.isfinite(self.upper).all() and (self.lower <= self.upper).all()):
+            raise LevadeError(f"goal: bounds {self.lower.tolist()} to {self.upper.tolist()} rad make no range")
+
+
+@dataclass(frozen=True, eq=False)
+class FreePolicy:
+    """A policy of which each trial has a duration or a final posture of its own.
+
+    Attributes:
+        policy: The policy with the duration and final posture where a search begins.
+        horizon: Least and largest T [s]; None if it is the policy's own.
+        goal: Joints whose final angle is free; None if the policy's ``ends`` say where all settle.
+
+    Raises:
+        LevadeError: If nothing is free, the bounds do not enclose the policy's own horizon, or the goal is free and nothing
+            settles there.
     """
 
     policy: Policy
-    horizon: tuple[float, float]
+    horizon: tuple[float, float] | None = None
+    goal: FreeGoal | None = None
     _made: dict[int, Policy] = field(default_factory=dict, repr=False)
 
     def __post_init__(self) -> None:
-        least, largest = self.horizon
-        if not 0 < least <= self.policy.horizon <= largest < math.inf:
+        if self.horizon is None and self.goal is None:
+            raise LevadeError("free policy: neither the horizon nor the goal is free; a Policy does")
+        if self.horizon is not None and not 0 < self.horizon[0] <= self.policy.horizon <= self.horizon[1] < math.inf:
             raise LevadeError(
-                f"horizon: {least} to {largest} s should be positive bounds around the policy's own, {self.policy.horizon} s"
+                f"horizon: {self.horizon[0]} to {self.horizon[1]} s should be positive bounds around the policy's own,"
+                f" {self.policy.horizon} s"
             )
+        if self.goal is not None and (self.policy.ends is None or self.policy.ends.settle == 0):
+            raise LevadeError("goal: it is free, but no reference settles there; give settle a share of the horizon")
 
     @property
     def size(self) -> int:
         """d, the number of decisions of one trial."""
-        return self.policy.size + 1
+        return self.policy.size + (self.horizon is not None) + (0 if self.goal is None else len(self.goal.joints))
 
     @property
     def joints(self) -> int:
@@ -66,7 +100,8 @@ class FreePolicy:
     @property
     def bounds(self) -> tuple[int, int]:
         """Rows up to the shortest and the longest horizon."""
-        shortest, longest = (max(1, round(bound / self.timestep)) for bound in self.horizon)
+        bounds = (self.policy.horizon, self.policy.horizon) if self.horizon is None else self.horizon
+        shortest, longest = (max(1, round(bound / self.timestep)) for bound in bounds)
         return shortest, longest
 
     @property
@@ -76,36 +111,68 @@ class FreePolicy:
 
     def lengths(self, decisions: Array) -> NDArray[np.intp]:
         """Rows up to the horizon of each trial, shape (n,)."""
+        if self.horizon is None:
+            return np.full(len(decisions), self.horizon_steps, dtype=np.intp)
         least, largest = (math.log(bound / self.policy.horizon) for bound in self.horizon)
-        ratio = np.exp(np.clip(decisions[:, -1], least, largest))
+        ratio = np.exp(np.clip(decisions[:, self.policy.size], least, largest))
         return np.clip(np.rint(self.policy.horizon * ratio / self.timestep), *self.bounds).astype(np.intp)
 
-    def at(self, steps: int) -> Policy:
-        """The policy of a horizon of so many steps."""
-        if steps not in self._made:
-            if len(self._made) >= _KEPT:
-                self._made.clear()
-            self._made[steps] = replace(self.policy, horizon=steps * self.timestep)
-        return self._made[steps]
+    def goals(self, decisions: Array) -> Array:
+        """Postures in which the trials settle [rad], shape (n, joints)."""
+        ends = self.policy.ends
+        assert ends is not None
+        return ends.goal + self._moved(decisions)
 
     def chosen(self, decision: Array) -> tuple[Policy, Array]:
-        """The policy of one decision, shape (size,), with its duration; and the weights, shape (policy.size,)."""
+        """The policy of one decision, shape (size,), as it decides; and the weights, shape (policy.size,)."""
         checked = self._checked(np.asarray(decision)[None])
-        return self.at(int(self.lengths(checked)[0])), checked[0, :-1].copy()
+        policy = self._at(int(self.lengths(checked)[0]))
+        if self.goal is not None and policy.ends is not None:
+            policy = replace(policy, ends=replace(policy.ends, goal=self.goals(checked)[0]))
+        return policy, checked[0, : policy.size].copy()
 
-    def decision(self, weights: Array, steps: int) -> Array:
-        """Decisions from weights, shape (n, policy.size), and a horizon of so many steps; shape (n, size)."""
-        duration = math.log(steps * self.timestep / self.policy.horizon)
-        return np.concatenate([weights, np.full((len(weights), 1), duration)], axis=1)
+    def decision(self, weights: Array, *, steps: int | None = None, goal: Array | None = None) -> Array:
+        """Decisions of weights with a duration and a final posture.
+
+        Args:
+            weights: Shape (n, policy.size).
+            steps: Rows up to the horizon. Defaults to the policy's own.
+            goal: Final posture [rad], shape (joints,). Defaults to the policy's own.
+
+        Returns:
+            Shape (n, size).
+        """
+        parts = [weights]
+        if self.horizon is not None:
+            ratio = (self.policy.horizon_steps if steps is None else steps) * self.timestep / self.policy.horizon
+            parts.append(np.full((len(weights), 1), math.log(ratio)))
+        if self.goal is not None and self.policy.ends is not None:
+            angles = self.policy.project(self.policy.ends.goal if goal is None else goal)[self.goal.joints]
+            parts.append(np.repeat(np.clip(angles, self.goal.lower, self.goal.upper)[None], len(weights), axis=0))
+        return np.concatenate(parts, axis=1)
+
+    def imitate(self, position: Array) -> Array:
+        """Decisions whose reference is nearest to a given joint motion.
+
+        Args:
+            position: Joint angles at the end of each step [rad], shape (steps, joints), as many as `bounds` allow.
+
+        Returns:
+            Shape (1, size).
+        """
+        goal = position[-1] if self.goal is not None else None
+        near = self.decision(np.zeros((1, self.policy.size)), steps=len(position), goal=goal)
+        near[:, : self.policy.size] = self.chosen(near[0])[0].imitate(position[None])
+        return near
 
     def initial_weights(self, posture: ArrayLike) -> Array:
         """Decisions that keep a posture through the initial duration."""
-        return self.decision(self.policy.hold(posture)[None], self.policy.horizon_steps)[0]
+        return self.decision(self.policy.hold(posture)[None])[0]
 
     def reference(self, weights: Array, *, hold_steps: int | None = None) -> JointReference:
-        """Evaluate eq. 3 for trials of different durations.
+        """Evaluate eq. 3 for trials of different durations and final postures.
 
-        A trial has the same bits as `Policy.reference` gives it at its duration.
+        A trial has the same bits as `Policy.reference` gives it at its duration, where the final posture is not free.
 
         Args:
             weights: Decisions, shape (n, size).
@@ -120,21 +187,49 @@ class FreePolicy:
         """
         decisions = self._checked(weights)
         hold = self.policy.hold_steps if hold_steps is None else hold_steps
-        lengths = self.lengths(decisions)
+        lengths, moved = self.lengths(decisions), self._moved(decisions) if self.goal is not None else None
         position = np.empty((len(decisions), self.horizon_steps + hold, self.joints))
         velocity = np.zeros_like(position)
         for steps in np.unique(lengths):
             trials = np.flatnonzero(lengths == steps)
-            one = self.at(int(steps)).reference(decisions[trials, :-1], hold_steps=hold)
+            policy = self._at(int(steps))
+            one = policy.reference(decisions[trials, : policy.size], hold_steps=hold)
             position[trials, : one.steps], velocity[trials, : one.steps] = one.position, one.velocity
-            position[trials, one.steps :] = one.position[:, -1:]
-        return JointReference(position, velocity, self.timestep, self.horizon_steps, horizons=lengths)
+            if moved is not None and policy.ends is not None:
+                share, rate = policy.ends.settling(np.arange(1, one.steps + 1) / steps)
+                position[trials, : one.steps] += share * moved[trials, None]
+                velocity[trials, : one.steps] += rate / (steps * self.timestep) * moved[trials, None]
+            position[trials, one.steps :] = position[trials, one.steps - 1][:, None]
+        horizons = None if self.horizon is None else lengths
+        return JointReference(position, velocity, self.timestep, self.horizon_steps, horizons=horizons)
+
+    def _at(self, steps: int) -> Policy:
+        """The policy of a horizon of so many steps."""
+        if steps == self.policy.horizon_steps:
+            return self.policy
+        if steps not in self._made:
+            if len(self._made) >= _KEPT:
+                self._made.clear()
+            self._made[steps] = replace(self.policy, horizon=steps * self.timestep)
+        return self._made[steps]
+
+    def _moved(self, decisions: Array) -> Array:
+        """How far each trial's final posture is from the policy's own [rad], shape (n, joints)."""
+        goal, ends = self.goal, self.policy.ends
+        assert goal is not None
+        assert ends is not None
+        own = self.policy.project(ends.goal)
+        moved = np.zeros((len(decisions), self.policy.independent_joints))
+        angles = np.clip(decisions[:, -len(goal.joints) :], goal.lower, goal.upper)
+        moved[:, goal.joints] = angles - own[goal.joints]
+        return self.policy.spread(moved)
 
     def _checked(self, decisions: Array) -> Array:
         decisions = np.asarray(decisions, dtype=np.float64)
         if decisions.ndim != 2 or decisions.shape[1] != self.size:
             raise LevadeError(
-                f"weights: expected (n, {self.size}), {self.policy.size} weights and the duration, got {decisions.shape}"
+                f"weights: expected (n, {self.size}), {self.policy.size} weights and what else is free, got"
+                f" {decisions.shape}"
             )
         if not np.isfinite(decisions).all():
             bad = np.flatnonzero(~np.isfinite(decisions).all(axis=1)).tolist()

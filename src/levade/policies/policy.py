@@ -253,6 +253,17 @@ class Policy:
         # the mean as first + mean deviation: exact where the legs agree
         return np.stack([a[..., 0] + (a - a[..., :1]).mean(axis=-1) for a in leaders], axis=-1)
 
+    def following(self, independent: int) -> list[tuple[int, float]]:
+        """The joints of the robot that follow an independent joint, and the sign with which each does."""
+        index, sign = self._expansion
+        leader = self._leaders[independent]
+        return [(int(joint), float(sign[joint])) for joint in np.flatnonzero(index == independent) if joint != leader]
+
+    def spread(self, angles: Array) -> Array:
+        """(..., independent_joints) angles [rad] to (..., joints): each leader's angle, which its followers mirror."""
+        index, sign = self._expansion
+        return angles[..., index] * sign
+
     def _posture(self, posture: ArrayLike) -> Array:
         angles = np.asarray(posture, dtype=np.float64)
         if angles.shape != (self.joints,) or not np.isfinite(angles).all():

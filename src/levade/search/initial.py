@@ -104,7 +104,12 @@ def fitted(policy: JointPolicy, motion: Motion) -> Array:
         )
     if isinstance(policy, FreePolicy):
         steps = int(np.clip(len(position), *policy.bounds))
-        return policy.decision(fitted(policy.at(steps), motion), steps)
+        own = motion.policy
+        if policy.goal is None and own is not None and own.size == policy.policy.size and steps == len(position):
+            decision = policy.decision(motion["weights"][None], steps=steps)
+            if np.array_equal(policy.reference(decision, hold_steps=0).position[0, :steps], position):
+                return decision
+        return policy.imitate(_stretched(position, steps))
     weights = motion["weights"][None]
     if weights.shape[1] == policy.size and len(position) == policy.horizon_steps:
         same = policy.reference(weights, hold_steps=0).position[0]
@@ -112,7 +117,11 @@ def fitted(policy: JointPolicy, motion: Motion) -> Array:
             return weights
     if not isinstance(policy, Policy):
         raise LevadeError("initial: a policy of one's own cannot be fitted to a motion; give weights instead")
-    share = np.arange(1, policy.horizon_steps + 1) / policy.horizon_steps * len(position)
+    return policy.imitate(_stretched(position, policy.horizon_steps)[None])
+
+
+def _stretched(position: Array, steps: int) -> Array:
+    """The same joint motion in another number of steps [rad], shape (steps, joints)."""
+    share = np.arange(1, steps + 1) / steps * len(position)
     rows = np.arange(1, len(position) + 1)
-    stretched = np.stack([np.interp(share, rows, angle) for angle in position.T], axis=1)
-    return policy.imitate(stretched[None])
+    return np.stack([np.interp(share, rows, angle) for angle in position.T], axis=1)

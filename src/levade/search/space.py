@@ -33,7 +33,7 @@ def search_space(task: Task, robot: Robot, policy: JointPolicy, start: State) ->
     one_sided = np.array([criterion.target is None for criterion in task.success.values()], dtype=bool)
     if isinstance(policy, FreePolicy):
         space = _of_weights(task, robot, policy.policy, start)
-        return _with_duration(dataclasses.replace(space, one_sided=one_sided), policy)
+        return _with_more(dataclasses.replace(space, one_sided=one_sided), policy)
     if isinstance(policy, Policy):
         return dataclasses.replace(_of_weights(task, robot, policy, start), one_sided=one_sided)
     mean = policy.initial_weights(start.joint_reference[0])
@@ -53,14 +53,19 @@ def _of_weights(task: Task, robot: Robot, policy: Policy, start: State) -> Searc
     return SearchSpace(mean, smooth, step=search.step, population=search.population, ending=_ending(policy))
 
 
-def _with_duration(space: SearchSpace, policy: FreePolicy) -> SearchSpace:
-    """The same with one more decision, `DURATION` wide; it is no part of what ends a motion."""
+def _with_more(space: SearchSpace, policy: FreePolicy) -> SearchSpace:
+    """The same with the policy's further decisions: a duration is `DURATION` wide, angles as wide as weights.
+
+    They are no part of what ends a motion.
+    """
     d, m = space.factor.shape
-    factor = np.zeros((d + 1, m + 1))
-    factor[:d, :m], factor[d, m] = space.factor, DURATION / space.step
-    ending = None if space.ending is None else np.pad(space.ending, ((0, 0), (0, 1)))
-    mean = policy.decision(space.mean[None], policy.policy.horizon_steps)[0]
-    return dataclasses.replace(space, mean=mean, factor=factor, ending=ending)
+    more = policy.size - d
+    factor = np.zeros((d + more, m + more))
+    factor[:d, :m], factor[d:, m:] = space.factor, np.eye(more)
+    if policy.horizon is not None:
+        factor[d, m] = DURATION / space.step
+    ending = None if space.ending is None else np.pad(space.ending, ((0, 0), (0, more)))
+    return dataclasses.replace(space, mean=policy.decision(space.mean[None])[0], factor=factor, ending=ending)
 
 
 def _ending(policy: Policy) -> Array | None:

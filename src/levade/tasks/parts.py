@@ -90,7 +90,9 @@ class PolicyChoice:
         right), "all" (one for all legs), "independent" (one each, as the paper's recovery), or lists of leg names.
     initial: the first mean of the search: "hold" what the joints were told last, or "interpolate" in a straight line from
         the joint angles at the start to the posture ``goal``.
-    goal: a posture, as in `levade.engines.Settled`.
+    goal: a posture, as in `levade.engines.Settled`; or "free": the search finds it, within the joints' ranges. Legs, ends and
+        sides may be free (``{hind: free}``), and joints, within the two angles of a range (``{"*_kfe": [-2.0, -1.0]}``); the
+        rest of the posture is the neutral one. A free one needs ``settle``.
     depart, settle: shares of the horizon in which every reference leaves what the joints were told last, and goes over to
         the goal; 0 leaves the ends to the weights. See `levade.policies.Ends`.
     """
@@ -100,9 +102,19 @@ class PolicyChoice:
     time: Literal["normalised", "seconds"] = "normalised"
     groups: Literal["pairs", "sides", "all", "independent"] | tuple[tuple[str, ...], ...] = "independent"
     initial: Literal["hold", "interpolate"] = "hold"
-    goal: str | Mapping[str, float | str] = "neutral"
+    goal: str | Mapping[str, float | str | tuple[float, float]] = "neutral"
     depart: float = 0.0
     settle: float = 0.0
+
+    @property
+    def goal_is_free(self) -> bool:
+        """Whether some of the final posture is for the search to find."""
+        values = [self.goal] if isinstance(self.goal, str) else self.goal.values()
+        return any(value == FREE or isinstance(value, tuple) for value in values)
+
+
+FREE = "free"
+"""What stands for a posture that the search finds."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import fnmatch
+from collections.abc import Callable, Mapping
+
+import numpy as np
 
 from levade.arrays import Array
-from levade.errors import LevadeError, located
-from levade.policies import Ends, Follower, FreePolicy, GaussianKernels, Group, Policy
+from levade.errors import LevadeError, did_you_mean, located
+from levade.policies import Ends, Follower, FreeGoal, FreePolicy, GaussianKernels, Group, Policy
 from levade.robots import Leg, Robot, mirror_signs
-from levade.tasks.parts import HorizonRange, PolicyChoice
+from levade.tasks.parts import FREE, HorizonRange, PolicyChoice
 from levade.tasks.task import Task
 
 
@@ -33,15 +36,74 @@ def make_policy(task: Task, robot: Robot, *, start: Array | None = None) -> Poli
             ends = Ends(goal if start is None else start, goal, choice.depart, choice.settle)
     horizon = task.horizon.begin if isinstance(task.horizon, HorizonRange) else task.horizon
     policy = Policy(kernels, leg_groups(choice, robot), horizon, task.physics.timestep, task.hold_steps, ends)
-    if not isinstance(task.horizon, HorizonRange):
-        return policy
-    return FreePolicy(policy, (task.horizon.minimum, task.horizon.maximum))
+    bounds = (task.horizon.minimum, task.horizon.maximum) if isinstance(task.horizon, HorizonRange) else None
+    goal = free_goal(choice, robot, policy) if choice.goal_is_free else None
+    return policy if bounds is None and goal is None else FreePolicy(policy, bounds, goal)
 
 
 def goal_posture(choice: PolicyChoice, robot: Robot) -> Array:
-    """The posture in which the policy's references settle [rad], shape (joints,)."""
+    """The posture in which the policy's references settle [rad], shape (joints,); of free joints, where a search begins."""
+    if choice.goal == FREE:
+        return robot.posture("neutral")
+    goal = choice.goal
+    if not isinstance(goal, str):
+        goal = {
+            key: sum(value) / 2 if isinstance(value, tuple) else value for key, value in goal.items() if value != FREE
+        }
     with located("policy.goal: "):
-        return robot.posture(choice.goal)
+        return robot.posture(goal)
+
+
+def free_goal(choice: PolicyChoice, robot: Robot, policy: Policy) -> FreeGoal:
+    """Make the freedom of the final posture on a policy's independent joints.
+
+    Raises:
+        LevadeError: If a leg or joint does not exist, a range is out of the joint's own, or of joints that share a policy one
+            is free and another is not.
+    """
+    lower, upper = np.full(policy.joints, np.nan), np.full(policy.joints, np.nan)
+    table = choice.goal if isinstance(choice.goal, Mapping) else dict.fromkeys((leg.name for leg in robot.legs), FREE)
+    for key, value in table.items():
+        if value != FREE and not isinstance(value, tuple):
+            continue
+        for joint in _joints_named(key, robot):
+            least, largest = robot.limits.lower[joint], robot.limits.upper[joint]
+            if isinstance(value, tuple) and not least <= value[0] <= value[1] <= largest:
+                raise LevadeError(
+                    f"policy.goal.{key}: {value[0]} to {value[1]} rad should be a range within that of"
+                    f" {robot.joint_names[joint]}, {least:.4g} to {largest:.4g} rad"
+                )
+            lower[joint], upper[joint] = value if isinstance(value, tuple) else (least, largest)
+    unlimited = ~np.isnan(lower) & ~(np.isfinite(lower) & np.isfinite(upper))
+    if unlimited.any():
+        name = robot.joint_names[int(np.flatnonzero(unlimited)[0])]
+        raise LevadeError(f'policy.goal: {name} is free and has no range; give one: goal: {{"{name}": [-1.0, 1.0]}}')
+    leaders = [joint for group in policy.groups for joint in group.leader]
+    low, high = lower[leaders], upper[leaders]
+    for i, joint in enumerate(leaders):
+        for follower, sign in policy.following(i):
+            ends = sorted((sign * lower[follower], sign * upper[follower]))
+            if np.isnan(ends[0]) != np.isnan(low[i]):
+                names = robot.joint_names[joint], robot.joint_names[follower]
+                raise LevadeError(
+                    f"policy.goal: {names[0]} and {names[1]} share a policy, but only one of them is free"
+                )
+            low[i], high[i] = max(low[i], ends[0]), min(high[i], ends[1])
+    free = np.flatnonzero(~np.isnan(low))
+    with located("policy."):
+        return FreeGoal(free, low[free], high[free])
+
+
+def _joints_named(key: str, robot: Robot) -> list[int]:
+    """Indices of the joints of a leg, an end or a side; or of those that a pattern names."""
+    legs = [leg for leg in robot.legs if key in (leg.name, leg.end, leg.side)]
+    if legs:
+        return [i for leg in legs for i in range(*robot.joint_indices(leg).indices(len(robot.joint_names)))]
+    found = [i for i, name in enumerate(robot.joint_names) if fnmatch.fnmatchcase(name, key)]
+    if not found:
+        valid = {*robot.joint_names, *(name for leg in robot.legs for name in (leg.name, leg.end, leg.side))}
+        raise LevadeError(f"policy.goal: no leg or joint {key!r} in {robot.name}; {did_you_mean(key, valid)}")
+    return found
 
 
 def leg_groups(choice: PolicyChoice, robot: Robot) -> tuple[Group, ...]:

@@ -58,6 +58,11 @@ _KEYS: dict[str, str] = {
     "latency": "a duration",
     "start_velocity": "a speed",
 }
+_VELOCITIES = {
+    "linear_velocity": "a speed",
+    "angular_velocity": "an angular speed",
+    "joint_velocity": "an angular speed",
+}
 _BOUNDS = ("target", "tolerance", "minimum", "maximum", "scale")
 _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-z°][\w°/²^]*)\s*")
 
@@ -127,14 +132,14 @@ def measure_of(criterion: Any) -> str | None:
 
 
 def measured(key: str, siblings: Mapping[str, Any]) -> str | None:
-    term = siblings.get("term")
+    term = str(siblings.get("term"))
     if key in _BOUNDS and (kind := measure_of(siblings)):
         return kind
     if key == "tolerance" and siblings.get("term") in ("orientation", "position"):
         return "an angle" if siblings["term"] == "orientation" else "a length"
     # terms that aim at a velocity name their components x, y, z too
-    if key in ("x", "y", "z") and term in ("linear_velocity", "angular_velocity"):
-        return "a speed" if term == "linear_velocity" else "an angular speed"
+    if term in _VELOCITIES and key in ("x", "y", "z", "tolerance", "velocity"):
+        return _VELOCITIES[term]
     if key == "position" and term == "posture":
         return "an angle"
     return _KEYS.get(key)

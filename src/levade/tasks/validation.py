@@ -46,6 +46,10 @@ def check_durations(horizon: float | HorizonRange, hold: float, timestep: float)
 
 def check_policy(policy: PolicyChoice) -> None:
     """What no robot decides."""
+    if policy.goal_is_free and policy.settle == 0:
+        raise LevadeError(
+            "policy.goal: it is free, but no reference settles there; give policy.settle a share of the horizon, such as 0.3"
+        )
     if not 1 <= policy.kernels <= 1000:
         raise LevadeError(f"policy.kernels: {policy.kernels} should be 1 to 1000; the paper has 16")
 

@@ -34,6 +34,7 @@ from levade.rotations import rotate
 from levade.scenes import Scene, compose
 from levade.search import Objective
 from levade.tasks import builtin_tasks, load_task, task_to_dict, task_to_yaml
+from levade.tasks.policy import goal_posture
 from levade.version import __version__
 
 _GROUPS = {
@@ -256,7 +257,7 @@ def _ghost(
     if required:
         angles = np.array([free if wanted is None else wanted for wanted, free in zip(required[0], now, strict=True)])
     elif task.policy.initial == "interpolate":
-        angles = robot.posture(task.policy.goal)
+        angles = goal_posture(task.policy, robot)
     if angles is None and goal is None:
         return None
     whole = angles is not None
