@@ -93,13 +93,20 @@ def _adapter(kind: Any) -> Any:
     return pydantic.TypeAdapter(kind)
 
 
+_CLASS = re.compile(r"([A-Z][a-z]+){2,}")
+"""The name of a dataclass, which is no key: pydantic names the alternative of a union by it."""
+
+
 def first_mistake(error: Any) -> str:
     """One line about the first mistake of a pydantic.ValidationError: the path of its key, what is wrong, what is
     there.
     """
     # pydantic tries each alternative of a union, and names it in the path; the one that it got furthest with was meant
     tags = ("str", "bool", "float", "int")
-    paths = [[s for s in mistake["loc"] if s not in tags and "[" not in str(s)] for mistake in error.errors()]
+    paths = [
+        [s for s in mistake["loc"] if s not in tags and "[" not in str(s) and not _CLASS.fullmatch(str(s))]
+        for mistake in error.errors()
+    ]
     furthest = max(range(len(paths)), key=lambda i: len(paths[i]))
     mistake, path = error.errors()[furthest], ".".join(map(str, paths[furthest]))
     if mistake["type"] == "missing":

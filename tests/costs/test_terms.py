@@ -91,11 +91,53 @@ def centre_of_mass(t, i, k):
     return t.trunk_position[i, k] + R @ offset, t.trunk_linear_velocity[i, k] + spin
 
 
+def heading(t, i, k):
+    """Turned about z only, as far as the trunk's x axis points."""
+    R = rotation_matrix(t.trunk_quaternion[i, k])
+    forward = np.array([R[0, 0], R[1, 0], 0.0]) / np.hypot(R[0, 0], R[1, 0])
+    return np.stack([forward, np.cross([0.0, 0.0, 1.0], forward), [0.0, 0.0, 1.0]], axis=1)
+
+
 TERMINAL = {
     "position": (Position(x=0.5, z=0.9), lambda t, i, k: squares(centre_of_mass(t, i, k)[0], (0.5, None, 0.9))),
     "height": (Position(z=0.61), lambda t, i, k: squares(centre_of_mass(t, i, k)[0], (None, None, 0.61))),
     "velocity": (LinearVelocity(0.0, 0.0, 1.0), lambda t, i, k: squares(centre_of_mass(t, i, k)[1], (0, 0, 1.0))),
     "spin": (AngularVelocity(y=-2.0), lambda t, i, k: squares(t.trunk_angular_velocity[i, k], (None, -2.0, None))),
+    "forward": (
+        LinearVelocity(0.5, 0.0, frame="heading"),
+        lambda t, i, k: squares(heading(t, i, k).T @ centre_of_mass(t, i, k)[1], (0.5, 0, None)),
+    ),
+    "along the trunk": (
+        LinearVelocity(x=0.5, frame="trunk"),
+        lambda t, i, k: squares(
+            rotation_matrix(t.trunk_quaternion[i, k]).T @ centre_of_mass(t, i, k)[1], (0.5, None, None)
+        ),
+    ),
+    "spin in the world": (
+        AngularVelocity(z=1.0, frame="world"),
+        lambda t, i, k: squares(
+            rotation_matrix(t.trunk_quaternion[i, k]) @ t.trunk_angular_velocity[i, k], (None, None, 1.0)
+        ),
+    ),
+    "roll rate of the heading": (
+        AngularVelocity(x=1.0, y=0.0, frame="heading"),
+        lambda t, i, k: squares(
+            heading(t, i, k).T @ rotation_matrix(t.trunk_quaternion[i, k]) @ t.trunk_angular_velocity[i, k],
+            (1.0, 0, None),
+        ),
+    ),
+    "two joints": (
+        JointVelocity(velocity=(3.0, *[None] * 10, -2.0)),
+        lambda t, i, k: squares(t.joint_velocity[i, k], (3.0, *[None] * 10, -2.0)),
+    ),
+    "nearly at rest": (
+        JointVelocity(tolerance=5.0),
+        lambda t, i, k: sum(max(0.0, abs(v) - 5.0) ** 2 for v in t.joint_velocity[i, k]),
+    ),
+    "nearly still": (
+        LinearVelocity(0.0, 0.0, 0.0, tolerance=1.0),
+        lambda t, i, k: max(0.0, np.linalg.norm(centre_of_mass(t, i, k)[1]) - 1.0) ** 2,
+    ),
     "joint velocity": (JointVelocity(), lambda t, i, k: squares(t.joint_velocity[i, k], (0,) * 12)),
     "posture": (Posture(POSTURE), lambda t, i, k: squares(t.joint_position[i, k], POSTURE)),
 }
@@ -186,6 +228,10 @@ def test_the_terms_can_be_read_from_plain_data():
         (lambda t: Position(x=math.inf), r"position\.x: inf is not finite"),
         (lambda t: LinearVelocity(), "linear_velocity: no target"),
         (lambda t: AngularVelocity(), "angular_velocity: no target"),
+        (lambda t: AngularVelocity(x=0.0, frame="body"), "angular_velocity.frame: 'body' is unknown; world, trunk or"),
+        (lambda t: LinearVelocity(x=0.0, tolerance=-1.0), "linear_velocity.tolerance: -1.0 should be 0 or more"),
+        (lambda t: JointVelocity(velocity=(None, None)), "joint_velocity: no target"),
+        (lambda t: JointVelocity(velocity=(0.0,))(t), "joint_velocity.velocity: 1 speeds for a robot of 12 joints"),
         (lambda t: Posture((0.0, 1.0))(t), r"posture\.position: 2 angles for a robot of 12 joints"),
         (lambda t: GroundContact(()), "name those that should stay off the ground"),
         (lambda t: GroundContact(("trnk",))(t), "the contact force of trnk was not recorded; did you mean trunk"),

@@ -34,7 +34,8 @@ def test_a_trial_has_the_bits_of_a_policy_of_its_duration(policy: Policy, decisi
     free = FreePolicy(policy, (0.1, 0.5))
     asked = decisions[:, : policy.size + 1]
     reference = free.reference(asked)
-    assert reference.horizons is not None and len(set(reference.horizons.tolist())) > 3
+    assert reference.horizons is not None
+    assert len(set(reference.horizons.tolist())) > 3
     for i, steps in enumerate(reference.horizons):
         own, weights = free.chosen(asked[i])
         assert own.horizon_steps == steps == np.clip(round(0.2 * np.exp(asked[i, -1]) / 0.002), 50, 250)
@@ -83,7 +84,8 @@ def test_a_motion_of_any_duration_and_end_is_imitated(policy: Policy, decisions:
     own, weights = free.chosen(decisions[0])
     position = own.reference(weights[None], hold_steps=0).position[0]
     near = free.reference(free.imitate(position), hold_steps=0)
-    assert near.horizons is not None and near.horizons[0] == own.horizon_steps
+    assert near.horizons is not None
+    assert near.horizons[0] == own.horizon_steps
     np.testing.assert_allclose(near.position[0, : own.horizon_steps], position, atol=2e-3)
 
 

@@ -30,6 +30,7 @@ def make_policy(task: Task, robot: Robot, *, start: Array | None = None) -> Poli
     ends = None
     with located("policy."):
         kernels = GaussianKernels(choice.kernels, choice.variance, choice.time)
+    free = _free_ranges(choice, robot) if choice.goal_is_free else None
     if choice.depart or choice.settle:
         goal = goal_posture(choice, robot)
         with located("policy."):
@@ -37,7 +38,7 @@ def make_policy(task: Task, robot: Robot, *, start: Array | None = None) -> Poli
     horizon = task.horizon.begin if isinstance(task.horizon, HorizonRange) else task.horizon
     policy = Policy(kernels, leg_groups(choice, robot), horizon, task.physics.timestep, task.hold_steps, ends)
     bounds = (task.horizon.minimum, task.horizon.maximum) if isinstance(task.horizon, HorizonRange) else None
-    goal = free_goal(choice, robot, policy) if choice.goal_is_free else None
+    goal = None if free is None else _free_goal(policy, *free, robot)
     return policy if bounds is None and goal is None else FreePolicy(policy, bounds, goal)
 
 
@@ -54,40 +55,49 @@ def goal_posture(choice: PolicyChoice, robot: Robot) -> Array:
         return robot.posture(goal)
 
 
-def free_goal(choice: PolicyChoice, robot: Robot, policy: Policy) -> FreeGoal:
-    """Make the freedom of the final posture on a policy's independent joints.
+def _free_ranges(choice: PolicyChoice, robot: Robot) -> tuple[Array, Array]:
+    """Bounds of the final angle of each joint [rad], shape (joints,) each; NaN for joints that are not free.
 
     Raises:
-        LevadeError: If a leg or joint does not exist, a range is out of the joint's own, or of joints that share a policy one
-            is free and another is not.
+        LevadeError: If a leg or joint does not exist, a range is out of the joint's own, or a joint without one is free.
     """
-    lower, upper = np.full(policy.joints, np.nan), np.full(policy.joints, np.nan)
+    names, limits = robot.joint_names, robot.limits
+    lower, upper = np.full(len(names), np.nan), np.full(len(names), np.nan)
     table = choice.goal if isinstance(choice.goal, Mapping) else dict.fromkeys((leg.name for leg in robot.legs), FREE)
     for key, value in table.items():
         if value != FREE and not isinstance(value, tuple):
             continue
         for joint in _joints_named(key, robot):
-            least, largest = robot.limits.lower[joint], robot.limits.upper[joint]
+            least, largest = limits.lower[joint], limits.upper[joint]
             if isinstance(value, tuple) and not least <= value[0] <= value[1] <= largest:
                 raise LevadeError(
-                    f"policy.goal.{key}: {value[0]} to {value[1]} rad should be a range within that of"
-                    f" {robot.joint_names[joint]}, {least:.4g} to {largest:.4g} rad"
+                    f"policy.goal.{key}: {value[0]} to {value[1]} rad should be a range within that of {names[joint]},"
+                    f" {least:.4g} to {largest:.4g} rad"
                 )
             lower[joint], upper[joint] = value if isinstance(value, tuple) else (least, largest)
-    unlimited = ~np.isnan(lower) & ~(np.isfinite(lower) & np.isfinite(upper))
-    if unlimited.any():
-        name = robot.joint_names[int(np.flatnonzero(unlimited)[0])]
+    unlimited = np.flatnonzero(np.isinf(lower) | np.isinf(upper))
+    if unlimited.size:
+        name = names[unlimited[0]]
         raise LevadeError(f'policy.goal: {name} is free and has no range; give one: goal: {{"{name}": [-1.0, 1.0]}}')
+    return lower, upper
+
+
+def _free_goal(policy: Policy, lower: Array, upper: Array, robot: Robot) -> FreeGoal:
+    """The freedom of a policy's independent joints: that of each leader, within what its followers can do.
+
+    Raises:
+        LevadeError: If of joints that share a policy one is free and another is not.
+    """
     leaders = [joint for group in policy.groups for joint in group.leader]
     low, high = lower[leaders], upper[leaders]
     for i, joint in enumerate(leaders):
         for follower, sign in policy.following(i):
-            ends = sorted((sign * lower[follower], sign * upper[follower]))
-            if np.isnan(ends[0]) != np.isnan(low[i]):
+            if np.isnan(lower[follower]) != np.isnan(lower[joint]):
                 names = robot.joint_names[joint], robot.joint_names[follower]
                 raise LevadeError(
                     f"policy.goal: {names[0]} and {names[1]} share a policy, but only one of them is free"
                 )
+            ends = sorted((sign * lower[follower], sign * upper[follower]))
             low[i], high[i] = max(low[i], ends[0]), min(high[i], ends[1])
     free = np.flatnonzero(~np.isnan(low))
     with located("policy."):

@@ -1,0 +1,160 @@
+"""Duration and final posture as decisions of a search: each trial its own, and the motion that is kept has them fixed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from levade.costs import Criterion
+from levade.errors import LevadeError
+from levade.motions import Motion, ReferenceCurve
+from levade.policies import FreePolicy, Policy
+from levade.search import Generation, Objective, Stopped, Trials, make_objective, solve
+from levade.search.initial import initial_guess
+from levade.search.objective import evaluate_many
+from levade.search.recording import record
+from levade.search.run import MOTION, resume, run
+from levade.tasks import HorizonRange, load_task
+
+RANGE = "horizon={minimum: 60 ms, maximum: 0.3 s, initial: 0.12}"
+SMALL = [
+    *("search.optimizer=cma", "search.population=6", "hold=0.04", "search.polish=null", "search.trials=36"),
+    "success={pitch: {target: 0, tolerance: 0.2}, height: {target: 0.57, tolerance: 5 cm, at: end}}",
+]
+GOAL = ["policy.goal={hind: free, front: crouched}", "policy.settle=0.4"]
+
+
+@pytest.fixture(scope="module")
+def free() -> Objective:
+    return make_objective(load_task("rearing", changes=[*SMALL, RANGE]), threads=1)
+
+
+@pytest.fixture(scope="module")
+def decisions(free: Objective) -> np.ndarray:
+    space, random = free.space, np.random.default_rng(0)
+    return space.mean + 3 * space.step * random.standard_normal((7, space.factor.shape[1])) @ space.factor.T
+
+
+def test_a_trial_achieves_what_it_does_in_a_task_of_its_horizon(free: Objective, decisions: np.ndarray) -> None:
+    assert isinstance(free.policy, FreePolicy)
+    found = free.evaluate(decisions)
+    lengths = free.policy.lengths(decisions)
+    assert len(set(lengths.tolist())) > 4
+    for i, steps in enumerate(lengths):
+        fixed = make_objective(load_task("rearing", changes=[*SMALL, f"horizon={steps * 0.002}"]), threads=1)
+        alone = fixed.evaluate(decisions[i : i + 1, :-1])
+        for name, errors in alone.errors.items():
+            assert errors[0] == found.errors[name][i]
+        for name, values in alone.terms.items():
+            np.testing.assert_allclose(found.terms[name][i], values[0], rtol=1e-12)
+
+
+def test_trials_are_simulated_no_longer_than_they_need(free: Objective, decisions: np.ndarray) -> None:
+    assert isinstance(free.policy, FreePolicy)
+    before = free.engine.steps
+    free.evaluate(Trials(decisions, hold_steps=5))
+    assert free.engine.steps - before == (free.policy.lengths(decisions) + 5).sum()
+
+
+def test_a_trial_has_the_same_bits_in_any_batch(free: Objective, decisions: np.ndarray) -> None:
+    together = free.evaluate(decisions)
+    fixed = free.with_task(load_task("rearing", changes=[*SMALL, "horizon=0.3"]))
+    parts = [
+        (free, Trials(decisions[2:3], 20)),
+        (fixed, Trials(decisions[:2, :-1], 20)),
+        (free, Trials(decisions[3:], 20)),
+    ]
+    first, _, rest = evaluate_many(parts)
+    for tables in ("terms", "errors"):
+        for name, values in getattr(together, tables).items():
+            np.testing.assert_array_equal(values[2:], np.r_[getattr(first, tables)[name], getattr(rest, tables)[name]])
+
+
+def test_a_trial_that_breaks_down_takes_nobody_with_it(free: Objective, decisions: np.ndarray) -> None:
+    wild = decisions.copy()
+    wild[3, :-1] = 1e30
+    found, before = free.evaluate(wild), free.evaluate(decisions)
+    assert found.diverged.tolist() == [False] * 3 + [True] + [False] * 3
+    kept = [0, 1, 2, 4, 5, 6]
+    np.testing.assert_array_equal(found.terms["effort"][kept], before.terms["effort"][kept])
+
+
+@pytest.mark.parametrize("changes", [[RANGE], GOAL, [RANGE, *GOAL]], ids=["duration", "posture", "both"])
+def test_the_motion_that_is_kept_has_its_own(changes: list[str], tmp_path: Path) -> None:
+    objective = make_objective(load_task("rearing", changes=[*SMALL, *changes]), threads=1)
+    outcome = run(objective, seed=3, directory=tmp_path)
+    motion, policy = Motion.load(tmp_path / MOTION), objective.policy
+    assert isinstance(policy, FreePolicy)
+    assert isinstance(motion.policy, Policy)
+    assert motion.policy.horizon_steps == motion.horizon_steps == round(motion.horizon / motion.timestep)
+    assert motion.steps == motion.horizon_steps + 20 == len(motion["time"]) == len(motion["ctrl"])
+    assert policy.bounds[0] <= motion.horizon_steps <= policy.bounds[1]
+    assert ReferenceCurve.of(motion).policy is not None  # weights and policy of the file give its rows
+    np.testing.assert_allclose(motion["time"][-1], motion.horizon + 0.04)
+    best = outcome.solution.best.weights
+    reference = motion["joint_position_reference"]
+    if policy.goal is not None:
+        settled = policy.goals(best[None])[0]
+        np.testing.assert_allclose(reference[-1], settled, atol=1e-12)
+        front = objective.robot.posture({"front": "crouched"})[:6]
+        np.testing.assert_allclose(settled[:6], front)
+        assert np.abs(settled[6:] - objective.robot.posture("neutral")[6:]).max() > 0.01
+    near = initial_guess(policy, motion).candidates
+    again = policy.reference(near, hold_steps=20).position[0, : len(reference)]
+    np.testing.assert_allclose(again, reference, atol=0.02)
+    if policy.goal is None:
+        np.testing.assert_array_equal(near[0, :-1], motion["weights"])
+
+
+def test_a_search_resumes_to_the_same_motion(tmp_path: Path) -> None:
+    objective = make_objective(load_task("rearing", changes=[*SMALL, RANGE, *GOAL]), threads=1)
+    whole = run(objective, seed=1, directory=tmp_path / "whole").motion
+
+    def stop(generation: Generation) -> Stopped | None:
+        return Stopped.INTERRUPTED if generation.trials >= 18 else None
+
+    assert run(objective, seed=1, directory=tmp_path / "part", observe=stop).solution.trials < 36
+    part = resume(tmp_path / "part", objective=objective).motion
+    for name in ("weights", "joint_position", "time"):
+        np.testing.assert_array_equal(part[name], whole[name])
+
+
+@pytest.mark.slow
+def test_a_search_finds_the_duration_that_a_task_asks_for() -> None:
+    """Rearing in 0.45 s at least, from a first guess of 0.3 s: and no more than that, as time costs."""
+    task = load_task("rearing", changes=["horizon={minimum: 0.2, maximum: 0.9, initial: 0.3}"])
+    task = replace(task, success={**task.success, "duration": Criterion("duration", minimum=0.45)})
+    objective = make_objective(task)
+    motion = record(objective, solve(objective, seed=100), seed=100)
+    assert motion.result.success
+    assert 0.45 <= motion.horizon <= 0.9
+
+
+@pytest.mark.parametrize(
+    ("changes", "says"),
+    [
+        (["horizon={minimum: 0.5, maximum: 0.3}"], "horizon.minimum: 0.5 s is above the maximum"),
+        (["horizon={minimum: 0.1, maximum: 0.3, initial: 0.4}"], "horizon.initial: 0.4 s should be within the bounds"),
+        (["horizon={minimum: 0.1}"], "horizon.maximum: missing"),
+        (["horizon={minimum: 0.1, maxmum: 0.3}"], "no 'maxmum'|maximum"),
+        (["horizon={minimum: 0.0001, maximum: 0.3}"], "at least one time step"),
+        (["policy.goal=free"], "policy.goal: it is free, but no reference settles there"),
+        (["policy.goal={hnd: free}", "policy.settle=0.4"], "no leg or joint 'hnd'.*hind"),
+        (['policy.goal={"lf_kfe": free}', "policy.settle=0.4"], "lf_kfe and rf_kfe share a policy"),
+        (['policy.goal={"*_kfe": [-9, 9]}', "policy.settle=0.4"], "should be a range within that of lf_kfe"),
+    ],
+)
+def test_what_makes_no_sense_is_one_line(changes: list[str], says: str) -> None:
+    with pytest.raises(LevadeError, match=says) as error:
+        make_objective(load_task("rearing", changes=changes))
+    assert "\n" not in str(error.value)
+
+
+def test_a_range_of_horizons_begins_in_the_middle_of_its_logarithm() -> None:
+    task = load_task("rearing", changes=["horizon={minimum: 0.2, maximum: 0.8}"])
+    assert isinstance(task.horizon, HorizonRange)
+    assert task.horizon.begin == pytest.approx(0.4)
+    assert task.horizon_steps == 400
