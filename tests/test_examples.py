@@ -57,6 +57,13 @@ def test_warm_start(example: Callable[..., str]) -> None:
 
 
 @pytest.mark.slow
+def test_chain(example: Callable[..., str]) -> None:
+    heights = re.findall(r"height ([\d.]+) m, in its own file ([\d.]+) m", example("chain"))
+    assert len(heights) == 3
+    assert heights[0][0] == heights[0][1]
+
+
+@pytest.mark.slow
 def test_many_seeds(example: Callable[..., str]) -> None:
     said = example("many_seeds", "--seeds", "3")
     assert re.search(r"^\d of 3 succeed", said, re.MULTILINE)

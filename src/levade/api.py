@@ -24,6 +24,7 @@ from levade.arrays import Array
 from levade.engines import ENGINES, EngineKind
 from levade.errors import LevadeError
 from levade.motions import Motion
+from levade.motions.chaining import after as start_after
 from levade.optimizers import can_restart
 from levade.robots import Robot, robot_of_spec
 from levade.robots import load_robot as load_robot_file
@@ -112,6 +113,7 @@ def solve(
     engine: str | EngineKind | None = None,
     trials: int | None = None,
     initial: Initial | None = None,
+    after: Motion | None = None,
     out: str | Path | None = None,
     threads: int = 0,
     observe: Observe | None = None,
@@ -128,6 +130,7 @@ def solve(
         engine: Another engine than the task's: a name, or a row for the table `levade.engines.ENGINES`.
         trials: Another budget than the task's.
         initial: Motions, weights or a distribution to begin around.
+        after: A motion as whose end this one starts, instead of where the task says.
         out: Directory in which to keep the motion, the resolved task, the progress and a checkpoint, as ``levade solve``
             does. None keeps nothing.
         threads: Engine threads; 0 for one per core. The result does not depend on it.
@@ -137,7 +140,7 @@ def solve(
     Raises:
         LevadeError: If something does not fit together, or ``out`` cannot be written.
     """
-    objective = _objective(task, robot, optimizer, policy, engine, trials, threads)
+    objective = _objective(task, robot, optimizer, policy, engine, trials, threads, after)
     guess = None if initial is None else initial_guess(objective.policy, initial)
     if out is not None:
         kept = run(objective, seed=seed, directory=Path(out), initial=guess, observe=observe)
@@ -273,6 +276,7 @@ def _objective(
     engine: str | EngineKind | None = None,
     trials: int | None = None,
     threads: int = 0,
+    after: Motion | None = None,
 ) -> Objective:
     """Put a task together with what was given instead of its own."""
     made = None if robot is None else load_robot(robot)
@@ -288,6 +292,8 @@ def _objective(
             changes["restart"] = None
     if changes:
         task = replace(task, search=replace(task.search, **changes))
+    if after is not None:
+        task = start_after(task, after)
     if engine is not None:
         task = replace(task, physics=replace(task.physics, engine=_engine_name(engine)))
     return make_objective(task, robot=made, policy=policy, threads=threads)

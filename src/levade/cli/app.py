@@ -111,6 +111,9 @@ def solve(
             "--from", metavar="MOTION", help="Begin around the motion in this file. Repeatable: the best is taken."
         ),
     ] = None,
+    after: Annotated[
+        Path | None, typer.Option(metavar="MOTION", help="Start as the motion in this file ends, not as TASK says.")
+    ] = None,
     resume: Annotated[Path | None, typer.Option(metavar="DIR", help="Go on with the interrupted run in DIR.")] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace an interrupted run in the directory.")] = False,
     threads: Annotated[int, typer.Option(min=0, help="0 for one per core; no effect on the result.")] = 0,
@@ -148,6 +151,7 @@ def solve(
             "--out": out,
             "--force": force or None,
             "--from": begin or None,
+            "--after": after,
             "--set, --trials, --optimizer or --engine": changed or None,
         }
         extra = [name for name, value in given.items() if value is not None]
@@ -163,6 +167,7 @@ def solve(
         seed=seed or 0,
         changes=changed,
         begin=begin or [],
+        after=after,
         directory=out,
         resume_from=resume,
         force=force,

@@ -15,6 +15,7 @@ from levade.cli.inspecting import tell_warnings
 from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console, motion_summary
 from levade.cli.watching import Watching, watched
+from levade.errors import located
 from levade.motions import Motion
 from levade.search import Generation, Stopped, make_objective
 from levade.search.initial import initial_guess
@@ -29,6 +30,7 @@ def solve_and_report(
     seed: int,
     changes: list[str],
     begin: list[Path],
+    after: Path | None,
     directory: Path | None,
     resume_from: Path | None,
     force: bool,
@@ -52,6 +54,12 @@ def solve_and_report(
     else:
         assert task is not None
         chosen = load_task(task, robot=robot, changes=changes)
+        if after is not None:
+            from levade.motions import chaining
+
+            last = Motion.load(after)
+            with located(f"{after}: "):
+                chosen = chaining.after(chosen, last)
         out = directory or Path(chosen.name)
         if not force:
             check_replaceable(out)

@@ -12,7 +12,7 @@ from levade.engines.mujoco import MujocoEngine
 from levade.engines.perturbation import Perturbation, Sample
 from levade.engines.physics import Ode, Physics
 from levade.engines.placing import make_engine, model_xml, start_state
-from levade.engines.start import Fall, Settled, Start
+from levade.engines.start import Fall, GivenState, Settled, Start
 from levade.engines.state import State
 from levade.engines.table import ENGINES, EngineKind, engine_kind
 
@@ -22,6 +22,7 @@ __all__ = [
     "Engine",
     "EngineKind",
     "Fall",
+    "GivenState",
     "Layout",
     "Models",
     "MujocoEngine",

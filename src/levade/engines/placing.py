@@ -13,7 +13,7 @@ from levade.arrays import Array
 from levade.engines.engine import Engine
 from levade.engines.layout import add_contact_sensors
 from levade.engines.physics import Physics
-from levade.engines.start import Settled, Start
+from levade.engines.start import GivenState, Settled, Start
 from levade.engines.state import State
 from levade.engines.table import engine_kind
 from levade.errors import LevadeError, located
@@ -75,6 +75,8 @@ def start_state(engine: Engine, robot: Robot, scene: Scene, start: Start) -> Sta
     Raises:
         LevadeError: If the robot overlaps the scene, or itself, before it is let go, or the simulation breaks down.
     """
+    if isinstance(start, GivenState):
+        return _given(engine, start)
     if isinstance(start, Settled):
         with located("start.settled.posture: "):
             posture = robot.posture(start.posture)
@@ -93,6 +95,19 @@ def start_state(engine: Engine, robot: Robot, scene: Scene, start: Start) -> Sta
     model = mujoco.MjModel.from_xml_string(xml, engine.assets)
     data = _release(engine, model, (start.x, start.y, start.height), tuple(attitude), posture)
     return engine.hold(model, data, posture, start.time)
+
+
+def _given(engine: Engine, start: GivenState) -> State:
+    model = engine.model
+    sizes = {"qpos": model.nq, "qvel": model.nv, "act": model.na, "joint_reference": engine.embodiment.joints}
+    for name, size in sizes.items():
+        if len(getattr(start, name)) != size:
+            raise LevadeError(
+                f"start.state.{name}: {len(getattr(start, name))} numbers, should be {size} for this robot, scene and"
+                " actuation; a motion's end can only begin a motion of the same robot"
+            )
+    qpos, qvel, act = (np.array(getattr(start, name)) for name in ("qpos", "qvel", "act"))
+    return engine.layout.state(qpos, qvel, act, joint_reference=np.array(start.joint_reference))
 
 
 def _release(

@@ -1,4 +1,4 @@
-"""How a motion starts: standing in a posture, or lying after a fall."""
+"""How a motion starts: standing in a posture, lying after a fall, or as an earlier motion ended."""
 
 from __future__ import annotations
 
@@ -63,7 +63,26 @@ class Fall:
                 raise LevadeError(f"start.fall.{name}: {value} should be 0 or more")
 
 
-Start = Settled | Fall
+@dataclass(frozen=True)
+class GivenState:
+    """A state in numbers, such as the end of an earlier motion (`levade.motions.end_of`).
+
+    qpos, qvel, act: in the model's own order, SI. joint_reference: what the joints were commanded last [rad], in the robot's
+        joint order.
+    """
+
+    qpos: tuple[float, ...]
+    qvel: tuple[float, ...]
+    act: tuple[float, ...]
+    joint_reference: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        for name in ("qpos", "qvel", "act", "joint_reference"):
+            if not all(map(math.isfinite, getattr(self, name))):
+                raise LevadeError(f"start.state.{name}: not all of it are finite numbers")
+
+
+Start = Settled | Fall | GivenState
 
 
 def _check_finite(where: str, **values: float) -> None:

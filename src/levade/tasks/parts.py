@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
 from levade.costs import Term
-from levade.engines import Fall, Settled
+from levade.engines import Fall, GivenState, Settled
 from levade.errors import LevadeError
 from levade.optimizers import Choice, canonical
 
@@ -32,18 +32,21 @@ class RobotChoice:
 
 @dataclass(frozen=True)
 class StartChoice:
-    """Where the motion starts: exactly one of the two."""
+    """Where the motion starts: exactly one of the three."""
 
     settled: Settled | None = None
     fall: Fall | None = None
+    state: GivenState | None = None
 
     def __post_init__(self) -> None:
-        if (self.settled is None) == (self.fall is None):
-            raise LevadeError("start: give one of settled and fall, such as start: {settled: {posture: neutral}}")
+        if sum(one is not None for one in (self.settled, self.fall, self.state)) != 1:
+            raise LevadeError(
+                "start: give one of settled, fall and state, such as start: {settled: {posture: neutral}}"
+            )
 
     @property
-    def choice(self) -> Settled | Fall:
-        chosen = self.settled or self.fall
+    def choice(self) -> Settled | Fall | GivenState:
+        chosen = self.settled or self.fall or self.state
         assert chosen is not None
         return chosen
 

@@ -1,0 +1,75 @@
+"""Motions one after another: the next begins as the last one ended, and several are played as one.
+
+    task = after(load_task("squat-jump"), righting)             # its start is the end of another motion
+    start, reference = chain([righting, jump])                  # for one roll-out of both
+
+The end of a motion is put over the origin of the world, heading along x, so that the next task's goals mean what they say.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from levade.engines import GivenState, MujocoEngine, State
+from levade.errors import LevadeError
+from levade.motions.motion import Motion
+from levade.motions.simulation import RecordedSimulation
+from levade.rotations import multiply, roll_pitch_yaw, rotate
+from levade.tasks import StartChoice, Task
+from levade.trajectory import JointReference
+
+
+def end_of(motion: Motion) -> GivenState:
+    """Simulate a motion to its end, hold and all, and put the robot that is there over the origin, heading along x.
+
+    Raises:
+        LevadeError: If another engine than MuJoCo made it, it breaks down, or its model or task is damaged.
+    """
+    if motion.provenance.engine != MujocoEngine.name:
+        raise LevadeError(
+            f"the motion was made by the engine {motion.provenance.engine}; only those of mujoco can be gone on from"
+        )
+    simulation = RecordedSimulation(motion)
+    engine, layout = simulation.engine, simulation.layout
+    assert isinstance(engine, MujocoEngine)
+    out, diverged = engine.states(simulation.start, simulation.reference, ["qpos", "qvel", "act"])
+    if diverged[0]:
+        raise LevadeError("the motion breaks down before its end; nothing can begin there")
+    qpos, qvel, act = (out[name][0, -1].copy() for name in ("qpos", "qvel", "act"))
+    root, rate = layout.root_qpos, layout.root_qvel
+    yaw = float(roll_pitch_yaw(qpos[root + 3 : root + 7])[2])
+    back = np.array([np.cos(yaw / 2), 0.0, 0.0, -np.sin(yaw / 2)])
+    qpos[root : root + 2] = 0.0
+    qpos[root + 3 : root + 7] = multiply(back, qpos[root + 3 : root + 7])
+    qvel[rate : rate + 3] = rotate(back, qvel[rate : rate + 3])
+    commanded = simulation.reference.position[0, -1]
+    return GivenState(*(tuple(map(float, values)) for values in (qpos, qvel, act, commanded)))
+
+
+def after(task: Task, motion: Motion) -> Task:
+    """A task whose start is the end of a motion."""
+    return replace(task, start=StartChoice(state=end_of(motion)))
+
+
+def chain(motions: Sequence[Motion]) -> tuple[State, JointReference]:
+    """Several motions of one robot as one: the start of the first, and the references of all.
+
+    Raises:
+        LevadeError: If there are none, or their joints or time steps differ.
+    """
+    if not motions:
+        raise LevadeError("chain: there are no motions")
+    first = motions[0]
+    for motion in motions[1:]:
+        if (motion.joint_names, motion.timestep) != (first.joint_names, first.timestep):
+            raise LevadeError(
+                f"chain: a motion of {motion.robot} at {motion.timestep} s goes with one of {first.robot} at"
+                f" {first.timestep} s; all should be of one robot and time step"
+            )
+    position = np.concatenate([motion.reference.position for motion in motions], axis=1)
+    velocity = np.concatenate([motion.reference.velocity for motion in motions], axis=1)
+    reference = JointReference(position, velocity, first.timestep, position.shape[1], first.reference.before)
+    return RecordedSimulation(first).start, reference
