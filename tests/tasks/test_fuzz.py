@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import random
 import time
 from collections.abc import Callable, Iterator
@@ -23,38 +22,6 @@ ROBOTS = Path(__file__).parents[1] / "robots" / "cases"
 TOKENS = ["- ", "- - - ", "[", "{", "}", "]", ": ", "? ", "&a ", "*a ", "<<: *a\n", "!!int ", "!!set ", "!!python/object:x ",
           "|\n", ">-\n", "---\n", "...\n", "%YAML 9.9\n", "#", "'", '"', "\t", "\0", "\ufeff", "\u2028", "\x85", '"\\e[31m"',
           "2026-02-30", "12:30:45", "=", "~", "0x" + "f" * 400, "9" * 5000, "k" * 3000, "&a [*a, *a]"]  # fmt: skip
-VALUES: list[Any] = [None, True, 0, -1, 3, 10**17, 1e308, -1e-320, float("inf"), float("nan"), "", "x", "nan", "1e999 m",
-                     "60 deg", "1 m", "2 heights", "99 parsecs", "all", "a" * 5000, "\u202e", "../../../etc/passwd", "/dev/zero",
-                     [], [1], [[]], ["x"], [1, 2, 3], {}, {"x": 1}, {1: 2}, {None: None}, {"term": []}]  # fmt: skip
-
-
-def places(content: Any) -> Iterator[tuple[Any, Any]]:
-    """Every table or list in a document, with each of its keys."""
-    for key, value in content.items() if isinstance(content, dict) else enumerate(content):
-        yield content, key
-        if isinstance(value, (dict, list)):
-            yield from places(value)
-
-
-def mutated_values(text: str, chance: random.Random) -> str:
-    """One to three mistakes in what a document says: other values, other keys, keys that are gone or elsewhere."""
-    content = copy.deepcopy(yaml.safe_load(text))
-    for _ in range(chance.randint(1, 3)):
-        found = list(places(content))
-        if not found:
-            break
-        table, key = chance.choice(found)
-        other, another = chance.choice(found)
-        kind = chance.randrange(6)
-        if kind == 0:
-            del table[key]
-        elif kind == 1 and isinstance(table, dict):
-            table[chance.choice([another, 3, None, True, "x", "a" * 300])] = table.pop(key)
-        elif kind == 2:
-            table[key] = copy.deepcopy(other[another])
-        else:
-            table[key] = copy.deepcopy(chance.choice(VALUES))
-    return yaml.safe_dump(content, sort_keys=False)
 
 
 def mutated_text(text: str, chance: random.Random) -> str:
@@ -76,29 +43,42 @@ def read(load: Callable[[Path], object], path: Path, text: str, *, seconds: floa
     """Whether a document is read. Fails if it is refused in any other way than by one short line, or takes long."""
     path.write_text(text, encoding="utf-8")
     begin = time.process_time()
+    said = ""
     try:
         load(path)
     except LevadeError as error:
-        assert "\n" not in str(error), str(error)
-        assert len(str(error)) < 1500, str(error)
-        assert str(error).isprintable(), str(error)
-        return False
-    finally:
-        assert time.process_time() - begin < seconds, text
-    return True
+        said = str(error)
+    assert time.process_time() - begin < seconds, text
+    assert said == "" or said.isprintable(), said
+    assert len(said) < 1500, said
+    return not said
 
 
-def broken(text: str, name: str, documents: int) -> Iterator[str]:
-    for number in range(documents):
-        chance = random.Random(f"{name} {number}")
-        yield mutated_text(text, chance) if number % 3 == 0 else mutated_values(text, chance)
+@pytest.fixture(scope="session")
+def broken(mistaken: Callable[[Any, random.Random], Any]) -> Callable[[str, str, int], Iterator[str]]:
+    """The same documents for a text and a name in every run, each with a few mistakes in how it is written or what it says."""
+
+    def broken(text: str, name: str, documents: int) -> Iterator[str]:
+        for number in range(documents):
+            chance = random.Random(f"{name} {number}")
+            if number % 3 == 0:
+                yield mutated_text(text, chance)
+            else:
+                yield yaml.safe_dump(mistaken(yaml.safe_load(text), chance), sort_keys=False)
+
+    return broken
+
+
+Broken = Callable[[str, str, int], Iterator[str]]
 
 
 @pytest.mark.parametrize(("name", "documents"), [
     ("rearing", 25),
-    *(pytest.param(name, 120, marks=pytest.mark.slow) for name in ("rearing", "posture-recovery", "leap", "rearing-robust")),
+    *(pytest.param(name, files, marks=pytest.mark.slow) for name, files in (("rearing", 200), ("rearing-robust", 150), ("leap", 30))),
 ])  # fmt: skip
-def test_a_broken_task_is_read_or_refused_in_one_line(name: str, documents: int, tmp_path: Path) -> None:
+def test_a_broken_task_is_read_or_refused_in_one_line(
+    name: str, documents: int, broken: Broken, tmp_path: Path
+) -> None:
     text = (TASKS / f"{name}.yaml").read_text(encoding="utf-8")
     taken = [
         read(load_task, tmp_path / "task.yaml", one, seconds=10) for one in broken(text, f"task {name}", documents)
@@ -107,16 +87,16 @@ def test_a_broken_task_is_read_or_refused_in_one_line(name: str, documents: int,
 
 
 @pytest.mark.slow
-def test_a_broken_description_of_a_robot_is_read_or_refused_in_one_line(tmp_path: Path) -> None:
+def test_a_broken_description_of_a_robot_is_read_or_refused_in_one_line(broken: Broken, tmp_path: Path) -> None:
     folder = ROBOTS / "hexa"
     for path in folder.iterdir():
         (tmp_path / path.name).write_bytes(path.read_bytes())
     text = (folder / "with2.yaml").read_text(encoding="utf-8")
-    for one in broken(text, "robot", 40):
+    for one in broken(text, "robot", 60):
         read(load_robot, tmp_path / "robot.yaml", one, seconds=20)
 
 
-def test_a_broken_plan_is_read_or_refused_in_one_line(tmp_path: Path) -> None:
-    text = "tasks: [rearing]\noptimizers: [cma, {name: pi2}]\nseeds: [0, 1]\ntrials: 30\nchanges: {horizon: 0.3}\n"
-    for one in broken(text, "plan", 60):
-        read(read_plan, tmp_path / "plan.yaml", one, seconds=5)
+def test_a_broken_plan_is_read_or_refused_in_one_line(broken: Broken, tmp_path: Path) -> None:
+    text = "tasks: [rearing]\noptimizers: {a: {search.optimizer: cma}}\nseeds: 3\ntrials: 30\nchanges: {horizon: 0.3}\n"
+    taken = [read(read_plan, tmp_path / "plan.yaml", one, seconds=5) for one in broken(text, "plan", 60)]
+    assert 0 < sum(taken) < 60

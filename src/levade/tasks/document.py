@@ -194,7 +194,8 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
             for i, stage in enumerate(content["stages"])
         ]
     content = dict(to_si(content, where=where, robot=measures))
-    content["scene"] = _with_heights(content.get("scene", {}), f"{where}.scene.terrain")
+    if not code:  # a motion's task is complete, and reads no files
+        content["scene"] = _with_heights(content.get("scene", {}), f"{where}.scene.terrain")
     if isinstance(costs, Mapping):
         content["costs"] = {
             name: _cost(str(name), value, where=f"{where}.costs.{name}", code=code)
