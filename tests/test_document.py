@@ -137,7 +137,8 @@ def test_files_that_cannot_be_read(tmp_path: Path) -> None:
         read_yaml(tmp_path)
 
 
-ALIASES = "a: &a [x,x,x,x,x,x,x,x]\n" + "".join(f"{n}: &{n} [{','.join([f'*{m}'] * 9)}]\n" for m, n in zip("abcdefgh", "bcdefghi", strict=True))  # fmt: skip
+PAIRS = zip("abcdefgh", "bcdefghi", strict=True)
+ALIASES = "a: &a [x,x,x,x]\n" + "".join(f"{n}: &{n} [{','.join([f'*{m}'] * 9)}]\n" for m, n in PAIRS)
 
 
 @pytest.mark.parametrize(

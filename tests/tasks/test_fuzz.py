@@ -74,7 +74,9 @@ Broken = Callable[[str, str, int], Iterator[str]]
 
 @pytest.mark.parametrize(("name", "documents"), [
     ("rearing", 25),
-    *(pytest.param(name, files, marks=pytest.mark.slow) for name, files in (("rearing", 200), ("rearing-robust", 150), ("leap", 30))),
+    pytest.param("rearing", 200, marks=pytest.mark.slow),
+    pytest.param("rearing-robust", 150, marks=pytest.mark.slow),
+    pytest.param("leap", 30, marks=pytest.mark.slow),
 ])  # fmt: skip
 def test_a_broken_task_is_read_or_refused_in_one_line(
     name: str, documents: int, broken: Broken, tmp_path: Path

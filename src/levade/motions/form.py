@@ -220,11 +220,14 @@ def _mistakes(form: MetaForm, arrays: Mapping[str, Array]) -> Iterator[str]:
     if len(form.legs) != arrays["foot_contact_force"].shape[1]:
         yield f"foot_contact_force has {arrays['foot_contact_force'].shape[1]} feet, meta.legs has {len(form.legs)}"
     for name, leg in form.legs.items():
-        if unknown := set(leg.joints) - set(names):
-            yield f"meta.legs.{name}.joints: {min(unknown)!r} is none of joint_names"
         shape = leg.geometry
         if shape is not None and not len(shape.anchors) == len(shape.axes) == len(leg.joints):
             yield f"meta.legs.{name}.geometry: should have an anchor and an axis for each of {len(leg.joints)} joints"
+    of_legs = [joint for leg in form.legs.values() for joint in leg.joints]
+    if len(set(of_legs)) < len(of_legs) or set(of_legs) != set(names):
+        yield "meta.legs: should have each of joint_names in one leg"
+    if form.model_joints and not set(form.model_joints) <= {*names, *form.held}:
+        yield "meta.model_joints: has joints that are neither in joint_names nor in meta.held"
     if missing := set(form.task.success) - set(form.errors):
         yield f"meta.errors: lacks {min(missing)!r}, a criterion of the task"
     weights = form.cost_weights or {
