@@ -158,7 +158,7 @@ class MetaForm(_Form):
     versions: dict[Name, Name]
     seed: Count
     initial: Count = 0
-    timestep: Positive
+    timestep: Timestep
     horizon: Positive
     horizon_steps: Steps
     success: bool
