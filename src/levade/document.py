@@ -35,7 +35,7 @@ _TAGS = tuple(f"tag:yaml.org,2002:{name}" for name in ("null", "bool", "int", "f
 _LONGEST_SHOWN = 60
 """[characters], of a text in a message."""
 
-_CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
+CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
 """What a terminal takes for a command; line ends and tabs it does not."""
 
 
@@ -143,7 +143,7 @@ def _check_scalars(loader: Any, root: Any) -> None:
             continue
         seen.add(id(node))
         if isinstance(node, yaml.ScalarNode):
-            if _CONTROL.search(node.value):
+            if CONTROL.search(node.value):
                 raise LevadeError(f"line {node.start_mark.line + 1}: a text with control characters; take them out")
         elif isinstance(node, yaml.SequenceNode):
             waiting.extend(node.value)
