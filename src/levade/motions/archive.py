@@ -8,9 +8,11 @@ A file from elsewhere can claim any size: 2 MB of zeros unfold to 2 GB. Nothing 
 from __future__ import annotations
 
 import math
+import warnings
 import zipfile
 import zlib
 from pathlib import Path
+from tokenize import TokenError
 from typing import IO
 
 import numpy as np
@@ -30,7 +32,7 @@ _END, _LOCATOR = 22, 20
 # what numpy and zipfile raise for files that are damaged, or something else
 _UNREADABLE = (
     *(OSError, ValueError, EOFError, AttributeError, TypeError, LookupError, RuntimeError, MemoryError, SyntaxError),
-    *(ArithmeticError, zipfile.BadZipFile, zlib.error),
+    *(ArithmeticError, TokenError, Warning, zipfile.BadZipFile, zlib.error),
 )
 
 
@@ -98,7 +100,8 @@ def _array(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> Array:
             (1, 0): np.lib.format.read_array_header_1_0,
             (2, 0): np.lib.format.read_array_header_2_0,
         }[version]
-        shape, fortran, dtype = read_header(file)
+        with warnings.catch_warnings(action="error"):  # of headers as Python 2 wrote them
+            shape, fortran, dtype = read_header(file)
         size = math.prod(shape) * dtype.itemsize
         if dtype.hasobject or not dtype.itemsize or min(shape, default=0) < 0 or size != member.file_size - file.tell():
             raise ValueError
