@@ -39,6 +39,14 @@ CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
 """What a terminal takes for a command; line ends and tabs it does not."""
 
 
+_HIDDEN = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udfff]")
+
+
+def hides(name: str) -> bool:
+    """Whether a name holds what a terminal takes for a command or another order of letters, or what is no text."""
+    return _HIDDEN.search(name) is not None
+
+
 def read_yaml(path: Path, *, like: str = "") -> dict[str, Any]:
     """Read the table in a YAML file.
 

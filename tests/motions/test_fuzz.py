@@ -138,12 +138,12 @@ COMMANDS = {
 
 @pytest.mark.parametrize(("command", "files"), [
     ("show", 8),
-    pytest.param("show", 120, marks=pytest.mark.slow),
-    pytest.param("json", 30, marks=pytest.mark.slow),
-    pytest.param("export", 60, marks=pytest.mark.slow),
-    pytest.param("mjlab", 30, marks=pytest.mark.slow),
-    pytest.param("view", 40, marks=pytest.mark.slow),
-    pytest.param("check", 20, marks=pytest.mark.slow),
+    pytest.param("show", 60, marks=pytest.mark.slow),
+    pytest.param("json", 15, marks=pytest.mark.slow),
+    pytest.param("export", 40, marks=pytest.mark.slow),
+    pytest.param("mjlab", 15, marks=pytest.mark.slow),
+    pytest.param("view", 15, marks=pytest.mark.slow),
+    pytest.param("check", 8, marks=pytest.mark.slow),
 ])  # fmt: skip
 def test_a_broken_motion_is_shown_or_refused_in_one_line(
     command: str,

@@ -7,7 +7,6 @@ docs/motion-file.md says what the keys mean. Keys that are not here are taken as
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, Literal
 
@@ -15,21 +14,18 @@ import numpy as np
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
 from levade.arrays import Array
-from levade.document import first_mistake
+from levade.document import first_mistake, hides
 from levade.errors import LevadeError
 from levade.policies import policy_from_dict
 
 _CLOSE = 1e-6
 """How well two ways to say the same number agree, as a share of it."""
 
-_HIDDEN = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udfff]")
-"""What a name may not hold: what a terminal takes for a command, and what is no text."""
-
 _DEEPEST = 50
 
 
 def _shown(name: str) -> str:
-    if _HIDDEN.search(name):
+    if hides(name):
         raise ValueError("should be a name without control characters")
     return name
 
@@ -43,7 +39,7 @@ Count = Annotated[int, Field(ge=0)]
 Index = Annotated[int, Field(ge=0, le=10_000)]
 Steps = Annotated[int, Field(ge=1, le=10_000_000)]
 Vector = Annotated[list[Number], Field(min_length=3, max_length=3)]
-PerJoint = list[NotNegative | None]
+PerJoint = list[Positive | None]
 
 
 class _Form(BaseModel):
@@ -197,10 +193,10 @@ def _check_texts(content: Any) -> None:
         value, depth = waiting.pop()
         if depth > _DEEPEST:
             raise LevadeError(f"meta: nested more than {_DEEPEST} levels deep")
-        if isinstance(value, str) and _HIDDEN.search(value.replace("\n", " ").replace("\t", " ")):
+        if isinstance(value, str) and hides(value.replace("\n", " ").replace("\t", " ")):
             raise LevadeError(f"meta: the text {value[:40]!r} holds control characters")
         if isinstance(value, dict):
-            if any(map(_HIDDEN.search, value)):
+            if any(map(hides, value)):
                 raise LevadeError("meta: a key holds control characters")
             waiting += [(inner, depth + 1) for inner in value.values()]
         elif isinstance(value, list):
@@ -213,12 +209,22 @@ def _mistakes(form: MetaForm, arrays: Mapping[str, Array]) -> Iterator[str]:
     joints, steps = len(names), len(arrays["time"])
     if not joints or not steps:
         yield f"joint_names and time have {joints} joints and {steps} steps; a motion has at least one of each"
-    if len(set(names)) < joints or any(map(_HIDDEN.search, names)):
+    if len(set(names)) < joints or any(map(hides, names)):
         yield "joint_names: names that are there twice, or hold control characters"
     yield from _mistakes_in_time(form, arrays["time"])
     yield from _mistakes_in_limits(form.limits, joints)
-    if len(form.legs) != arrays["foot_contact_force"].shape[1]:
-        yield f"foot_contact_force has {arrays['foot_contact_force'].shape[1]} feet, meta.legs has {len(form.legs)}"
+    yield from _mistakes_in_joints(form, names, feet=arrays["foot_contact_force"].shape[1])
+    yield from _mistakes_in_numbers(form)
+    if form.feedback is not None and len(form.feedback.sensed) != 6 + 2 * joints:
+        yield f"meta.feedback.sensed: {len(form.feedback.sensed)} names; should be {6 + 2 * joints}"
+    if form.feedback is not None and not _close(form.feedback.period_steps * form.timestep, 1 / form.feedback.rate):
+        yield f"meta.feedback: {form.feedback.period_steps} steps are not a period at {form.feedback.rate:g} Hz"
+
+
+def _mistakes_in_joints(form: MetaForm, names: list[str], *, feet: int) -> Iterator[str]:
+    """What of the legs and joints does not fit together. names: the arrays' joints. feet: how many the arrays have."""
+    if len(form.legs) != feet:
+        yield f"foot_contact_force has {feet} feet, meta.legs has {len(form.legs)}"
     for name, leg in form.legs.items():
         shape = leg.geometry
         if shape is not None and not len(shape.anchors) == len(shape.axes) == len(leg.joints):
@@ -228,17 +234,20 @@ def _mistakes(form: MetaForm, arrays: Mapping[str, Array]) -> Iterator[str]:
         yield "meta.legs: should have each of joint_names in one leg"
     if form.model_joints and not set(form.model_joints) <= {*names, *form.held}:
         yield "meta.model_joints: has joints that are neither in joint_names nor in meta.held"
+
+
+def _mistakes_in_numbers(form: MetaForm) -> Iterator[str]:
+    """What of errors, costs and their weights does not fit together."""
     if missing := set(form.task.success) - set(form.errors):
         yield f"meta.errors: lacks {min(missing)!r}, a criterion of the task"
+    numbers = [form.cost, *form.errors.values(), *form.cost_terms.values()]
+    if not form.diverged and not np.isfinite(numbers).all():
+        yield "meta: cost, cost_terms or errors are no numbers, and the motion has not diverged"
     weights = form.cost_weights or {
         name: cost["weight"] for name, cost in form.task.costs.items() if _is_number(cost.get("weight"))
     }
     if missing := set(form.cost_terms) - set(weights):
         yield f"meta.cost_terms: {min(missing)!r} has no weight"
-    if form.feedback is not None and len(form.feedback.sensed) != 6 + 2 * joints:
-        yield f"meta.feedback.sensed: {len(form.feedback.sensed)} names; should be {6 + 2 * joints}"
-    if form.feedback is not None and not _close(form.feedback.period_steps * form.timestep, 1 / form.feedback.rate):
-        yield f"meta.feedback: {form.feedback.period_steps} steps are not a period at {form.feedback.rate:g} Hz"
 
 
 def _mistakes_in_time(form: MetaForm, time: Array) -> Iterator[str]:

@@ -14,7 +14,9 @@ import xml.etree.ElementTree as ET
 from collections.abc import Collection, Mapping
 
 import mujoco
+import numpy as np
 
+from levade.document import hides
 from levade.errors import LevadeError
 
 _EXPANDED = ("include", "attach", "model", "replicate", "composite", "flexcomp")
@@ -27,8 +29,6 @@ _MOST_MEMORY = 4e9
 """[bytes], or numbers, of what ``<size>`` asks for."""
 
 _SUFFIXES = {"K": 2**10, "M": 2**20, "G": 2**30, "T": 2**40, "P": 2**50, "E": 2**60}
-_HIDDEN = re.compile(rb"[\x01-\x1f\x7f]|\xc2[\x80-\x9f]")
-"""Control characters in the names of a compiled model, which are UTF-8."""
 
 
 def check_text(text: str, assets: Collection[str]) -> None:
@@ -68,7 +68,7 @@ def compile_text(text: str, assets: Mapping[str, bytes]) -> mujoco.MjModel:
     """Compile a model's text.
 
     Raises:
-        LevadeError: If MuJoCo does not take it, or names in it hold control characters.
+        LevadeError: If MuJoCo does not take it, or it has names with control characters or values that are no numbers.
     """
     try:
         model = mujoco.MjModel.from_xml_string(text, dict(assets))
@@ -77,8 +77,13 @@ def compile_text(text: str, assets: Mapping[str, bytes]) -> mujoco.MjModel:
         raise LevadeError(
             f"motion: MuJoCo {mujoco.__version__} does not take its model: {what}; the file is damaged"
         ) from None
-    if _HIDDEN.search(model.names):
+    if hides(model.names.decode(errors="replace").replace("\0", " ")):
         raise LevadeError("motion: names in its model hold control characters; the file is damaged")
+    for part in (model, model.opt):
+        for name in dir(part):
+            values = getattr(part, name) if name[0] != "_" else None
+            if isinstance(values, np.ndarray) and values.dtype.kind == "f" and np.isnan(values).any():
+                raise LevadeError(f"motion: {name} of its model has values that are no numbers; the file is damaged")
     return model
 
 
