@@ -44,6 +44,8 @@ EXPECTED: dict[str, str] = {
     "motion.meta.versions.*": "names the versions",
     "checkpoint.versions.*": "names the versions",
     "checkpoint.*": "has a line for each evaluation, not each generation; `checkpoint trials` are all its simulations",
+    "checkpoint.format": "names the layout",
+    "checkpoint.running": "is the checksum of all lines, that of the versions included",
     "motion.meta.schema": "names the layout",
     "motion.meta.task.search.optimizer": "the default has a new name, `cma-aimed`; `levade` is another name for it",
     "*.meta.between_steps": "exports of tasks whose references depart or settle use the policy itself, not cubics",

@@ -1,11 +1,14 @@
-"""Settings that every test shares, and a robot that tests write to files."""
+"""Settings that every test shares, a robot that tests write to files, and mistakes for those that fuzz."""
 
 from __future__ import annotations
 
 import bdb
+import copy
+import math
+import random
 import shutil
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -53,6 +56,65 @@ def browser() -> Iterator[Any]:
         browser = started.chromium.launch(executable_path=chromium, args=flags)
         yield browser
         browser.close()
+
+
+VALUES: list[Any] = [
+    *(
+        None,
+        True,
+        0,
+        -1,
+        3,
+        10**17,
+        1e308,
+        -1e-320,
+        math.inf,
+        math.nan,
+        "",
+        "x",
+        "nan",
+        "1e999 m",
+        "60 deg",
+        "1 m",
+        "2 heights",
+    ),
+    *("99 parsecs", "all", "a" * 200, "a" * 5000, "\u202e", "\x1b[31m", "../../../etc/passwd", "/dev/zero"),
+    *([], [1], [[]], ["x"], [1, 2, 3], {}, {"x": 1}, {"term": []}),
+]
+"""What a fuzz puts in the place of anything."""
+
+
+def places(content: Any) -> Iterator[tuple[Any, Any]]:
+    """Every table or list in a document, with each of its keys."""
+    for key, value in content.items() if isinstance(content, dict) else enumerate(content):
+        yield content, key
+        if isinstance(value, (dict, list)):
+            yield from places(value)
+
+
+@pytest.fixture(scope="session")
+def mistaken() -> Callable[[Any, random.Random], Any]:
+    """A function that makes one to three mistakes in tables and lists: other values, other keys, keys that are gone or
+    elsewhere.
+    """
+
+    def mistaken(content: Any, chance: random.Random) -> Any:
+        content = copy.deepcopy(content)
+        for _ in range(chance.randint(1, 3)):
+            found = list(places(content))
+            if not found:
+                break
+            (table, key), (other, another) = chance.choice(found), chance.choice(found)
+            kind = chance.randrange(6)
+            if kind == 0:
+                del table[key]
+            elif kind == 1 and isinstance(table, dict):
+                table[chance.choice([str(another), "x", "a" * 300, "\x1b[31m"])] = table.pop(key)
+            else:
+                table[key] = copy.deepcopy(other[another] if kind == 2 else chance.choice(VALUES))
+        return content
+
+    return mistaken
 
 
 @dataclass(frozen=True)

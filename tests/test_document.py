@@ -10,7 +10,7 @@ from typing import Literal
 
 import pytest
 
-from levade.document import build, parse_yaml, read_yaml
+from levade.document import build, kind_of, parse_yaml, read_text, read_yaml
 from levade.errors import LevadeError
 
 
@@ -135,3 +135,78 @@ def test_files_that_cannot_be_read(tmp_path: Path) -> None:
         read_yaml(tmp_path / "none.yaml")
     with pytest.raises(LevadeError, match=r"cannot be read \(Is a directory\)"):
         read_yaml(tmp_path)
+
+
+PAIRS = zip("abcdefgh", "bcdefghi", strict=True)
+ALIASES = "a: &a [x,x,x,x]\n" + "".join(f"{n}: &{n} [{','.join([f'*{m}'] * 9)}]\n" for m, n in PAIRS)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("- " * 50_000, "line 1: nested more than 50 levels deep"),
+        ("[" * 50_000, "line 1: nested more than 50 levels deep"),
+        (ALIASES, "line 6: more than 200000 values, aliases counted as what they stand for"),
+        ("a: &a [1, *a]", r"line 1: \*a stands for nothing that comes before it"),
+        ("a:\n  b: *x", r"line 2: \*x stands for nothing that comes before it"),
+        ("a: 1\n\nb: 2\n'a': 3", "line 4: the key 'a' is in line 1 already; keep one of them"),
+        ("- {b: 1}\n- {1: x, 0x1: y}", "line 2: the key '0x1' is in line 2 already; keep one of them"),
+        ("yes: 1\ntrue: 2", "line 2: the key 'true' is in line 1 already; keep one of them"),
+        ("a: !!int abc", "line 1: 'abc' is no int"),
+        ("a: !!bool abc", "line 1: 'abc' is no bool"),
+        ("a: 3\nb: " + "9" * 5000, "line 2: '999999999999999999999999999999'..., a text of 5000 characters is no int"),
+        (
+            "a: !!set {b}",
+            "not YAML: could not determine a constructor for the tag 'tag:yaml.org,2002:set' in line 1, .*",
+        ),
+        ("a: !!binary aGVsbG8=", "not YAML: could not determine a constructor .*"),
+        ('a: 1\nb: "\\e[31m"', "line 2: a text with control characters; take them out"),
+        ('"a\\x9b": 1', "line 1: a text with control characters; take them out"),
+        ("? " + "k" * 500 + "\n: 1", "line 1: a key of 500 characters"),
+        ("a: \ud800", "not YAML: it holds characters that are no text"),
+        ("--- 1\n--- 2", "not YAML: expected a single document .*"),
+    ],
+    ids=lambda value: value[:30].encode("ascii", "backslashreplace").decode(),
+)
+def test_texts_that_are_refused(text: str, message: str) -> None:
+    with pytest.raises(LevadeError, match=f"^here: {message}$"):
+        parse_yaml(text, where="here")
+
+
+def test_aliases_and_merges_stand_for_what_they_say() -> None:
+    text = "a: &a {x: 1, y: [2]}\nb: *a\nc: {<<: *a, x: 3}\nd: {<<: [*a, {z: 4}]}\ne: &e 5\nf: *e"
+    a = {"x": 1, "y": [2]}
+    assert parse_yaml(text, where="x") == {"a": a, "b": a, "c": {"x": 3, "y": [2]}, "d": {**a, "z": 4}, "e": 5, "f": 5}
+
+
+def test_a_date_is_a_text_and_a_huge_whole_number_a_number() -> None:
+    text = "[2026-02-30, 2026-02-28 10:00:00, 9223372036854775807, 9223372036854775808, -1" + "0" * 300 + "]"
+    assert parse_yaml(text, where="x") == ["2026-02-30", "2026-02-28 10:00:00", 2**63 - 1, 2.0**63, -1e300]
+
+
+def test_a_table_of_many_numbers_is_no_attack() -> None:
+    row = f"[{', '.join(['0.125'] * 200)}]"
+    assert len(parse_yaml("heights:\n" + f"- {row}\n" * 200, where="x")["heights"]) == 200
+
+
+def test_a_file_that_has_no_end(tmp_path: Path) -> None:
+    (tmp_path / "endless").symlink_to("/dev/zero")
+    with pytest.raises(LevadeError, match="endless: has more than 10 million characters; a document has far less"):
+        read_text(tmp_path / "endless")
+
+
+@pytest.mark.parametrize(
+    ("value", "said"),
+    [
+        ("word", "'word'"),
+        ("<?xml version='1.0'?>\n" + "x" * 100, "\"<?xml version='1.0'?>\\nxxxxxxxx\"..., a text of 122 characters"),
+        (1.5, "1.5"),
+        (16**5000, "a huge number"),
+        (("a",) * 100, "('a', 'a', 'a', 'a', 'a', 'a',..."),
+        (None, "empty"),
+        (True, "true or false"),
+    ],
+    ids=["word", "text", "number", "huge", "tuple", "none", "bool"],
+)
+def test_what_a_message_shows_of_a_value(value: object, said: str) -> None:
+    assert kind_of(value) == said

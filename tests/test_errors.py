@@ -54,6 +54,11 @@ def test_only_the_command_line_speaks_of_its_options() -> None:
             LevadeError("exists", field="out", remedies=[Remedy("go on"), Remedy("move it"), Remedy("delete it")]),
             "out: exists; go on, move it or delete it",
         ),
+        (
+            LevadeError("two\nlines of \x1b]0;a title\x07 \x9b1m\u202e"),
+            "two lines of \\x1b]0;a title\\x07 \\x9b1m\\u202e",
+        ),
+        (LevadeError("a" * 5000 + "; the remedy"), "a" * 700 + " ... " + "a" * 288 + "; the remedy"),
     ],
 )
 def test_an_error_is_field_message_and_remedies(error: LevadeError, text: str) -> None:

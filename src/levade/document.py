@@ -13,19 +13,49 @@ import functools
 import re
 import types
 import typing
-from collections.abc import Mapping
+from collections import deque
+from collections.abc import Hashable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 from levade.errors import LevadeError, did_you_mean
 
 T = TypeVar("T")
 
 
-def read_yaml(path: Path, *, like: str = "") -> dict[str, Any]:
-    """The table in a YAML file. Raises LevadeError if it cannot be read, is not YAML or not a table.
+_LARGEST = 10_000_000
+"""[characters], of a document: the largest height field takes a tenth of it."""
 
-    like: some of its keys, for the message.
+_DEEPEST, _MOST, _LONGEST_KEY = 50, 200_000, 200
+"""Levels, values with those that aliases stand for, and characters of a key. YAML's own composer recurses in C."""
+
+_TAGS = tuple(f"tag:yaml.org,2002:{name}" for name in ("null", "bool", "int", "float", "str", "seq", "map"))
+"""What a value may be: what JSON knows. A date is a text."""
+
+_LONGEST_SHOWN = 60
+"""[characters], of a text in a message."""
+
+CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
+"""What a terminal takes for a command; line ends and tabs it does not."""
+
+
+_HIDDEN = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udfff]")
+
+
+def hides(name: str) -> bool:
+    """Whether a name holds what a terminal takes for a command or another order of letters, or what is no text."""
+    return _HIDDEN.search(name) is not None
+
+
+def read_yaml(path: Path, *, like: str = "") -> dict[str, Any]:
+    """Read the table in a YAML file.
+
+    Args:
+        path: The file.
+        like: Some of its keys, for the message.
+
+    Raises:
+        LevadeError: If the file cannot be read, is not YAML or not a table.
     """
     content = parse_yaml(read_text(path), where=str(path))
     if not isinstance(content, dict):
@@ -35,33 +65,141 @@ def read_yaml(path: Path, *, like: str = "") -> dict[str, Any]:
 
 
 def read_text(path: Path) -> str:
-    """The text of a file. Raises LevadeError if it cannot be read."""
+    """Read the text of a file. Raises LevadeError if it cannot be read, or is far larger than a document."""
     try:
-        return path.read_text(encoding="utf-8")
+        with path.open(encoding="utf-8") as file:
+            text = file.read(_LARGEST + 1)
     except (OSError, UnicodeDecodeError) as error:
         raise LevadeError(f"{path}: cannot be read ({getattr(error, 'strerror', None) or 'not UTF-8 text'})") from None
+    if len(text) > _LARGEST:
+        raise LevadeError(f"{path}: has more than {_LARGEST // 1_000_000} million characters; a document has far less")
+    return text
 
 
 def parse_yaml(text: str, *, where: str) -> Any:
-    """The value that a YAML text stands for; LevadeError, which starts with ``where``, if it is not YAML."""
+    """Read YAML: tables, lists, texts, numbers, true, false and null.
+
+    The work is bounded by the length of the text: aliases that stand for more than they say are refused, and so is what is
+    nested deeply. So are keys that are there twice, and texts with control characters.
+
+    Args:
+        text: The text.
+        where: What error messages start with.
+
+    Raises:
+        LevadeError: If the text is not YAML, or refused.
+    """
     import yaml
 
     try:
-        return yaml.load(text, Loader=_loader())
+        _measure(text)
+        loader = _loader()(text)
+        try:
+            node = loader.get_single_node()
+            _check_scalars(loader, node)
+            return None if node is None else loader.construct_document(node)
+        finally:
+            loader.dispose()
     except yaml.YAMLError as error:
-        raise LevadeError(f"{where}: not YAML: {' '.join(str(error).split())}") from None
+        said = " ".join(str(error).replace('in "<unicode string>", ', "in ").split())
+        raise LevadeError(f"{where}: not YAML: {said[:300]}") from None
+    except UnicodeError:
+        raise LevadeError(f"{where}: not YAML: it holds characters that are no text") from None
+    except LevadeError as error:
+        raise LevadeError(f"{where}: {error}") from None
+
+
+def _measure(text: str) -> None:
+    """Raise LevadeError if a text is nested too deeply, or has too many values with those that aliases stand for."""
+    import yaml
+
+    count, sizes = 0, {}  # of anchors: values that an alias stands for
+    inside: list[tuple[str | None, int]] = []  # of what is open: its anchor, and the count before it
+    for event in yaml.parse(text, Loader=_loader()):
+        if isinstance(event, yaml.CollectionEndEvent):
+            anchor, before = inside.pop()
+            sizes[anchor] = count - before
+            continue
+        if not isinstance(event, yaml.NodeEvent):
+            continue
+        line, anchor = event.start_mark.line + 1, event.anchor
+        if isinstance(event, yaml.AliasEvent):
+            if anchor not in sizes:
+                raise LevadeError(f"line {line}: *{anchor[:40]} stands for nothing that comes before it")
+            count += sizes[anchor]
+        else:
+            sizes.pop(anchor, None)  # nothing may stand for what it is part of
+            if isinstance(event, yaml.CollectionStartEvent):
+                inside.append((anchor, count))
+            count += 1
+            if isinstance(event, yaml.ScalarEvent) and anchor is not None:
+                sizes[anchor] = 1
+        if len(inside) > _DEEPEST:
+            raise LevadeError(f"line {line}: nested more than {_DEEPEST} levels deep")
+        if count > _MOST:
+            raise LevadeError(f"line {line}: more than {_MOST} values, aliases counted as what they stand for")
+
+
+def _check_scalars(loader: Any, root: Any) -> None:
+    """Raise LevadeError for a key that is there twice or too long, and for control characters."""
+    import yaml
+
+    waiting, seen = deque([root]), set()
+    while waiting:
+        node = waiting.popleft()
+        if id(node) in seen:
+            continue
+        seen.add(id(node))
+        if isinstance(node, yaml.ScalarNode):
+            if CONTROL.search(node.value):
+                raise LevadeError(f"line {node.start_mark.line + 1}: a text with control characters; take them out")
+        elif isinstance(node, yaml.SequenceNode):
+            waiting.extend(node.value)
+        elif isinstance(node, yaml.MappingNode):
+            _check_keys_differ(loader, [key for key, _ in node.value if isinstance(key, yaml.ScalarNode)])
+            waiting.extend(part for pair in node.value for part in pair)
+
+
+def _check_keys_differ(loader: Any, keys: Sequence[Any]) -> None:
+    lines: dict[Any, int] = {}
+    for key in keys:
+        line = key.start_mark.line + 1
+        if len(key.value) > _LONGEST_KEY:
+            raise LevadeError(f"line {line}: a key of {len(key.value)} characters")
+        name = "<<" if key.tag == "tag:yaml.org,2002:merge" else loader.construct_object(key)
+        if not isinstance(name, Hashable):  # of a wrong tag; refused later
+            continue
+        if name in lines:
+            raise LevadeError(f"line {line}: the key {key.value!r} is in line {lines[name]} already; keep one of them")
+        lines[name] = line
 
 
 @functools.cache
 def _loader() -> Any:
-    """YAML's safe loader, for which 1e3 is a number, as in YAML 1.2; PyYAML's own takes it for a word."""
+    """YAML's safe loader for the tags of `_TAGS`. 1e3 is a number, as in YAML 1.2; PyYAML's own takes it for a word."""
     import yaml
 
     base: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
     class Loader(base):
-        pass
+        yaml_constructors: ClassVar = {tag: base.yaml_constructors[tag] for tag in (None, *_TAGS)}
+        yaml_implicit_resolvers: ClassVar = {
+            first: [(tag, pattern) for tag, pattern in pairs if tag in _TAGS or tag.endswith(":merge")]
+            for first, pairs in base.yaml_implicit_resolvers.items()
+        }
 
+        def construct_object(self, node: Any, deep: bool = False) -> Any:
+            try:
+                return super().construct_object(node, deep)
+            except (ValueError, LookupError, ArithmeticError, AttributeError, TypeError):
+                kind = node.tag.rpartition(":")[2]
+                raise LevadeError(f"line {node.start_mark.line + 1}: {kind_of(node.value)} is no {kind}") from None
+
+        def construct_whole_number(self, node: Any) -> int | float:
+            number = self.construct_yaml_int(node)
+            return number if abs(number) < 2**63 else float(number)
+
+    Loader.add_constructor("tag:yaml.org,2002:int", Loader.construct_whole_number)
     number = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+$")
     Loader.add_implicit_resolver("tag:yaml.org,2002:float", number, list("-+.0123456789"))
     return Loader
@@ -123,9 +261,19 @@ def first_mistake(error: Any) -> str:
 
 
 def kind_of(value: Any) -> str:
-    """What a value is, for a message: its text if it is short, else its kind."""
+    """Say what a value is, for a message: itself if it is short, else how it begins. Never a line end, nor a command to a
+    terminal.
+    """
     names = {type(None): "empty", dict: "a table", list: "a list", bool: "true or false"}
-    return names.get(type(value)) or repr(value)
+    if type(value) in names:
+        return names[type(value)]
+    if isinstance(value, str) and len(value) > _LONGEST_SHOWN:
+        return f"{value[:30]!r}..., a text of {len(value)} characters"
+    try:
+        text = repr(value)
+    except ValueError:  # a whole number of thousands of digits
+        return "a huge number"
+    return text if len(text) <= 2 * _LONGEST_SHOWN else f"{text[:30]}..."
 
 
 def _check_keys(kind: Any, content: Any, where: str) -> None:

@@ -30,24 +30,42 @@ class Remedy:
     at: Path | None = None
 
 
+_LONGEST = 1000
+"""[characters], of a message."""
+
+
 class LevadeError(Exception):
     """The input is wrong. The message is one line: what, where, what would be right, nearest valid name.
 
     Attributes:
-        message: What is wrong, without field and remedies.
+        message: What is wrong, without field and remedies; as `one_line` has it, whatever the input holds.
         field: The argument that is wrong, by its name in Python; the text begins with it. None if it is no single one.
         remedies: What can be done, any of them; the text ends with them.
     """
 
     def __init__(self, message: str, *, field: str | None = None, remedies: Sequence[Remedy] = ()) -> None:
         super().__init__(message)
-        self.message, self.field, self.remedies = message, field, tuple(remedies)
+        self.message, self.field, self.remedies = one_line(message), field, tuple(remedies)
 
     def __str__(self) -> str:
         begin = "" if self.field is None else f"{self.field}: "
         *most, last = [remedy.words for remedy in self.remedies] or [""]
         what = f"{', '.join(most)} or {last}" if most else last
         return f"{begin}{self.message}{what and f'; {what}'}"
+
+
+def one_line(text: str) -> str:
+    r"""Make text fit for a line on a terminal: line ends become spaces, control characters are escaped, and of a very long
+    one the middle is left out.
+
+    >>> one_line("joint \x1b[31mknee")
+    'joint \\x1b[31mknee'
+    """
+    if len(text) > _LONGEST:
+        text = f"{text[: _LONGEST - 300]} ... {text[-300:]}"
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() else " " if c.isspace() else repr(c)[1:-1] for c in text)
 
 
 def did_you_mean(name: str, valid: Iterable[str]) -> str:

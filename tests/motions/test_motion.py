@@ -6,6 +6,7 @@ import json
 import re
 import subprocess
 import sys
+import tracemalloc
 import zipfile
 from collections.abc import Callable
 from dataclasses import replace
@@ -19,7 +20,9 @@ from levade.checks import check
 from levade.errors import LevadeError
 from levade.exports import export
 from levade.motions import ARRAYS, LATER, LATER_ARRAYS, META, SCHEMA, Motion, RecordedSimulation, replay_in
+from levade.motions import archive as archive_module
 from levade.motions.facts import robot_facts
+from levade.motions.model import check_text
 from levade.report.summary import provenance_data, summary_data
 from levade.robots import load_robot
 from levade.rotations import rotate
@@ -356,6 +359,10 @@ def edit_meta(change: Callable[[dict], object]) -> Callable[[dict[str, np.ndarra
     return edit
 
 
+def nested(levels: int) -> dict:
+    return {"in": nested(levels - 1)} if levels else {}
+
+
 class Boom:
     def __reduce__(self) -> tuple:
         return (exec, ("raise SystemExit('a pickle was opened')",))
@@ -386,8 +393,40 @@ class Boom:
             "joint_position has values that are no numbers; the file is damaged",
         ),
         (lambda c: c.update(weights=np.array([Boom()])), "cannot be read as a motion; damaged, or not a motion.npz"),
+        (lambda c: c.update(time=c["time"] * 2), "time: should be multiples of meta.timestep, 0.002 s"),
+        (lambda c: c.update(weights=c["weights"][1:]), "meta.policy: takes 96 weights, there are 95"),
+        (lambda c: c["trunk_quaternion"].fill(0.1), "trunk_quaternion has rows that are no rotations"),
+        (lambda c: c["ctrl"].fill(1e13), "ctrl has values that are no numbers"),
+        (lambda c: c["joint_names"].put(3, c["joint_names"][0]), "joint_names: names that are there twice"),
+        (lambda c: c["joint_names"].put(3, "\x1b[2J"), "joint_names: names that are there twice, or hold control char"),
+        (lambda c: c.update({"asset:a": np.zeros(3)}), "'asset:a' is of float64, should be bytes"),
+        (lambda c: c.update(model_xml=np.array(["<mujoco/>"])), "its model_xml cannot be read"),
+        (lambda c: c.update({name: c[name][:0] for name in c if c[name].shape[:1] == (175,)}), "joint_names and time"),
+        *((edit_meta(change), message) for change, message in (
+            (lambda m: m.update(robot="go\x1b[31m1"), r"meta: the text 'go\\x1b\[31m1' holds control characters"),
+            (lambda m: m["task"].update({"a\x07": 1}), "meta: a key holds control characters"),
+            (lambda m: m.update(robot="go\n1"), "meta.robot: .*should be a name without control characters"),
+            (lambda m: m.update(success=1), "meta.success: should be a valid boolean, is 1"),
+            (lambda m: m.update(trials="12"), "meta.trials: should be a valid integer, is '12'"),
+            (lambda m: m.update(timestep=0), "meta.timestep: should be greater than or equal to 0.0"),
+            (lambda m: m.update(timestep=0.001), "meta.horizon: 0.3 s, but 150 steps are of 0.001 s"),
+            (lambda m: m.update(horizon_steps=176), "meta.horizon_steps: 176, but time has 175 steps"),
+            (lambda m: m.update(errors={"pitch": 0.1}), "meta.errors: lacks 'height', a criterion of the task"),
+            (lambda m: m["cost_terms"].update(more=1.0), "meta.cost_terms: 'more' has no weight"),
+            (lambda m: m["limits"]["torque"].pop(), "meta.limits.torque: 11 numbers for 12 joints"),
+            (lambda m: m["limits"]["upper"].__setitem__(3, -9.0), "meta.limits: a lower limit is above its upper one"),
+            (lambda m: m["limits"].pop("no_load_speed"), "meta.limits: has one of stall_torque and no_load_speed"),
+            (lambda m: m["legs"].pop("lf"), "foot_contact_force has 4 feet, meta.legs has 3"),
+            (lambda m: m["legs"]["lf"]["joints"].__setitem__(0, "rf_haa"), "meta.legs: should have each of joint_names"),
+            (lambda m: m["legs"]["lf"]["geometry"]["axes"].pop(), "meta.legs.lf.geometry: should have an anchor and an"),
+            (lambda m: m["policy"]["groups"].pop(), "meta.policy: groups: joints|meta.policy: is for 6 joints"),
+            (lambda m: m["policy"].update(timestep=0.001), "meta.policy: 0.3 s in steps of 0.001 s, the motion has 150"),
+            (lambda m: m.update(model_joints=["nose"]), "meta.model_joints: has joints that are neither"),
+            (lambda m: m.update(task=nested(60)), "meta: nested more than 50 levels deep"),
+            (lambda m: m.update(seed=10**400), "its meta cannot be read"),
+        )),
     ],
-)
+)  # fmt: skip
 def test_files_that_are_not_quite_motions(file: Path, change: Callable, message: str) -> None:
     rewrite(file, change)
     with pytest.raises(LevadeError, match=f"^{re.escape(str(file))}: ({message})") as caught:
@@ -413,6 +452,64 @@ def test_arrays_are_those_of_the_model(file: Path, change: Callable, message: st
         with pytest.raises(LevadeError, match=message) as caught:
             use()
         assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (("<worldbody>", '<include file="/etc/hostname"/><worldbody>'), "has <include>; a motion's model stands alone"),
+        (("<worldbody>", '<worldbody><replicate count="100000"/>'), "has <replicate>; a motion's model stands alone"),
+        (
+            ("<asset>", '<asset><mesh name="m" file="/tmp/there.obj"/>'),
+            "<mesh> needs the file '/tmp/there.obj', which is not in the motion",
+        ),
+        (
+            ("<asset>", '<asset><hfield name="h" nrow="1" ncol="1" size="1 1 1 1" file="h.png"/>'),
+            "<hfield> needs the f",
+        ),
+        (("<asset>", '<asset><texture name="h" fileright="h.png"/>'), "<texture> needs the file 'h.png'"),
+        (("<asset>", '<asset><hfield name="h" nrow="99999" ncol="99999"/>'), r"<hfield> asks for 1e\+10 numbers"),
+        (("<asset>", '<size memory="900G"/><asset>'), r"<size> asks for 9.66e\+11 numbers"),
+        (("<mujoco", "<!DOCTYPE mujoco><mujoco"), "declares a document type, which no model needs"),
+        (("</mujoco>", ""), "is no XML"),
+        (("mujoco", "robot"), "begins with <robot>; should begin with <mujoco>"),
+    ],
+)
+def test_a_model_that_needs_more_than_the_motion_has(file: Path, change: tuple[str, str], message: str) -> None:
+    rewrite(file, lambda c: c.update(model_xml=np.array(str(c["model_xml"]).replace(*change))))
+    with pytest.raises(LevadeError, match=f"^{re.escape(str(file))}: model_xml: {message}"):
+        Motion.load(file)
+
+
+def test_assets_are_found_as_mujoco_finds_them() -> None:
+    mesh = '<mujoco><asset><mesh name="m" file="{}"/></asset></mujoco>'
+    for name in ("box.obj", "BOX.obj", "meshes/box.obj", "..\\meshes\\Box.OBJ"):
+        check_text(mesh.format(name), ["box.obj"])
+    check_text(mesh.format("meshes/box.obj"), ["meshes/box.obj"])
+    for name in ("other.obj", "box.obj/x", "meshes/box.stl"):
+        with pytest.raises(LevadeError, match="which is not in the motion"):
+            check_text(mesh.format(name), ["box.obj"])
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda m: m.update(trunk="nose"), "motion: its model has no body 'nose'"),
+        (lambda m: m["legs"]["lf"].update(foot="nose"), "motion: its model has no geom 'nose'"),
+        (lambda m: m.update(trunk="lf_hip"), "motion: its trunk does not move freely"),
+    ],
+)
+def test_names_are_those_of_the_model(file: Path, change: Callable, message: str) -> None:
+    rewrite(file, edit_meta(change))
+    with pytest.raises(LevadeError, match=message):
+        Motion.load(file).compiled()
+
+
+def test_steps_are_those_of_the_model(file: Path) -> None:
+    xml = '<option timestep="0.001" '
+    rewrite(file, lambda c: c.update(model_xml=np.array(str(c["model_xml"]).replace("<option ", xml))))
+    with pytest.raises(LevadeError, match=r"motion: has steps of 0\.002 s, its model of 0\.001 s; the file is damaged"):
+        Motion.load(file).compiled()
 
 
 @pytest.mark.parametrize(
@@ -442,6 +539,82 @@ def test_other_files_of_numpy_and_of_no_one(tmp_path: Path) -> None:
     ):
         with pytest.raises(LevadeError, match=message):
             Motion.load(tmp_path / name)
+
+
+def zipped(path: Path, compression: int = zipfile.ZIP_DEFLATED, **members: bytes) -> None:
+    with zipfile.ZipFile(path, "w", compression) as archive:
+        for name, data in members.items():
+            archive.writestr(f"{name}.npy", data)
+
+
+def header(shape: str, kind: str = "<f8") -> bytes:
+    text = f"{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}}}".ljust(117) + "\n"
+    return b"\x93NUMPY\x01\x00" + len(text).to_bytes(2, "little") + text.encode()
+
+
+CLAIMS = [
+    ("(10**12,)", "<f8"),
+    ("(1000000000000,)", "<f8"),
+    ("(-1,)", "<f8"),
+    ("()", "<U999999999"),
+    ("(9999999999,)", "<U0"),
+]
+
+
+def test_sizes_are_looked_at_before_anything_is_unfolded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Zeros that unfold to a thousand times the file, and headers that claim what is not there."""
+    monkeypatch.setattr(archive_module, "LARGEST", 5_000_000)
+    path, zeros = tmp_path / "motion.npz", bytes(6_000_000)
+    zipped(path, meta=header("(750000,)") + zeros)
+    assert path.stat().st_size < 10_000
+    tracemalloc.start()
+    with pytest.raises(LevadeError, match="unfolds to 6 MB, a motion to at most 5 MB; not made by levade solve"):
+        Motion.load(path)
+    for shape, kind in CLAIMS:
+        zipped(path, meta=header(shape, kind) + bytes(1000))
+        with pytest.raises(LevadeError, match="cannot be read as a motion"):
+            Motion.load(path)
+    assert tracemalloc.get_traced_memory()[1] < 1_000_000
+    tracemalloc.stop()
+
+
+def test_a_file_that_says_it_is_smaller_than_it_is(tmp_path: Path) -> None:
+    """Its table of contents says 1000 bytes; it unfolds to 5 MB."""
+    path = tmp_path / "motion.npz"
+    zipped(path, meta=header("(625000,)") + bytes(5_000_000))
+    size = (5_000_128).to_bytes(4, "little")
+    assert path.read_bytes().count(size) == 2
+    path.write_bytes(path.read_bytes().replace(size, (1000).to_bytes(4, "little")))
+    with pytest.raises(LevadeError, match="cannot be read as a motion"):
+        Motion.load(path)
+
+
+def test_an_archive_that_numpy_does_not_write(file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with zipfile.ZipFile(file) as archive:
+        members = {name: archive.read(name) for name in archive.namelist()}
+    path, stored = tmp_path / "other.npz", zipfile.ZIP_STORED
+    for compression, more, comment in (
+        (zipfile.ZIP_BZIP2, {}, b""),
+        (zipfile.ZIP_LZMA, {}, b""),
+        (stored, {"readme.txt": b"hello"}, b""),
+        (stored, {}, b"hello"),
+    ):
+        with zipfile.ZipFile(path, "w", compression) as archive:
+            for name, data in (members | more).items():
+                archive.writestr(name, data)
+            archive.comment = comment
+        with pytest.raises(LevadeError, match="cannot be read as a motion"):
+            Motion.load(path)
+    Motion.load(file)
+    monkeypatch.setattr(archive_module, "_DIRECTORY", 1000)
+    with pytest.raises(LevadeError, match="cannot be read as a motion"):
+        Motion.load(file)
+
+
+def test_arrays_of_other_floats_are_of_64_bits(file: Path) -> None:
+    rewrite(file, lambda c: c.update(weights=c["weights"].astype(">f8"), ctrl=np.asfortranarray(c["ctrl"])))
+    motion = Motion.load(file)
+    assert (motion["weights"].dtype, motion["ctrl"].flags.c_contiguous) == (np.dtype("<f8"), True)
 
 
 def test_a_damaged_file_is_refused_or_harmless(file: Path) -> None:

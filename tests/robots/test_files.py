@@ -199,3 +199,17 @@ def test_what_an_mjcf_lacks_is_said_once(tmp_path: Path, quadruped: type) -> Non
         f"{shanks}: collide as their other geoms only, missing: gone.stl; put the file where it says"
     ]
     assert f"{shanks}: not shown as meshes, missing: gone.stl" in findings(robot, "note")
+
+
+@pytest.mark.parametrize("hidden", ["&#27;[31m", "&#10;", "\x1b[31m", "\x9b31m", "\u202e"])
+def test_names_that_a_terminal_would_obey_are_refused(tmp_path: Path, hidden: str) -> None:
+    text = (CASES / "pairs" / "pup.xml").read_text(encoding="utf-8").replace('"FL_hip"', f'"FL{hidden}hip"')
+    (tmp_path / "pup.xml").write_text(text, encoding="utf-8")
+    with pytest.raises(
+        LevadeError, match=r"pup\.xml: names hold control characters, which no terminal can show"
+    ) as told:
+        load_robot(tmp_path / "pup.xml")
+    assert str(told.value).isprintable()
+    (tmp_path / "pup\x1b[2J.xml").write_bytes((CASES / "pairs" / "pup.xml").read_bytes())
+    with pytest.raises(LevadeError, match="its name holds control characters"):
+        load_robot(tmp_path / "pup\x1b[2J.xml")

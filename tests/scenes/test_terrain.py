@@ -132,6 +132,28 @@ def test_heights_that_make_no_terrain(heights: tuple[tuple[float, ...], ...], me
         Terrain(heights, size=(1.0, 1.0))
 
 
+def test_the_size_of_a_file_is_looked_at_before_its_heights(tmp_path: Path) -> None:
+    image = pytest.importorskip("PIL.Image")
+    whole = b"\x93NUMPY\x01\x00v\x00" + b"{'descr': '<f8', 'fortran_order': False, 'shape': %s}".ljust(128)
+    for name, shape in (("claims", b"(900000, 900000)"), ("more", b"(1, 1, 1" + b", 1" * 90 + b")"), ("text", b"'x'")):
+        (tmp_path / f"{name}.npy").write_bytes((whole % shape)[:128] + b" \n")
+        with pytest.raises(LevadeError, match="npy: not an array of numbers"):
+            read_heights(tmp_path / f"{name}.npy")
+    np.save(tmp_path / "large.npy", np.zeros((300, 300)))
+    np.savez(tmp_path / "several", a=np.zeros(3))
+    (tmp_path / "several.npz").rename(tmp_path / "several.npy")
+    image.new("1", (2000, 3000)).save(tmp_path / "large.png")
+    image.new("1", (20_000, 10_000)).save(tmp_path / "bomb.png")
+    for name, height, message in (
+        ("large.npy", None, "300 x 300 heights are too many; at most 40000 in all"),
+        ("several.npy", None, "not an array of numbers"),
+        ("large.png", 0.5, "2000 x 3000 heights are too many"),
+        ("bomb.png", 0.5, "not an image that Pillow can read"),
+    ):
+        with pytest.raises(LevadeError, match=message):
+            read_heights(tmp_path / name, height)
+
+
 def test_gaps_that_make_no_ground() -> None:
     with pytest.raises(LevadeError, match=r"gap.width: 0.0 m should be a positive length"):
         Gap(1.0, 0.0)

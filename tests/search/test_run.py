@@ -24,6 +24,7 @@ from levade.errors import LevadeError
 from levade.motions import ARRAYS, Motion
 from levade.optimizers import OPTIMIZERS
 from levade.search import Evaluation, Generation, Objective, Stopped, Trials, make_objective
+from levade.search import checkpoint as checkpoints
 from levade.search import run as run_module
 from levade.search.run import (
     CHECKPOINT,
@@ -281,8 +282,12 @@ HEADER = '{"task": "rearing", "seed": %s, "versions": %s, "task_checksum": 1, "f
         (HEADER[:-1] % (1, "{}", 2) + ', "more": 1}', "damaged, its first line is no header"),
         ('{"seed": 3, "versions": {}, "format": 2}', "damaged, its first line is no header"),
         (HEADER % (3, '{"mujoco": "1.0"}', 2), r"was started with mujoco 1\.0, this is .*install mujoco==1\.0"),
-        ('{"task": "rearing", "seed": 3, "versions": {}}', "layout 1, but this levade reads layout 2; start again"),
-        (HEADER % (3, "{}", 3), "layout 3, but this levade reads layout 2; .* the levade that wrote it"),
+        ('{"task": "rearing", "seed": 3, "versions": {}}', "layout 1, but this levade reads layout 3; start again"),
+        (HEADER % (3, "{}", 4), "layout 4, but this levade reads layout 3; .* the levade that wrote it"),
+        (HEADER % (3, "{}", 3), "damaged, its first line is no header"),
+        (HEADER % (-3, "{}", 2), "damaged, its first line is no header"),
+        (HEADER % (3, '{"mujoco": "\\u001b[2J"}', 2), "damaged, its first line is no header"),
+        (HEADER[:-1] % (3, "{}", 2) + ', "initial": {"step": 1}}', "damaged, its first line is no header"),
     ],
 )
 def test_headers_that_do_not_fit(objective: Objective, tmp_path: Path, first: str, message: str) -> None:
@@ -312,9 +317,8 @@ def test_a_task_that_was_changed_in_between_is_refused(objective: Objective, tmp
 
 def test_records_of_another_seed_are_refused(objective: Objective, tmp_path: Path) -> None:
     run(objective, seed=3, directory=tmp_path, observe=stop_after(3))
-    path = tmp_path / CHECKPOINT
-    text = path.read_text()
-    path.write_text(text.replace('"seed": 3', '"seed": 4', 1))
+    checkpoint = read_run(tmp_path)[1]
+    checkpoints.begin(tmp_path, dataclasses.replace(checkpoint.header, seed=4), checkpoint.records).close()
     with pytest.raises(LevadeError, match="record 1 is of another search"):
         resume(tmp_path)
 
@@ -349,8 +353,8 @@ def test_an_interrupted_run_is_not_replaced_unasked(
 def test_an_interrupted_run_of_an_earlier_levade_is_not_replaced_unasked(objective: Objective, tmp_path: Path) -> None:
     run(objective, seed=3, directory=tmp_path, observe=stop_after(3))
     path = tmp_path / CHECKPOINT
-    path.write_text(path.read_text().replace('"format": 2', '"format": 1', 1))
-    with pytest.raises(LevadeError, match=r"layout 1, but this levade reads layout 2; .*replace it or write elsewhere"):
+    path.write_text(path.read_text().replace('"format": 3', '"format": 1', 1))
+    with pytest.raises(LevadeError, match=r"layout 1, but this levade reads layout 3; .*replace it or write elsewhere"):
         check_replaceable(tmp_path)
     with path.open("a") as file:
         file.write('{"finished": true}\n')

@@ -26,6 +26,7 @@ from levade.tasks import (
     load_task,
     task_checksum,
     task_from_dict,
+    task_text,
     task_to_dict,
     task_to_yaml,
 )
@@ -525,3 +526,21 @@ def test_a_terrain_from_a_file_is_part_of_the_task(tmp_path: Path) -> None:
     ):
         with pytest.raises(LevadeError, match=message):
             task_from_dict(minimal(scene={"terrain": terrain}), where="mine.yaml")
+
+
+def test_a_file_that_a_terminal_would_obey_is_not_printed(tmp_path: Path) -> None:
+    path = tmp_path / "task.yaml"
+    path.write_text("name: x  # \x1b[2J\n")
+    with pytest.raises(LevadeError, match=r"task.yaml: is no text; it holds control characters"):
+        task_text(path)
+    path.write_bytes(b"name: x  # caf\xc3\xa9\r\n\tand a tab\r\n")
+    assert task_text(path) == "name: x  # café\n\tand a tab\n"
+
+
+def test_a_motions_task_reads_no_files(tmp_path: Path) -> None:
+    content = task_to_dict(load_task("rearing"))
+    np.save(tmp_path / "heights.npy", np.eye(2))
+    content["scene"] |= {"terrain": {"file": str(tmp_path / "heights.npy"), "size": [1, 1]}}
+    assert task_from_dict(content, where="task").scene.terrain is not None
+    with pytest.raises(LevadeError, match=r"task\.scene\.terrain: unknown key 'file'"):
+        task_from_dict(content, where="task", code=True)

@@ -26,6 +26,8 @@ from levade.tasks import Task, load_task, task_checksum
 
 Until = Literal["success", "budget"]
 
+_MOST_SEEDS = 1_000_000
+
 
 @dataclass(frozen=True)
 class Plan:
@@ -57,6 +59,8 @@ class Plan:
             twice = {value for value in known if known.count(value) > 1}
             if twice:
                 raise LevadeError(f"{name}: {min(twice)} is there twice")
+        if isinstance(self.seeds, int) and self.seeds > _MOST_SEEDS:
+            raise LevadeError(f"seeds: {self.seeds} are too many; at most {_MOST_SEEDS}")
         if not self.seed_list or min(self.seed_list) < 0 or len(set(self.seed_list)) < len(self.seed_list):
             raise LevadeError(f"seeds: {self.seeds} should be a number from 1, or a list of different ones from 0")
         if self.until not in get_args(Until):

@@ -63,13 +63,13 @@ def _reports(motions: Mapping[Path, Motion]) -> list[Path]:
 
 
 def _show(console: Console, motion: Motion) -> None:
-    origin, hold = motion.provenance, motion.hold
+    origin, hold, summary = motion.provenance, motion.hold, list(motion_summary(motion))
     console.print(
         f"[bold]{escape(motion.task_name)}[/] on {escape(motion.robot)}, seed {origin.seed}: {motion.horizon:g} s"
         + (f" and {hold:g} s of hold" if hold > 1e-9 else "")
         + f", {motion.steps} steps of {motion.timestep * 1e3:g} ms"
     )
-    for part in motion_summary(motion):
+    for part in summary:
         console.print(part)
     made = ", ".join(f"{name} {version}" for name, version in origin.versions.items())
     console.print(f"{motion.result.trials} trials, cost {motion.result.cost:.4g}; made with {made}")

@@ -66,8 +66,8 @@ def embodiment_of(meta: Mapping[str, Any], joint_names: tuple[str, ...], lines: 
         legs=tuple(
             LegGeometry(
                 name=name,
-                side=leg["side"],
-                end=leg["end"],
+                side=leg.get("side", ""),
+                end=leg.get("end", ""),
                 joints=tuple(joint_names.index(joint) for joint in leg["joints"]),
                 anchors=np.array(leg["geometry"]["anchors"], dtype=float),
                 axes=np.array(leg["geometry"]["axes"], dtype=float),
@@ -75,7 +75,7 @@ def embodiment_of(meta: Mapping[str, Any], joint_names: tuple[str, ...], lines: 
                 sole=float(leg["geometry"]["sole"]),
             )
             for name, leg in meta["legs"].items()
-            if "geometry" in leg
+            if leg.get("geometry") is not None
         ),
     )
 

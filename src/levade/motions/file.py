@@ -8,9 +8,7 @@ from __future__ import annotations
 
 import json
 import os
-import zipfile
-import zlib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -21,6 +19,9 @@ from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.feedback import ARRAYS as FEEDBACK_ARRAYS
 from levade.feedback import META as FEEDBACK_META
+from levade.motions.archive import unpack
+from levade.motions.form import check
+from levade.motions.model import check_text
 from levade.rotations import conjugate, rotate
 
 SCHEMA = 2
@@ -65,11 +66,14 @@ META = (
 LATER = ("cost_weights", "policy", "held", "model_joints", "initial")
 """Keys of ``meta`` that files of early versions lack. ``feedback`` is there if the motion has a stabiliser."""
 
-# what numpy and zipfile raise for files that are damaged, or something else
-_UNREADABLE = (
-    *(OSError, ValueError, EOFError, AttributeError, TypeError, LookupError, RuntimeError, MemoryError, SyntaxError),
-    *(zipfile.BadZipFile, zlib.error),
-)
+_LONGEST_META = 8_000_000
+"""[characters], of ``meta``: the largest height field takes an eighth of it."""
+
+_FARTHEST = 1e12
+"""Beyond any number of a motion that has not diverged, in any unit."""
+
+_UNIT = 1e-3
+"""How far the length of a quaternion may be off."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +120,7 @@ def read(path: str | Path) -> Content:
         LevadeError: If the file is missing, damaged, something else, or of a later layout.
     """
     path = Path(path)
-    data = _opened(path)
+    data = unpack(path)
     missing = [name for name in ("meta", "model_xml", *ARRAYS) if name not in data]
     if missing:
         raise LevadeError(
@@ -125,13 +129,20 @@ def read(path: str | Path) -> Content:
     meta = _meta(path, data["meta"])
     later = {name: shape for name, shape in LATER_ARRAYS.items() if name in data}
     _check_arrays(path, data, {**ARRAYS, **later}, {"3": 3, "4": 4})
-    if not meta["diverged"]:
-        _check_numbers(path, data)
     if "feedback" in meta:
         _check_feedback(path, meta["feedback"], data)
-    assets = {name[6:]: data[name].tobytes() for name in data if name.startswith("asset:")}
     kept = [*ARRAYS, *later, *(FEEDBACK_ARRAYS if "feedback" in meta else ())]
-    return _converted(Content(meta, str(data["model_xml"]), {name: data[name] for name in kept}, assets))
+    arrays = {name: _native(data[name]) for name in kept}
+    assets = {name[6:]: _bytes(path, name, data[name]) for name in data if name.startswith("asset:")}
+    xml = _text(path, "model_xml", data["model_xml"])
+    try:
+        check(meta, arrays)
+        if not meta["diverged"]:
+            _check_numbers(arrays)
+        check_text(xml, assets)
+    except LevadeError as error:
+        raise LevadeError(f"{path}: {error}; the file is damaged, or not made by levade solve") from None
+    return _converted(Content(meta, xml, arrays, assets))
 
 
 def finite(values: Array) -> list[float | None]:
@@ -153,24 +164,31 @@ def _converted(content: Content) -> Content:
     return Content({**content.meta, "schema": SCHEMA}, content.model_xml, arrays, content.assets)
 
 
-def _opened(path: Path) -> dict[str, Array]:
-    if path.is_dir():
-        raise LevadeError(f"{path}: is a directory; give the motion.npz in it: {path / 'motion.npz'}")
-    try:
-        # opened here: of a file that is damaged, numpy would leave its own handle open
-        with path.open("rb") as opened, np.load(opened, allow_pickle=False) as file:
-            return {name: file[name] for name in file.files}
-    except FileNotFoundError:
-        raise LevadeError(f"{path}: no such file; give the motion.npz that levade solve wrote") from None
-    except _UNREADABLE:
-        raise LevadeError(f"{path}: cannot be read as a motion; damaged, or not a motion.npz of levade solve") from None
+def _text(path: Path, name: str, text: Array) -> str:
+    if text.dtype.kind != "U" or text.shape:
+        raise LevadeError(f"{path}: its {name} cannot be read; damaged, or not a motion.npz of levade solve")
+    return str(text)
 
 
-def _meta(path: Path, text: Array) -> dict[str, Any]:
+def _bytes(path: Path, name: str, data: Array) -> bytes:
+    if data.dtype != np.uint8 or data.ndim != 1:
+        raise LevadeError(f"{path}: {name!r} is of {data.dtype}, should be bytes; the file is damaged")
+    return data.tobytes()
+
+
+def _native(values: Array) -> Array:
+    """An array as levade writes it: floats of 64 bits, row after row."""
+    return np.ascontiguousarray(values, dtype=None if values.dtype.kind == "U" else np.float64)
+
+
+def _meta(path: Path, array: Array) -> dict[str, Any]:
+    text = _text(path, "meta", array)
     try:
-        meta = json.loads(str(text))
+        if len(text) > _LONGEST_META:
+            raise ValueError
+        meta = json.loads(text, parse_int=_whole)
         schema = meta["schema"]
-    except (ValueError, TypeError, KeyError):
+    except (ValueError, TypeError, KeyError, RecursionError):
         raise LevadeError(f"{path}: its meta cannot be read; damaged, or not a motion.npz of levade solve") from None
     numbered = isinstance(schema, int) and not isinstance(schema, bool)
     if numbered and not 1 <= schema <= SCHEMA:
@@ -183,6 +201,13 @@ def _meta(path: Path, text: Array) -> dict[str, Any]:
     return meta
 
 
+def _whole(digits: str) -> int:
+    """A whole number of JSON, if a float can hold its size. Raises ValueError."""
+    if len(digits) > 300:
+        raise ValueError
+    return int(digits)
+
+
 def _check_feedback(path: Path, meta: Any, content: Mapping[str, Array]) -> None:
     lacking = [
         *(name for name in FEEDBACK_ARRAYS if name not in content),
@@ -191,18 +216,19 @@ def _check_feedback(path: Path, meta: Any, content: Mapping[str, Array]) -> None
     if lacking:
         raise LevadeError(f"{path}: its stabiliser lacks {', '.join(lacking[:3])}; stabilise the motion again")
     joints = len(content["joint_names"])
+    if not all(content[name].size for name in FEEDBACK_ARRAYS):
+        raise LevadeError(f"{path}: its stabiliser has no gains; stabilise the motion again")
     sizes = {"joints": joints, "sensed": 6 + 2 * joints, "columns": 6 + 3 * joints}
     _check_arrays(path, content, FEEDBACK_ARRAYS, sizes)
 
 
-def _check_numbers(path: Path, content: Mapping[str, Array]) -> None:
-    for name in _floating(content):
-        if not np.isfinite(content[name]).all():
-            raise LevadeError(f"{path}: {name} has values that are no numbers; the file is damaged")
-
-
-def _floating(content: Mapping[str, Array]) -> Iterator[str]:
-    return (name for name in ARRAYS if content[name].dtype.kind == "f")
+def _check_numbers(arrays: Mapping[str, Array]) -> None:
+    for name, values in arrays.items():
+        if values.dtype.kind == "f" and not (np.abs(values) < _FARTHEST).all():
+            raise LevadeError(f"{name} has values that are no numbers")
+    turned = np.linalg.norm(arrays["trunk_quaternion"], axis=1)
+    if (np.abs(turned - 1.0) > _UNIT).any():
+        raise LevadeError("trunk_quaternion has rows that are no rotations")
 
 
 def _check_arrays(

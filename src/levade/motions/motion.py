@@ -39,6 +39,7 @@ from levade.feedback import Feedback
 from levade.feedback import names as sensed_names
 from levade.motions import file
 from levade.motions.facts import actuator_lines, embodiment_of, legs_of
+from levade.motions.model import compile_text
 from levade.policies import Policy, policy_from_dict
 from levade.robots import Leg
 from levade.robots.addresses import Addresses
@@ -212,19 +213,41 @@ class Motion:
         Raises:
             LevadeError: If MuJoCo does not take it, or the arrays are not of it.
         """
-        try:
-            model = mujoco.MjModel.from_xml_string(self.model_xml, dict(self.assets))
-        except ValueError as error:
-            what = " ".join(str(error).split())
-            raise LevadeError(
-                f"motion: MuJoCo {mujoco.__version__} does not take its model: {what}; the file is damaged"
-            ) from None
+        model = compile_text(self.model_xml, self.assets)
         for name, size in (("qpos0", model.nq), ("qvel0", model.nv), ("act0", model.na), ("ctrl", model.nu)):
             if self[name].shape[-1] != size:
                 raise LevadeError(
                     f"motion: {name} has {self[name].shape[-1]} numbers, its model {size}; the file is damaged"
                 )
+        if not np.isclose(model.opt.timestep, self.timestep, rtol=1e-6, atol=0.0):
+            raise LevadeError(
+                f"motion: has steps of {self.timestep:g} s, its model of {model.opt.timestep:g} s; the file is damaged"
+            )
+        self._check_names(model)
         return model
+
+    def _check_names(self, model: mujoco.MjModel) -> None:
+        """Raise LevadeError unless the model has the motion's trunk, joints and actuators of one number each, and feet."""
+        kind = mujoco.mjtObj
+        for what, of, names in (
+            ("body", kind.mjOBJ_BODY, [self.trunk]),
+            ("joint", kind.mjOBJ_JOINT, self.joint_names),
+            ("actuator", kind.mjOBJ_ACTUATOR, self.joint_names),
+            ("geom", kind.mjOBJ_GEOM, [leg.foot for leg in self.legs]),
+        ):
+            for name in names:
+                if mujoco.mj_name2id(model, of, name) < 0:
+                    raise LevadeError(f"motion: its model has no {what} {name!r}; the file is damaged")
+        hinge, free = mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_FREE
+        first = int(model.body(self.trunk).jntadr[0])
+        if (
+            first < 0
+            or model.jnt_type[first] != free
+            or {int(model.joint(n).type[0]) for n in self.joint_names} != {hinge}
+        ):
+            raise LevadeError(
+                "motion: its trunk does not move freely, or joints of it are no hinges; the file is damaged"
+            )
 
     def addresses(self, model: mujoco.MjModel) -> Addresses:
         """Look up the trunk and the joints in the motion's model."""

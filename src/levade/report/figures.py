@@ -37,6 +37,7 @@ from levade.report.series import (
     read_progress,
     short,
     trunk_values,
+    weights_of,
 )
 from levade.report.style import LIGHT, leg_colours
 
@@ -512,7 +513,7 @@ def _foot_forces(motion: Motion) -> Any:
 
 def _kernels(motion: Motion) -> Any:
     kernels, horizon = kernels_of(motion), motion.horizon
-    weights = motion["weights"].reshape(-1, kernels.kernels)
+    weights = weights_of(motion, kernels)
     time = np.linspace(0.0, horizon, 301)
     phi, _ = kernels.basis(time, horizon)
     columns = 3 if len(weights) % 3 == 0 else 4

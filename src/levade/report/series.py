@@ -136,7 +136,7 @@ def _numbers(values: Array) -> list[float | None]:
 def _policy_data(motion: Motion) -> dict[str, Any]:
     """The kernels over the horizon and, per policy, its weights at the kernels' means and what they add up to."""
     kernels, horizon = kernels_of(motion), motion.horizon
-    weights = motion["weights"].reshape(-1, kernels.kernels)
+    weights = weights_of(motion, kernels)
     time = np.linspace(0.0, horizon, 201)
     phi, _ = kernels.basis(time, horizon)
     names = policy_names(motion, len(weights))
@@ -151,9 +151,18 @@ def _policy_data(motion: Motion) -> dict[str, Any]:
 
 
 def kernels_of(motion: Motion) -> GaussianKernels:
-    """The kernels of the motion's policy."""
+    """The kernels of the motion's policy, or those that its task has."""
+    if motion.policy is not None:
+        return motion.policy.kernels
     choice = motion.task.policy
     return GaussianKernels(choice.kernels, choice.variance, choice.time)
+
+
+def weights_of(motion: Motion, kernels: GaussianKernels) -> Array:
+    """Weights by policy, shape (policies, kernels) [rad]; no rows for a policy in Python, which has other weights."""
+    weights = motion["weights"]
+    whole = len(weights) % kernels.kernels == 0
+    return weights.reshape(-1, kernels.kernels) if whole else np.empty((0, kernels.kernels))
 
 
 QUANTITIES = (("x", "y", "height"), ("roll", "pitch", "yaw"))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from levade.document import hides
 from levade.embodiment import JointLimits, TorqueCurve
 from levade.errors import LevadeError, did_you_mean
 from levade.robots.actuation import DCMotor
@@ -61,6 +62,8 @@ def load_robot(
     """
     path = _find(str(name_or_path))
     form = _describe(path)
+    if hides(form.name):
+        raise LevadeError(f"{path}: its name holds control characters, which no terminal can show; rename it")
     valid_actuations = list(form.actuations) or [SERVO]
     for value, key, valid in (
         (actuation or form.actuation, "actuation", valid_actuations),

@@ -18,6 +18,7 @@ import mujoco
 import numpy as np
 
 from levade.arrays import Array
+from levade.document import hides
 from levade.errors import LevadeError
 from levade.robots.assets import compile_readable, read_assets
 from levade.robots.files import parts, read_xml
@@ -106,6 +107,8 @@ def _read(path: Path, trunk: str | None, joints: Iterable[str]) -> Draft:
     if not draft.urdf:
         lift_explicit(draft.spec)
     model = compile_readable(draft)
+    if hides(model.names.decode(errors="replace").replace("\0", " ")):
+        raise LevadeError(f"{path}: names hold control characters, which no terminal can show; rename what has them")
     doubts = doubt_ranges(draft.spec, model)
     if doubts:
         draft.findings += doubts

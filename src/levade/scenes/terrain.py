@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+import warnings
 from dataclasses import dataclass
 from pathlib import Path
+from tokenize import TokenError
 
 import mujoco
 import numpy as np
@@ -107,9 +109,11 @@ def read_heights(path: Path, height: float | None = None) -> tuple[tuple[float, 
         if height is not None:
             raise LevadeError(f"{path}: an array is in metres, so leave the height out; it is that of an image's white")
         try:
-            values = np.load(path, allow_pickle=False).astype(np.float64)
-        except (ValueError, OSError, EOFError) as error:
-            raise LevadeError(f"{path}: not an array of numbers ({' '.join(str(error).split())})") from None
+            stored = np.load(path, allow_pickle=False, mmap_mode="r")  # its size before its content
+            _check_number(path, stored.shape)
+            values = stored.astype(np.float64)
+        except (ValueError, OSError, EOFError, TypeError, AttributeError, ArithmeticError, TokenError) as error:
+            raise LevadeError(f"{path}: not an array of numbers ({error})") from None
     else:
         if height is None:
             raise LevadeError(f"{path}: say how high white is: height: 20 cm")
@@ -119,6 +123,14 @@ def read_heights(path: Path, height: float | None = None) -> tuple[tuple[float, 
     return tuple(tuple(float(f"{value:.6g}") for value in row) for row in values)
 
 
+def _check_number(path: Path, shape: tuple[int, ...]) -> None:
+    if math.prod(shape) > MOST_HEIGHTS:
+        size = " x ".join(map(str, shape))
+        raise LevadeError(
+            f"{path}: {size} heights are too many; at most {MOST_HEIGHTS} in all, so make it coarser or smaller"
+        )
+
+
 def _brightness(path: Path) -> Array:
     """(rows, columns) of an image, 0 to 1."""
     try:
@@ -126,10 +138,21 @@ def _brightness(path: Path) -> Array:
     except ImportError:
         raise LevadeError(f"{path}: reading images takes Pillow: pip install 'levade[video]'") from None
     try:
-        with Image.open(path) as image:
+        with (
+            warnings.catch_warnings(action="error", category=Image.DecompressionBombWarning),
+            Image.open(path) as image,
+        ):
+            _check_number(path, image.size)
             deep = image.mode.startswith("I")  # 16 bits
             return np.asarray(image if deep else image.convert("L"), dtype=np.float64) / (65535.0 if deep else 255.0)
-    except (UnidentifiedImageError, OSError):
+    except (
+        UnidentifiedImageError,
+        OSError,
+        ValueError,
+        SyntaxError,
+        Image.DecompressionBombError,
+        Image.DecompressionBombWarning,
+    ):
         raise LevadeError(
             f"{path}: not an image that Pillow can read; give a .png, or a .npy of heights in m"
         ) from None

@@ -1,17 +1,19 @@
 """The checkpoint of a run: a header, then a line for each evaluation, so that an interrupted run loses none.
 
-    {"task": "rearing", "seed": 0, "versions": {...}, "task_checksum": 123, "format": 2}
-    {"checksum": 456, "terms": {...}, "errors": {...}, "success": [...], ...}
+    {"task": "rearing", "seed": 0, "versions": {...}, "task_checksum": 123, "format": 3, "running": 789}
+    {"checksum": 456, "terms": {...}, "errors": {...}, "success": [...], ..., "running": 790}
     ...
-    {"finished": true}
+    {"finished": true, "running": 791}
 
 A resumed run answers its search from these lines without simulating, to exactly the state where it stopped. A last line that
-was cut off is no damage: its trials are simulated again.
+was cut off is no damage: its trials are simulated again. ``running`` is the CRC-32 of everything before it in the file, without
+the earlier ones: a line that was changed, moved or lost is found, and so are all after it.
 """
 
 from __future__ import annotations
 
 import json
+import zlib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,15 +21,25 @@ from typing import IO, Any
 
 from levade.errors import LevadeError
 from levade.search.evaluation import Record
+from levade.search.initial import InitialGuess
 from levade.search.storage import write_text
 
 CHECKPOINT = "checkpoint.jsonl"
 
-FORMAT = 2
-"""Version of the layout; raised when a reader of the old one would be wrong."""
+FORMAT = 3
+"""Version of the layout; raised when a reader of the old one would be wrong.
 
-_END = '{"finished": true}\n'
-"""Last line of a run that came to its end."""
+2: without ``running``; read, and written again in this one when the run goes on.
+3: with it.
+"""
+
+_END, _FINISHED = {"finished": True}, '{"finished": true'
+"""Last line of a run that came to its end, and how it begins."""
+
+_RUNNING = ', "running": '
+
+_UNREADABLE = (ValueError, LookupError, TypeError, AttributeError, ArithmeticError, RecursionError)
+"""What comes of a line that is damaged."""
 
 
 class LayoutError(LevadeError):
@@ -37,7 +49,7 @@ class LayoutError(LevadeError):
         finished: Whether the run came to its end.
     """
 
-    def __init__(self, message: str, *, finished: bool) -> None:
+    def __init__(self, message: str, *, finished: bool = False) -> None:
         super().__init__(message)
         self.finished = finished
 
@@ -82,6 +94,28 @@ class Checkpoint:
     damage: str | None
 
 
+class Writer:
+    """A checkpoint that is open for more.
+
+    Args:
+        file: The file, at its end.
+        running: CRC-32 of what is in it, without the checksums themselves.
+    """
+
+    def __init__(self, file: IO[str], running: int) -> None:
+        self._file, self._running = file, running
+
+    def add(self, content: Mapping[str, Any]) -> None:
+        """Write a line. Raises OSError."""
+        line, self._running = _line(content, self._running)
+        self._file.write(line)
+        self._file.flush()
+
+    def close(self) -> None:
+        """Close the file. Raises OSError."""
+        self._file.close()
+
+
 def read(directory: Path) -> Checkpoint:
     """Read the checkpoint in a directory.
 
@@ -90,57 +124,108 @@ def read(directory: Path) -> Checkpoint:
         LayoutError: If another version of levade wrote it.
     """
     path = directory / CHECKPOINT
-    text = path.read_text(encoding="utf-8", errors="replace")
-    finished = text.endswith(_END)
-    text = text.removesuffix(_END)
-    lines = text.splitlines()
     try:
-        content = json.loads(lines[0])
-        layout = content.pop("format", 1)
-        if not (isinstance(content["seed"], int) and isinstance(content["versions"], dict)):
-            raise TypeError
-        header = Header(**content) if layout == FORMAT else None
-    except (ValueError, LookupError, TypeError, AttributeError):
-        raise LevadeError(f"{path}: damaged, its first line is no header; start again") from None
-    if header is None:
+        text = path.read_text(encoding="utf-8", errors="replace")
+    except OSError as error:
+        raise LevadeError(f"{path}: cannot be read ({error.strerror})") from None
+    lines = text.split("\n")
+    layout = _layout(lines[0])
+    finished = len(lines) > 2 and lines[-2].startswith(_FINISHED)
+    if layout is not None and layout not in (2, FORMAT):
         raise LayoutError(
             f"{path}: layout {layout}, but this levade reads layout {FORMAT}; start again, or use the levade that wrote it",
             finished=finished,
         )
-    records = list(_records(lines[1:]))
-    whole = text[: text.rfind("\n") + 1].splitlines()[1:]
+    if finished:
+        lines = [*lines[:-2], ""]
+    try:
+        first, *rest = _contents(lines, checked=layout == FORMAT)
+        header = _header(first)
+    except (*_UNREADABLE, LevadeError):
+        raise LevadeError(f"{path}: damaged, its first line is no header; start again") from None
+    records = list(_records(rest))
+    whole = len(lines) - 2  # without the header, and what is after the last line end
     damage = None
-    if len(records) < len(whole):
-        damage = (
-            f"{path}: line {len(records) + 2} of {len(whole) + 1} is damaged; what was recorded from there on is simulated"
-            " again"
-        )
+    if len(records) < whole:
+        at = f"line {len(records) + 2} of {whole + 1}"
+        damage = f"{path}: {at} is damaged; what was recorded from there on is simulated again"
     return Checkpoint(header, records, finished, damage)
 
 
-def begin(directory: Path, header: Header, records: list[Record] | None = None) -> IO[str]:
+def begin(directory: Path, header: Header, records: list[Record] | None = None) -> Writer:
     """Write a checkpoint's header, and records that are kept, and open it for more. Raises OSError."""
-    kept = [json.dumps(header.to_json()), *(json.dumps(record.to_json()) for record in records or ())]
-    write_text(directory / CHECKPOINT, "".join(line + "\n" for line in kept))
-    return (directory / CHECKPOINT).open("a", encoding="utf-8")
+    lines, running = [], 0
+    for content in (header.to_json(), *(record.to_json() for record in records or ())):
+        line, running = _line(content, running)
+        lines.append(line)
+    write_text(directory / CHECKPOINT, "".join(lines))
+    return Writer((directory / CHECKPOINT).open("a", encoding="utf-8"), running)
 
 
-def add(file: IO[str], record: Record) -> None:
+def add(file: Writer, record: Record) -> None:
     """Add a record. Raises OSError."""
-    file.write(json.dumps(record.to_json()) + "\n")
-    file.flush()
+    file.add(record.to_json())
 
 
-def finish(file: IO[str]) -> None:
+def finish(file: Writer) -> None:
     """Say that the run came to its end. Raises OSError."""
-    file.write(_END)
-    file.flush()
+    file.add(_END)
 
 
-def _records(lines: list[str]) -> Iterator[Record]:
-    """The records up to the first line that is not whole."""
+def _line(content: Mapping[str, Any], running: int) -> tuple[str, int]:
+    """A line with the running checksum, and that checksum. running: of the lines before."""
+    text = json.dumps(content)
+    running = zlib.crc32(text.encode(), running)
+    return f"{text[:-1]}{_RUNNING}{running}}}\n", running
+
+
+def _contents(lines: list[str], *, checked: bool) -> Iterator[dict[str, Any]]:
+    """What the lines hold, up to the first that is not whole. checked: whether they have running checksums."""
+    running = 0
     for line in lines:
+        head, _, told = line.rpartition(_RUNNING) if checked else (line[:-1], "", "")
+        text = head + "}"
+        running = zlib.crc32(text.encode(), running)
+        if not (told == f"{running}}}" if checked else text == line):
+            return
         try:
-            yield Record.from_json(json.loads(line))
-        except (ValueError, LookupError, TypeError, AttributeError):
+            content = json.loads(text)
+        except _UNREADABLE:
+            return
+        if not isinstance(content, dict):
+            return
+        yield content
+
+
+def _layout(line: str) -> int | None:
+    """The layout that a header tells, whatever else it has; None if it is no header of any layout."""
+    try:
+        content = json.loads(line)
+        layout, seed, versions = content.get("format", 1), content["seed"], content["versions"]
+    except _UNREADABLE:
+        return None
+    return layout if type(layout) is int and type(seed) is int and isinstance(versions, dict) else None
+
+
+def _header(content: dict[str, Any]) -> Header:
+    """The header that a line holds. Raises TypeError and the like if it is none."""
+    header = Header(**{key: value for key, value in content.items() if key != "format"})
+    versions = header.versions
+    texts = [header.task, *versions, *versions.values()]
+    numbers = [header.seed, header.task_checksum]
+    if not (isinstance(versions, dict) and all(isinstance(text, str) and text.isprintable() for text in texts)):
+        raise TypeError
+    if not all(type(number) is int and number >= 0 for number in numbers):
+        raise TypeError
+    if header.initial is not None:
+        InitialGuess.from_json(header.initial)
+    return header
+
+
+def _records(contents: list[dict[str, Any]]) -> Iterator[Record]:
+    """The records up to the first that is not whole."""
+    for content in contents:
+        try:
+            yield Record.from_json(content)
+        except _UNREADABLE:
             return

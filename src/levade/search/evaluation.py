@@ -189,10 +189,35 @@ class Record:
 
     @classmethod
     def from_json(cls, content: Mapping[str, Any]) -> Record:
-        """The record that `to_json` wrote."""
+        """The record that `to_json` wrote.
+
+        Raises:
+            ValueError: If something is missing, of another kind, or of another number of trials than the rest. LookupError,
+                TypeError, AttributeError and OverflowError, too.
+        """
+        success, diverged = (_flags(content[key]) for key in ("success", "diverged"))
+        n = len(success)
         terms, errors, slack = (
-            {name: np.array(values, dtype=float) for name, values in content[key].items()}
+            {str(name): _numbers(values, n) for name, values in content[key].items()}
             for key in ("terms", "errors", "slack")
         )
-        success, diverged = (np.array(content[key], dtype=bool) for key in ("success", "diverged"))
+        if not n or len(diverged) != n or type(content["checksum"]) is not int:
+            raise ValueError
         return cls(content["checksum"], Evaluation(terms, errors, success, diverged, slack))
+
+
+def _flags(values: list[bool]) -> Mask:
+    """An array of a list. Raises ValueError if it holds anything but true and false."""
+    if not isinstance(values, list) or not all(isinstance(value, bool) for value in values):
+        raise ValueError
+    return np.array(values, dtype=bool)
+
+
+def _numbers(values: list[float | None], n: int) -> Array:
+    """An array of a list, NaN for None. Raises ValueError if it is not of n numbers."""
+    if not isinstance(values, list) or any(type(value) not in (float, int, type(None)) for value in values):
+        raise ValueError
+    array = np.array(values, dtype=float)
+    if array.shape != (n,):
+        raise ValueError
+    return array

@@ -48,9 +48,20 @@ class InitialGuess:
 
     @classmethod
     def from_json(cls, content: Mapping[str, Any]) -> InitialGuess:
-        """The guess that `to_json` wrote."""
-        factor = None if content["factor"] is None else np.array(content["factor"], dtype=float)
-        return cls(np.array(content["candidates"], dtype=float), float(content["step"]), factor)
+        """The guess that `to_json` wrote.
+
+        Raises:
+            LevadeError: If it is none.
+        """
+        try:
+            factor = None if content["factor"] is None else np.array(content["factor"], dtype=float)
+            guess = cls(np.array(content["candidates"], dtype=float), float(content["step"]), factor)
+        except (ValueError, TypeError, LookupError, OverflowError):
+            raise LevadeError("initial: is no guess that a run wrote") from None
+        size = guess.candidates.shape[1]
+        if factor is not None and not (factor.ndim == 2 and len(factor) == size and np.isfinite(factor).all()):
+            raise LevadeError(f"initial: the factor should be finite numbers of shape ({size}, m)")
+        return guess
 
     def space(self, space: SearchSpace, mean: Array) -> SearchSpace:
         """The search space around one of the candidates."""

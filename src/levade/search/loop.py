@@ -57,7 +57,7 @@ def solve(
             the task does not have.
     """
     objective = task if isinstance(task, Objective) else make_objective(task, threads=threads)
-    answers = _Answers(records, keep)
+    answers = _Answers(objective, records, keep)
     live = None if steer is None else lambda number: None if answers.left else steer(number)
     search = Search(objective.task, objective.space, seed=seed, initial=initial, steer=live)
     while (trials := search.ask()) is not None:
@@ -133,7 +133,10 @@ def _observed(search: Search, generation: Generation | None, answers: _Answers, 
 class _Answers:
     """Answers from records, in order, while there are any; new ones are handed to ``keep``."""
 
-    def __init__(self, records: Iterable[Record], keep: Callable[[Record], object] | None) -> None:
+    def __init__(
+        self, objective: Objective, records: Iterable[Record], keep: Callable[[Record], object] | None
+    ) -> None:
+        self._terms, self._criteria = objective.terms.keys(), objective.task.success
         self.left = deque(records)
         self.fresh = False
         self._keep, self._count = keep, 0
@@ -144,12 +147,18 @@ class _Answers:
             return None
         record = self.left.popleft()
         self._count += 1
-        if record.checksum != trials.checksum:
+        if record.checksum != trials.checksum or not self._fits(record.evaluation, trials):
             raise LevadeError(
                 f"record {self._count} is of another search: the task, the seed or a library has changed since;"
                 " start again in an empty directory"
             )
         return record.evaluation
+
+    def _fits(self, evaluation: Evaluation, trials: Trials) -> bool:
+        """Whether an evaluation has the task's costs and criteria, and a row for each of the trials."""
+        bounded = {name for name, criterion in self._criteria.items() if criterion.target is None}
+        names = (evaluation.terms.keys(), evaluation.errors.keys(), evaluation.slack.keys())
+        return len(evaluation.success) == trials.n and names == (self._terms, self._criteria.keys(), bounded)
 
     def kept(self, trials: Trials, evaluation: Evaluation) -> Evaluation:
         """A new evaluation, recorded."""

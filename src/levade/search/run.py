@@ -18,13 +18,12 @@ from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import IO
 
 from levade.document import read_yaml
 from levade.errors import LevadeError, Remedy
 from levade.motions import Motion, versions
 from levade.search import checkpoint as checkpoints
-from levade.search.checkpoint import CHECKPOINT, Checkpoint, Header, LayoutError
+from levade.search.checkpoint import CHECKPOINT, Checkpoint, Header, LayoutError, Writer
 from levade.search.evaluation import Record
 from levade.search.initial import InitialGuess
 from levade.search.loop import Observe, solve
@@ -196,7 +195,7 @@ def check_replaceable(directory: Path) -> None:
 class _Run:
     """A run in progress: what is written, and when."""
 
-    def __init__(self, objective: Objective, header: Header, directory: Path, file: IO[str]) -> None:
+    def __init__(self, objective: Objective, header: Header, directory: Path, file: Writer) -> None:
         self._objective, self._seed, self._directory, self._file = objective, header.seed, directory, file
         self._room = Remedy("make room, then go on", "resume", directory)
         self._saved = time.perf_counter()

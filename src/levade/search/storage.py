@@ -5,13 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import IO
+from typing import Protocol
 
 from levade.errors import LevadeError, Remedy
 
 
 class StorageError(LevadeError):
     """The directory can no longer be written; what was there before still is."""
+
+
+class Closable(Protocol):
+    """What can be closed."""
+
+    def close(self) -> object: ...
 
 
 def write_text(path: Path, text: str) -> None:
@@ -26,7 +32,7 @@ def write_text(path: Path, text: str) -> None:
 
 
 @contextmanager
-def closing(file: IO[str]) -> Iterator[None]:
+def closing(file: Closable) -> Iterator[None]:
     """Close a file whose every line has been flushed: what a full disk refused is not tried, and reported, again."""
     try:
         yield

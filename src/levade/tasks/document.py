@@ -28,7 +28,7 @@ from levade.costs import (
     TorqueLimitExcess,
 )
 from levade.costs.success import QUANTITIES
-from levade.document import build, kind_of, parse_yaml, read_text, read_yaml
+from levade.document import CONTROL, build, kind_of, parse_yaml, read_text, read_yaml
 from levade.errors import LevadeError, did_you_mean
 from levade.optimizers import ALIASES, canonical
 from levade.robots import Dimensions, Robot, dimensions, load_robot
@@ -78,8 +78,12 @@ def builtin_tasks() -> dict[str, Path]:
 
 
 def task_text(name_or_path: str | Path) -> str:
-    """A task file as it was written, comments and all."""
-    return read_text(_find(str(name_or_path)))
+    """Read a task file as it was written, comments and all. Raises LevadeError if it cannot be read, or is no text."""
+    path = _find(str(name_or_path))
+    text = read_text(path)
+    if CONTROL.search(text):
+        raise LevadeError(f"{path}: is no text; it holds control characters")
+    return text
 
 
 def load_task(name_or_path: str | Path, *, robot: str | Robot | None = None, changes: Sequence[str] = ()) -> Task:
@@ -194,7 +198,8 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
             for i, stage in enumerate(content["stages"])
         ]
     content = dict(to_si(content, where=where, robot=measures))
-    content["scene"] = _with_heights(content.get("scene", {}), f"{where}.scene.terrain")
+    if not code:  # a motion's task is complete, and reads no files
+        content["scene"] = _with_heights(content.get("scene", {}), f"{where}.scene.terrain")
     if isinstance(costs, Mapping):
         content["costs"] = {
             name: _cost(str(name), value, where=f"{where}.costs.{name}", code=code)
