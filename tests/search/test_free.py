@@ -153,6 +153,16 @@ def test_what_makes_no_sense_is_one_line(changes: list[str], says: str) -> None:
     assert "\n" not in str(error.value)
 
 
+def test_a_goal_like_another_tasks_start_is_its_posture(tmp_path: Path) -> None:
+    task = load_task("rearing", changes=["policy.settle=0.4", "policy.goal={like: sit-to-stand}"])
+    assert task.policy.goal == {"hind": "crouched"}
+    assert load_task("rearing", changes=["policy.goal={like: rearing}"]).policy.goal == "neutral"
+    with pytest.raises(LevadeError, match="posture-recovery does not start standing in a posture"):
+        load_task("rearing", changes=["policy.goal={like: posture-recovery}"])
+    with pytest.raises(LevadeError, match=r"policy.goal.like: no task 'sit-to-stnd'; did you mean sit-to-stand"):
+        load_task("rearing", changes=["policy.goal={like: sit-to-stnd}"])
+
+
 def test_a_range_of_horizons_begins_in_the_middle_of_its_logarithm() -> None:
     task = load_task("rearing", changes=["horizon={minimum: 0.2, maximum: 0.8}"])
     assert isinstance(task.horizon, HorizonRange)

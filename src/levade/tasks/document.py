@@ -29,7 +29,7 @@ from levade.costs import (
 )
 from levade.costs.success import QUANTITIES
 from levade.document import CONTROL, build, kind_of, parse_yaml, read_text, read_yaml
-from levade.errors import LevadeError, did_you_mean
+from levade.errors import LevadeError, did_you_mean, located
 from levade.optimizers import ALIASES, canonical
 from levade.robots import Dimensions, Robot, dimensions, load_robot
 from levade.scenes import read_heights
@@ -197,6 +197,7 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
             else stage
             for i, stage in enumerate(content["stages"])
         ]
+    content["policy"] = _with_goal(content.get("policy", {}), f"{where}.policy.goal", code=code)
     content = dict(to_si(content, where=where, robot=measures))
     if not code:  # a motion's task is complete, and reads no files
         content["scene"] = _with_heights(content.get("scene", {}), f"{where}.scene.terrain")
@@ -238,6 +239,25 @@ def _with_folder(content: dict[str, Any], folder: Path) -> None:
     terrain = scene.get("terrain")
     if isinstance(terrain, Mapping) and isinstance(terrain.get("file"), str):
         content["scene"] = {**scene, "terrain": {**terrain, "file": str(folder / terrain["file"])}}
+
+
+def _with_goal(policy: Any, where: str, *, code: bool) -> Any:
+    """The policy with the posture in which another task starts, where its goal is ``{like: TASK}``.
+
+    A motion's task (``code``) is complete, and reads no files.
+    """
+    goal = policy.get("goal") if isinstance(policy, Mapping) else None
+    if code or not (isinstance(goal, Mapping) and "like" in goal):
+        return policy
+    if len(goal) > 1:
+        raise LevadeError(f"{where}: like stands alone; leave out {', '.join(map(str, goal.keys() - {'like'}))}")
+    with located(f"{where}.like: "):
+        path = _find(str(goal["like"]))
+        start = read_yaml(path).get("start", {"settled": {}})
+    settled = start.get("settled", {}) if isinstance(start, Mapping) and len(start) < 2 else None
+    if not isinstance(settled, Mapping) or (start and "settled" not in start):
+        raise LevadeError(f"{where}.like: {goal['like']} does not start standing in a posture; name a task that does")
+    return {**policy, "goal": settled.get("posture", "neutral")}
 
 
 def _with_heights(scene: Any, where: str) -> Any:
