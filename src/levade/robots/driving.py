@@ -85,7 +85,10 @@ def _velocity(
         remedy = "robot.yaml, limits: {velocity: ...} gives the real one"
         most = velocity[fast].max(initial=0.0)
         high = f"speed limits of up to {most:.3g} rad/s are not believed; {assumed:.3g} rad/s is assumed"
-        for some, what in ((missing & fast, high), (missing & ~fast, f"no speed limit; {assumed:.3g} rad/s is assumed")):
+        for some, what in (
+            (missing & fast, high),
+            (missing & ~fast, f"no speed limit; {assumed:.3g} rad/s is assumed"),
+        ):
             if some.any():
                 draft.findings.append(warning(_where(bare, some), what, remedy))
         draft.origins["velocity"] = "assumed" if missing.all() else f"{file}, or assumed"
