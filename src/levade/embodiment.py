@@ -117,7 +117,8 @@ class Embodiment:
         joint_names: The robot's joint order.
         feet: Geom names of the feet, in leg order.
         limits: Joint limits, in joint order.
-        trunk_com_offset: Centre of mass of the trunk alone in the trunk frame [m], shape (3,).
+        trunk_com_offset: Centre of mass of the trunk, with what is fixed to it and without the legs, in the trunk frame [m],
+            shape (3,).
         legs: The legs' geometry, in leg order. Empty if it is not known (files of early versions).
     """
 
