@@ -175,7 +175,7 @@ def test_arrays_and_meta_say_the_same(motion: Motion, objective: Objective, solu
         motion["trunk_position"] + rotate(motion["trunk_quaternion"], np.array(meta["trunk_com_offset"])),
     )
     assert motion["foot_contact_force"].shape == (steps, 4, 3)
-    assert set(meta["versions"]) == {"levade", "mujoco", "numpy", "cma"}
+    assert set(meta["versions"]) == {"blas", "levade", "mujoco", "numpy", "cma"}
 
 
 @pytest.mark.golden
