@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from levade.checks import Numeric, numerics
-from levade.cli.doubts import in_other_numbers, tell_numerics, tell_unknown_limits
+from levade.cli.doubts import binding_limits, in_other_numbers, tell_numerics, tell_unknown_limits
 from levade.cli.tables import make_console
 from levade.motions import Motion, RecordedSimulation
 from levade.robots import load_robot
@@ -106,3 +106,33 @@ def test_a_solve_names_the_limits_that_are_assumed(levade, tmp_path: Path, quadr
         first == "robot: 1 warning (speed limits of 19.81 rad/s are assumed); levade robots inspect toy.xml says more"
     )
     assert second.startswith("task: asks for margins to speed limits that the robot's file does not give, so success")
+
+
+@pytest.mark.parametrize(
+    ("half", "assumed", "said"),
+    [
+        ({}, (), []),
+        ({"joint_velocity": 11.5}, (), ["the speed of lf_kfe (12 rad/s, at it for 50% of the motion)"]),
+        ({"joint_velocity": -11.5}, (2,), ["the speed of lf_kfe (12 rad/s, assumed, at it for 50% of the motion)"]),
+        ({"joint_torque": -250.0}, (), ["the torque of lf_kfe (250 Nm, at it for 50% of the motion)"]),
+    ],
+)
+def test_a_limit_that_binds_is_named(unmet: Path, half: dict, assumed: tuple[int, ...], said: list[str]) -> None:
+    motion = Motion.load(unmet / "motion.npz")
+    arrays = dict(motion.arrays)
+    for name in ("joint_velocity", "joint_torque"):
+        arrays[name] = np.zeros_like(arrays[name])
+        arrays[name][: motion.horizon_steps // 2, 2] = half.get(name, 0.0)
+    limits = {**motion.meta["limits"], "assumed_velocity": list(assumed)}
+    assert binding_limits(replace(motion, arrays=arrays, meta={**motion.meta, "limits": limits})) == said
+
+
+def test_a_drive_on_its_torque_speed_line_is_at_its_speed_limit(unmet: Path) -> None:
+    motion = Motion.load(unmet / "motion.npz")
+    arrays, limits = dict(motion.arrays), motion.embodiment.limits
+    speed, torque = np.zeros_like(arrays["joint_velocity"]), np.zeros_like(arrays["joint_torque"])
+    speed[:, 4] = 9.0
+    torque[:, 4] = limits.stall_torque[4] * (1 - 9.0 / limits.no_load_speed[4])
+    assert torque[0, 4] < 0.9 * limits.torque[4]
+    (said,) = binding_limits(replace(motion, arrays=arrays | {"joint_velocity": speed, "joint_torque": torque}))
+    assert said == f"the speed of {motion.joint_names[4]} (12 rad/s, at it for 100% of the motion)"

@@ -18,6 +18,11 @@ from levade.errors import LevadeError
 from levade.motions import Motion, RecordedSimulation
 from levade.tasks import Task, builtin_tasks, load_task
 
+_AT_TORQUE, _AT_SPEED = 0.99, 0.95
+"""Shares of a limit from which on a joint is at it."""
+_LONG = 0.5
+"""Share of a motion that a joint spends at a limit that binds; good motions are at one for up to a third, for take-off."""
+
 
 def tell_unknown_limits(console: Console, task: Task, limits: JointLimits) -> None:
     """One line if the task asks for margins to limits that no file of the robot gives."""
@@ -71,6 +76,31 @@ def tell_numerics(console: Console, found: Mapping[str, Numeric], motion: Motion
         f"[yellow]It does not succeed {_listed(failed)}[/]: its success may depend on how contact is computed."
         f" Next: {escape(_next(motion, directory))}"
     )
+
+
+def binding_limits(motion: Motion) -> list[str]:
+    """The joint that is longest at its speed limit, and at its torque limit, if that is half of the motion or more.
+
+    At the speed limit is also a drive on its torque-speed line, which leaves it no more torque at its speed.
+    """
+    limits, rows = motion.embodiment.limits, slice(0, motion.horizon_steps)
+    torque, speed = motion["joint_torque"][rows], motion["joint_velocity"][rows]
+    strained = np.abs(torque) >= _AT_TORQUE * limits.torque
+    on_line = (torque * speed > 0) & (limits.torque_speed_left(torque, speed) <= 1 - _AT_TORQUE) & ~strained
+    found = []
+    for what, there, values, assumed, unit in (
+        ("speed", (np.abs(speed) >= _AT_SPEED * limits.velocity) | on_line, limits.velocity, limits.assumed_velocity, "rad/s"),
+        ("torque", strained, limits.torque, limits.assumed_torque, "Nm"),
+    ):  # fmt: skip
+        share = there.mean(axis=0)
+        joint = int(np.argmax(share))
+        if share[joint] >= _LONG and np.isfinite(values[joint]):
+            made_up = ", assumed" * (joint in assumed)
+            found.append(
+                f"the {what} of {motion.joint_names[joint]} ({values[joint]:.3g} {unit}{made_up}, at it for"
+                f" {share[joint]:.0%} of the motion)"
+            )
+    return found
 
 
 def _listed(names: Sequence[str]) -> str:

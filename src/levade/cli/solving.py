@@ -13,13 +13,14 @@ from rich.markup import escape
 
 from levade.checks import Numeric
 from levade.cli.display import Display
-from levade.cli.doubts import in_other_numbers, tell_numerics, tell_unknown_limits
+from levade.cli.doubts import binding_limits, in_other_numbers, tell_numerics, tell_unknown_limits
 from levade.cli.inspecting import tell_warnings
 from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console, motion_summary
 from levade.cli.watching import Watching, watched
 from levade.errors import located
 from levade.motions import Motion
+from levade.robots.findings import counted
 from levade.search import Generation, Stopped, make_objective
 from levade.search.initial import initial_guess
 from levade.search.run import Outcome, check_replaceable, read_run, resume, run
@@ -155,10 +156,17 @@ def _tell(console: Console, outcome: Outcome, earlier: list[Motion], numerics: M
             console.print(f"The motion that it began around took {first + saved} trials: {worth}.")
         tell_numerics(console, numerics, outcome.motion, outcome.directory)
     else:
+        binding = binding_limits(outcome.motion)
+        advice = (
+            f"Limits bind: {escape(' and '.join(binding))}. A longer horizon, or a goal that asks for less, is likelier to help"
+            " than another --seed"
+            if binding
+            else "Another --seed or more --trials may find one"
+        )
         console.print(
-            f"[red]No success[/] within {spent}. Another --seed or more --trials may find one;"
-            f" {directory}/progress.csv shows how the search went."
+            f"[red]No success[/] within {spent}. {advice}; {directory}/progress.csv shows how the search went."
         )
     if solution.diverged:
-        console.print(f"[yellow]{solution.diverged} trials diverged[/]: their simulations broke down, and rank last.")
+        broke = counted(solution.diverged, "trial")
+        console.print(f"[yellow]{broke} diverged[/]: their simulations broke down, and rank last.")
     console.print(f"Written: {directory}/motion.npz, task.yaml, progress.csv, checkpoint.jsonl")
