@@ -126,7 +126,9 @@ def test_a_fall_begins_clear_of_the_ground(robot: Robot, scene: Scene, roll: flo
     model, data = engine.model, mujoco.MjData(engine.model)
     data.qpos[:] = state.qpos[0]
     mujoco.mj_forward(model, data)
-    parts = [g for g in range(model.ngeom) if model.geom_bodyid[g] and model.geom_contype[g] | model.geom_conaffinity[g]]
+    parts = [
+        g for g in range(model.ngeom) if model.geom_bodyid[g] and model.geom_contype[g] | model.geom_conaffinity[g]
+    ]
     ground, ends = model.geom("ground").id, np.zeros(6)
     nearest = min(mujoco.mj_geomDistance(model, data, ground, part, 5.0, ends) for part in parts)
     assert abs(nearest) < (0.003 if scene.slope else 1e-9)

@@ -34,7 +34,8 @@ class Settled:
 class Fall:
     """Lying as a fall with weak joints left it: deterministic, from the numbers here.
 
-    height: [m], trunk's origin over z = 0 at release; higher where a part of the robot would be in the ground. x, y: [m]. roll, pitch, yaw: [rad] at release, z-y-x.
+    height: [m], trunk's origin over z = 0 at release; higher where a part of the robot would be in the ground. x, y: [m].
+    roll, pitch, yaw: [rad] at release, z-y-x.
     posture: as in `Settled`; the joints hold it with ``gain`` times their gains while they fall.
     time: [s] from release to the start of the motion.
     spread: [rad], standard deviation of random changes of the joints and of roll, pitch and yaw at release, drawn with

@@ -78,7 +78,7 @@ def _velocity(
         file = f"robot.yaml, no-load speed of {name}"
         own = joint_array(chosen.no_load_speed, joints, f"{path}: actuations.{name}.no_load_speed")
         velocity = np.where(velocity <= _FASTEST, velocity, own)
-    missing = ~(velocity <= _FASTEST) & ~isinstance(chosen, DCMotorForm)
+    missing = np.zeros(len(joints), bool) if isinstance(chosen, DCMotorForm) else ~(velocity <= _FASTEST)
     draft.origins["velocity"] = file
     if missing.any():
         assumed = gains.assumed_speed(_leg_length(bare))
