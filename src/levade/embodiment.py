@@ -41,6 +41,7 @@ class JointLimits:
     torque_curves: joint index -> limit over the joint's angle, in addition to ``torque``.
     stall_torque: (joints,) [Nm] and no_load_speed: (joints,) [rad/s], the ends of the line that limits the torque while
     driving; None where the actuators have none.
+    assumed_velocity, assumed_torque: indices of the joints whose limit no file gives: `levade.robots.gains` makes it up.
     """
 
     lower: Array
@@ -50,6 +51,8 @@ class JointLimits:
     torque_curves: Mapping[int, TorqueCurve] = field(default_factory=dict)
     stall_torque: Array | None = None
     no_load_speed: Array | None = None
+    assumed_velocity: tuple[int, ...] = ()
+    assumed_torque: tuple[int, ...] = ()
 
     def torque_at(self, joint_position: Array) -> Array:
         """Torque limit [Nm] at (..., joints) [rad], same shape: the constant limit lowered by the linkage curves."""
@@ -114,7 +117,8 @@ class Embodiment:
         joint_names: The robot's joint order.
         feet: Geom names of the feet, in leg order.
         limits: Joint limits, in joint order.
-        trunk_com_offset: Centre of mass of the trunk alone in the trunk frame [m], shape (3,).
+        trunk_com_offset: Centre of mass of the trunk, with what is fixed to it and without the legs, in the trunk frame [m],
+            shape (3,).
         legs: The legs' geometry, in leg order. Empty if it is not known (files of early versions).
     """
 

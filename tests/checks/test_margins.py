@@ -170,5 +170,26 @@ def test_where_the_robot_gives_no_limit_nothing_is_judged(standing: Motion, chan
     found = margins(RecordedSimulation(changed(standing, {"limits": limits})), Demands())
     assert (found["speed"].passed, found["speed"].value) == (None, None)
     assert found["speed"].reason == "the robot gives no limit"
+    assert found["speed"].unknown == tuple(standing.joint_names)
     assert found["torque"].values["lf_haa"] is None
+    assert (found["torque"].passed, found["torque"].unknown) == (None, ("lf_haa",))
+    assert found["torque"].reason == "the robot gives no limit of lf_haa"
+
+
+def test_an_assumed_limit_is_neither_met_nor_missed(standing: Motion, changed: Change) -> None:
+    """Joint 2 is beyond its limit, which is assumed; joint 3 too, and the file gives that one."""
+    limits = {**standing.meta["limits"], "assumed_velocity": [1, 2]}
+    speed, torque = standing["joint_velocity"].copy(), np.zeros_like(standing["joint_torque"])
+    speed[70, 2] = 13.0
+    found = margins(
+        RecordedSimulation(changed(standing, {"limits": limits}, joint_velocity=speed, joint_torque=torque)), Demands()
+    )
+    assert (found["speed"].passed, found["speed"].failed) == (None, ())
+    assert found["speed"].unknown == found["torque_speed"].unknown == ("lf_hfe", "lf_kfe")
+    assert found["speed"].reason == "the limit is assumed of lf_hfe, lf_kfe; beyond what is assumed: lf_kfe"
     assert found["torque"].passed is True
+    speed[70, 3] = 13.0
+    found = margins(RecordedSimulation(changed(standing, {"limits": limits}, joint_velocity=speed)), Demands())["speed"]
+    assert (found.passed, found.failed, found.unknown) == (False, ("rf_haa",), ("lf_hfe", "lf_kfe"))
+    nothing = margins(RecordedSimulation(changed(standing, {"limits": limits})), Demands(speed=None))["speed"]
+    assert (nothing.passed, nothing.unknown) == (None, ())

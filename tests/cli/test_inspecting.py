@@ -57,18 +57,18 @@ def test_inspect_as_json_is_one_object_with_the_same_numbers(levade, urdf: Path)
     status, out, err = levade("robots", "inspect", "toy.urdf", "--json")
     assert (status, err) == (0, "")
     said, robot = json.loads(out), load_robot(urdf)
-    assert (said["robot"], said["trunk"], said["warnings"]) == ("toy", "trunk", 0)
+    assert (said["robot"], said["trunk"], said["warnings"]) == ("toy", "trunk", 1)
     assert said["mass"] == pytest.approx(robot.mass)
     assert said["height"] == dimensions(robot).height
     joints = [joint for leg in said["legs"] for joint in leg["joints"]]
     assert [joint["name"] for joint in joints] == list(robot.joint_names)
     np.testing.assert_array_equal([joint["neutral"] for joint in joints], robot.postures["neutral"])
-    assert {joint["velocity"] for joint in joints} == {None}
+    np.testing.assert_allclose([joint["velocity"] for joint in joints], 4 * np.sqrt(9.81 / 0.4))
     assert {(leg["name"], leg["side"], leg["end"]) for leg in said["legs"]} == {
         ("lf", "left", "front"), ("rf", "right", "front"), ("lh", "left", "hind"), ("rh", "right", "hind")
     }  # fmt: skip
-    assert {"kind": "note", "where": "all joints", "what": "no speed limit",
-            "remedy": "robot.yaml, limits: {velocity: ...} gives one"} in said["findings"]  # fmt: skip
+    assert {"kind": "warning", "where": "all joints", "what": "no speed limit; 19.8 rad/s is assumed",
+            "remedy": "robot.yaml, limits: {velocity: ...} gives the real one"} in said["findings"]  # fmt: skip
 
 
 @pytest.mark.parametrize(

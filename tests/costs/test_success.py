@@ -63,6 +63,7 @@ def test_each_quantity_is_what_its_name_says(make):
         "x": position[..., 0],
         "y": position[..., 1],
         "height": position[..., 2],
+        "travel": np.linalg.norm(position[..., :2] - position[:, :1, :2], axis=-1),
         "speed": np.sqrt((velocity**2).sum(axis=-1)),
         "vertical_speed": velocity[..., 2],
         "angular_speed": np.sqrt((t.trunk_angular_velocity**2).sum(axis=-1)),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import mujoco
 import numpy as np
 import pytest
@@ -9,10 +11,12 @@ import pytest
 from levade.engines import Engine, Fall, Physics, Settled, make_engine, start_state
 from levade.engines.start import Start
 from levade.errors import LevadeError
-from levade.robots import Robot
+from levade.robots import Robot, load_robot
 from levade.rotations import roll_pitch_yaw
 from levade.scenes import Box, Scene
 from levade.tasks import builtin_tasks, load_task
+
+MAST = Path(__file__).parents[1] / "robots" / "cases" / "mast" / "pup.urdf"
 
 
 @pytest.mark.parametrize("posture", ["neutral", "h2m", {"*_haa": 0.1}])
@@ -104,7 +108,6 @@ def test_on_a_slope_it_stands_still(robot: Robot) -> None:
             Settled(),
             "box1",
         ),
-        (Scene(), Fall(height=0.1), "ground"),
     ],
 )
 def test_a_robot_is_not_put_down_into_the_scene(robot: Robot, scene: Scene, start: Start, names: str) -> None:
@@ -112,6 +115,32 @@ def test_a_robot_is_not_put_down_into_the_scene(robot: Robot, scene: Scene, star
         LevadeError, match=rf"start: .*\b{names}\b.* overlap by 0\.\d+ m where the robot is put down; move"
     ):
         start_state(make_engine(robot, scene, Physics(), threads=1), robot, scene, start)
+
+
+@pytest.mark.parametrize("scene", [Scene(), Scene(slope=0.2)])
+@pytest.mark.parametrize("roll", [0.0, 1.2, np.pi])
+def test_a_fall_begins_clear_of_the_ground(robot: Robot, scene: Scene, roll: float) -> None:
+    """Asked for in the ground, it begins where its lowest point is on it; MuJoCo measures how far away that is."""
+    engine = make_engine(robot, scene, Physics(), threads=1)
+    state = start_state(engine, robot, scene, Fall(height=0.1, roll=roll, time=0.0))
+    model, data = engine.model, mujoco.MjData(engine.model)
+    data.qpos[:] = state.qpos[0]
+    mujoco.mj_forward(model, data)
+    parts = [
+        g for g in range(model.ngeom) if model.geom_bodyid[g] and model.geom_contype[g] | model.geom_conaffinity[g]
+    ]
+    ground, ends = model.geom("ground").id, np.zeros(6)
+    nearest = min(mujoco.mj_geomDistance(model, data, ground, part, 5.0, ends) for part in parts)
+    assert abs(nearest) < (0.003 if scene.slope else 1e-9)
+
+
+def test_a_mast_is_put_down_on_its_tip_and_rolls_over() -> None:
+    """Upside down, what reaches highest above the trunk is what the start has to clear."""
+    robot = load_robot(MAST)
+    task = load_task("self-righting", robot=str(MAST))
+    state = start_state(make_engine(robot, task.scene, task.physics, threads=1), robot, task.scene, task.start.choice)
+    assert np.isfinite(state.qpos).all()
+    assert np.abs(roll_pitch_yaw(state.qpos[0, 3:7])[0]) > 1.0  # it lies on its back or side
 
 
 @pytest.mark.parametrize(

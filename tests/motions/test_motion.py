@@ -175,7 +175,7 @@ def test_arrays_and_meta_say_the_same(motion: Motion, objective: Objective, solu
         motion["trunk_position"] + rotate(motion["trunk_quaternion"], np.array(meta["trunk_com_offset"])),
     )
     assert motion["foot_contact_force"].shape == (steps, 4, 3)
-    assert set(meta["versions"]) == {"levade", "mujoco", "numpy", "cma"}
+    assert set(meta["versions"]) == {"blas", "levade", "mujoco", "numpy", "cma"}
 
 
 @pytest.mark.golden
@@ -416,6 +416,7 @@ class Boom:
             (lambda m: m["limits"]["torque"].pop(), "meta.limits.torque: 11 numbers for 12 joints"),
             (lambda m: m["limits"]["upper"].__setitem__(3, -9.0), "meta.limits: a lower limit is above its upper one"),
             (lambda m: m["limits"].pop("no_load_speed"), "meta.limits: has one of stall_torque and no_load_speed"),
+            (lambda m: m["limits"].update(assumed_velocity=[12]), "meta.limits.assumed_velocity: no joint 12; there are 12"),
             (lambda m: m["legs"].pop("lf"), "foot_contact_force has 4 feet, meta.legs has 3"),
             (lambda m: m["legs"]["lf"]["joints"].__setitem__(0, "rf_haa"), "meta.legs: should have each of joint_names"),
             (lambda m: m["legs"]["lf"]["geometry"]["axes"].pop(), "meta.legs.lf.geometry: should have an anchor and an"),

@@ -99,3 +99,21 @@ def test_an_arm_and_wheels_are_held_where_the_description_says() -> None:
     assert robot.held == {"arm_yaw": 0.4, "arm_pitch": -0.5, **wheels}
     text = (CASES / "armwheel" / "pup.xml").read_text()
     same_place(robot, expected(text, arm_yaw=0.4, arm_pitch=-0.5), "arm0", "arm1")
+
+
+def test_the_centre_of_mass_of_a_trunk_with_an_arm_is_that_of_both() -> None:
+    """MuJoCo's: that of the whole robot without what its legs carry."""
+    robot = load_robot(CASES / "armwheel")
+    model, data = robot.model, robot.data_at(robot.postures["neutral"])
+    trunk = model.body(robot.trunk).id
+    thighs = [int(model.jnt_bodyid[model.joint(leg.joints[0]).id]) for leg in robot.legs]
+    masses = np.array([model.body_subtreemass[trunk], *-model.body_subtreemass[thighs]])
+    moments = masses[:, None] * data.subtree_com[[trunk, *thighs]]
+    np.testing.assert_allclose(robot.trunk_com_offset, moments.sum(axis=0) / masses.sum(), atol=1e-12)
+    assert robot.trunk_com_offset[2] > 0.005  # the arm is on top
+    assert masses.sum() == pytest.approx(6.6)
+
+
+def test_a_trunk_alone_has_its_own_centre_of_mass_to_the_bit() -> None:
+    robot = load_robot("hyq2max")
+    np.testing.assert_array_equal(robot.trunk_com_offset, robot.model.body(robot.trunk).ipos)

@@ -12,7 +12,7 @@ import pytest
 
 import levade.robots
 from levade.errors import LevadeError
-from levade.robots import builtin_robots, load_robot
+from levade.robots import PID, builtin_robots, load_robot
 
 HYQ2MAX = Path(levade.robots.__file__).parent / "data" / "hyq2max"
 
@@ -144,7 +144,10 @@ def test_a_users_robot_with_mesh_include_and_no_free_joint(toy: Path) -> None:
     np.testing.assert_allclose(model.actuator_forcerange, [[-5, 5], [-7, 7]])
     assert robot.limits.lower[0] == -np.inf
     assert robot.limits.lower[1] == pytest.approx(-np.pi / 2, rel=1e-5)
-    assert np.all(np.isinf(robot.limits.velocity))
+    np.testing.assert_allclose(robot.limits.velocity, 4 * np.sqrt(9.81 / 0.514675), rtol=1e-3)  # assumed
+    assert robot.limits.assumed_velocity == (0, 1)
+    assert isinstance(robot.actuation, PID)  # as the description says
+    np.testing.assert_array_equal(load_robot(toy, actuation="motor").limits.velocity, 30)
     assert robot.neutral_height == pytest.approx(0.52)
 
 

@@ -9,13 +9,15 @@ import numpy as np
 import pytest
 
 from levade.errors import LevadeError
-from levade.robots import PID, Robot, load_robot
+from levade.robots import DCMotor, Robot, load_robot
 
 CASES = Path(__file__).parent / "cases"
 
 
 def warnings(robot: Robot) -> list[str]:
-    return [str(finding) for finding in robot.findings if finding.kind == "warning"]
+    """Without the one that every MJCF has, which knows no speed limits."""
+    said = [str(finding) for finding in robot.findings if finding.kind == "warning"]
+    return [finding for finding in said if "no speed limit; " not in finding]
 
 
 def in_degrees(text: str) -> str:
@@ -97,9 +99,10 @@ def test_a_range_that_is_no_number_is_refused(tmp_path: Path, quadruped: type) -
 def test_speeds_that_no_joint_has_are_none(tmp_path: Path, quadruped: type, speed: str) -> None:
     (tmp_path / "toy.urdf").write_text(quadruped().urdf().replace('velocity="15.0"', f'velocity="{speed}"'))
     robot = load_robot(tmp_path / "toy.urdf")
-    assert np.isinf(robot.limits.velocity).all()
-    assert isinstance(robot.actuation, PID)
-    assert robot.origins["velocity"] == "no limit"
+    np.testing.assert_allclose(robot.limits.velocity, 4 * np.sqrt(9.81 / 0.4))
+    assert robot.limits.assumed_velocity == tuple(range(12))
+    assert isinstance(robot.actuation, DCMotor)
+    assert robot.origins["velocity"] == "assumed"
     said = [text for text in warnings(robot) if "speed limits of up to" in text]
     assert len(said) == (speed != "inf")
     robot.spec().compile()
@@ -107,7 +110,30 @@ def test_speeds_that_no_joint_has_are_none(tmp_path: Path, quadruped: type, spee
 
 def test_the_example_of_a_huge_speed() -> None:
     robot = load_robot(CASES / "velocity-huge" / "v1e12.urdf")
-    assert warnings(robot)[0].startswith("all joints: speed limits of up to 1e+12 rad/s are none: not believed;")
+    assert warnings(robot)[0].startswith("all joints: speed limits of up to 1e+12 rad/s are not believed; 19.8")
+
+
+@pytest.mark.parametrize("speed", [7.5, 25.0, 150.0])
+def test_a_speed_limit_in_a_description_is_believed(tmp_path: Path, quadruped: type, speed: float) -> None:
+    (tmp_path / "toy.xml").write_text(quadruped().mjcf())
+    (tmp_path / "robot.yaml").write_text(f"model: toy.xml\nlimits: {{velocity: {speed}}}\n")
+    robot = load_robot(tmp_path)
+    assert set(robot.limits.velocity) == {speed}
+    assert (robot.limits.assumed_velocity, robot.origins["velocity"]) == ((), "robot.yaml")
+    assert isinstance(robot.actuation, DCMotor)
+    np.testing.assert_array_equal(robot.actuation.no_load_speed, speed)
+    assert robot.findings == tuple(finding for finding in robot.findings if "speed" not in finding.what)
+
+
+def test_one_joint_without_a_speed_limit_is_named(tmp_path: Path, quadruped: type) -> None:
+    text = quadruped().urdf().replace('velocity="15.0"', "", 1)
+    (tmp_path / "toy.urdf").write_text(text)
+    robot = load_robot(tmp_path / "toy.urdf")
+    (joint,) = robot.limits.assumed_velocity
+    assert set(np.delete(robot.limits.velocity, joint)) == {15.0}
+    said = [str(finding) for finding in robot.findings if "speed" in finding.what]
+    remedy = "robot.yaml, limits: {velocity: ...} gives the real one"
+    assert said == [f"joint {robot.joint_names[joint]}: no speed limit; 19.8 rad/s is assumed; {remedy}"]
 
 
 def test_a_fast_joint_is_believed(tmp_path: Path, quadruped: type) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from levade.arrays import Array
-from levade.robots import Robot, load_robot
+from levade.robots import PID, Robot, load_robot
 from levade.robots.contact import STIFF_SOLIMP, STIFF_SOLREF
 from levade.robots.doctor import warnings
 from levade.robots.settling import doubt_standing, settle
@@ -97,7 +97,8 @@ def test_a_simulation_that_breaks_down_is_a_finding(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     robot = load(tmp_path, quadruped().mjcf())
-    robot = replace(robot, actuation=replace(robot.actuation, kp=np.full(12, 1e12), torque=np.full(12, np.inf)))
+    servos = PID("servo", kp=np.full(12, 1e12), kd=robot.actuation.kd, torque=np.full(12, np.inf))
+    robot = replace(robot, actuation=servos)
     assert [str(f) for f in doubt_standing(robot) if "does not stand in its neutral posture" in str(f)]
     assert capfd.readouterr() == ("", "")
     assert not (tmp_path / "MUJOCO_LOG.TXT").exists()

@@ -282,6 +282,10 @@ HEADER = '{"task": "rearing", "seed": %s, "versions": %s, "task_checksum": 1, "f
         (HEADER[:-1] % (1, "{}", 2) + ', "more": 1}', "damaged, its first line is no header"),
         ('{"seed": 3, "versions": {}, "format": 2}', "damaged, its first line is no header"),
         (HEADER % (3, '{"mujoco": "1.0"}', 2), r"was started with mujoco 1\.0, this is .*install mujoco==1\.0"),
+        (
+            HEADER % (3, '{"blas": "openblas 9 Z80"}', 2),
+            r"was started with blas openblas 9 Z80, this is \w.*; go on with a processor of that kind, or start again$",
+        ),
         ('{"task": "rearing", "seed": 3, "versions": {}}', "layout 1, but this levade reads layout 3; start again"),
         (HEADER % (3, "{}", 4), "layout 4, but this levade reads layout 3; .* the levade that wrote it"),
         (HEADER % (3, "{}", 3), "damaged, its first line is no header"),

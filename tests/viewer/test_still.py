@@ -170,3 +170,8 @@ def test_a_title_is_text_and_data_are_data(hyq: Robot) -> None:
     text = view_page("<b>&", {"what": "robot", "name": "</script><script>alert(1)"})
     assert "<title>&lt;b&gt;&amp;</title>" in text
     assert data_of(text)["name"] == "</script><script>alert(1)"
+
+
+def test_an_origin_on_the_ground_does_not_make_a_robot_low() -> None:
+    footprint = Path(__file__).parents[1] / "robots" / "cases" / "world" / "footprint.urdf"
+    assert ["Trunk's centre of mass, standing", "0.320 m high"] in robot_data(load_robot(footprint))["facts"]

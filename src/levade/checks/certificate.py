@@ -34,13 +34,18 @@ class Certificate:
 
     @property
     def verdicts(self) -> tuple[Verdict, ...]:
-        """Pass or fail, criterion by criterion."""
+        """Pass, fail or unknown, criterion by criterion."""
         return (self._perturbed(), *self._numerics(), *self._engines(), *self._margins())
 
     @property
     def passed(self) -> bool:
-        """Whether every criterion that is judged is met; not of a check that was interrupted."""
+        """Whether every criterion that is judged is met; not of a check that was interrupted. See also `unknown`."""
         return not self.interrupted and all(verdict.passed is not False for verdict in self.verdicts)
+
+    @property
+    def unknown(self) -> tuple[str, ...]:
+        """Names of the criteria that cannot be judged: the robot's limit is not known, or only assumed."""
+        return tuple(verdict.name for verdict in self.verdicts if verdict.unknown)
 
     def to_json(self) -> dict[str, Any]:
         return {
@@ -50,6 +55,7 @@ class Certificate:
             "robot": self.robot,
             "criteria": self.criteria,
             "failed": [verdict.name for verdict in self.verdicts if verdict.passed is False],
+            "unknown": list(self.unknown),
             "perturbed": self.perturbed.to_json(),
             "open_loop": None if self.open_loop is None else self.open_loop.to_json(),
             "numerics": {name: one.to_json() for name, one in self.numerics.items()},
@@ -110,6 +116,7 @@ class Certificate:
                 _number(one) + (f"; fails: {', '.join(one.failed)}" if one.failed and one.passed is False else ""),
                 "" if one.required is None else _required(name, one),
                 one.reason if one.passed is None else "",
+                unknown=one.passed is None and bool(one.unknown),
             )
             for name, one in self.margins.items()
         ]

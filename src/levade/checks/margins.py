@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -28,7 +28,8 @@ class Margin:
 
     unit: of the numbers. values: joint, foot or pair of bodies -> what is left (or what is measured, where there is no limit);
     None where the robot gives no limit. least: the name that has least left (or most of what is measured). value: its number.
-    required: what is demanded; None if nothing. failed: names that do not meet it. passed: None if it is not judged.
+    required: what is demanded; None if nothing. failed: names that do not meet it. unknown: names whose limit is not known, or
+    only assumed; they never fail. passed: None if it is not judged, or if nothing fails and something is unknown.
     reason: why it is not judged or not there. more: further numbers.
     """
 
@@ -38,6 +39,7 @@ class Margin:
     value: float | None = None
     required: float | None = None
     failed: tuple[str, ...] = ()
+    unknown: tuple[str, ...] = ()
     passed: bool | None = None
     reason: str = ""
     more: Mapping[str, Any] = field(default_factory=dict)
@@ -45,7 +47,7 @@ class Margin:
     def to_json(self) -> dict[str, Any]:
         content = asdict(self)
         more = content.pop("more")
-        return {**content, "failed": list(self.failed), **more}
+        return {**content, "failed": list(self.failed), "unknown": list(self.unknown), **more}
 
 
 def margins(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margin]:
@@ -57,12 +59,19 @@ def margins(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margi
     at_limit = (np.abs(torque) >= limits.torque * (1 - 1e-9)).mean(axis=0)
     found = {
         "position": _least("rad", joints, limits.angle_left(angle).min(axis=0), demands.position),
-        "speed": _least("share of limit", joints, _left(np.abs(speed).max(axis=0), limits.velocity), demands.speed),
+        "speed": _least(
+            "share of limit",
+            joints,
+            _left(np.abs(speed).max(axis=0), limits.velocity),
+            demands.speed,
+            assumed=limits.assumed_velocity,
+        ),
         "torque": _least(
             "share of limit",
             joints,
             _left(np.abs(torque).max(axis=0), limits.torque),
             demands.torque,
+            assumed=limits.assumed_torque,
             more={"time_at_limit": dict(zip(joints, at_limit.tolist(), strict=True))},
         ),
         "torque_speed": _torque_speed(simulation, demands.torque_speed),
@@ -91,20 +100,44 @@ def _least(
     left: Array,
     required: float | None,
     *,
+    assumed: Sequence[int] = (),
     reason: str = "",
     more: Mapping[str, Any] | None = None,
 ) -> Margin:
-    """A margin of what is left (names,); not finite where there is no limit."""
-    known = np.isfinite(left)
-    values = {name: float(value) if finite else None for name, value, finite in zip(names, left, known, strict=True)}
-    if not known.any():
-        return Margin(unit, values, required=required, reason=reason or "the robot gives no limit", more=more or {})
-    least = int(np.argmin(np.where(known, left, np.inf)))
-    failed: tuple[str, ...] = ()
-    if required is not None:
-        failed = tuple(name for name, value in values.items() if value is not None and value < required - _ROUNDING)
-    passed = None if required is None else not failed
-    return Margin(unit, values, names[least], float(left[least]), required, failed, passed, reason, more or {})
+    """A margin of what is left (names,); not finite where there is no limit.
+
+    assumed: indices of the names whose limit no file gives. reason: why there is no limit.
+    """
+    there = np.isfinite(left)
+    values = {name: float(value) if finite else None for name, value, finite in zip(names, left, there, strict=True)}
+    least = int(np.argmin(np.where(there, left, np.inf))) if there.any() else None
+    made_up = [names[i] for i in assumed if there[i]]
+    none = [name for name, finite in zip(names, there, strict=True) if not finite]
+    beyond = [] if required is None else [n for n, v in values.items() if v is not None and v < required - _ROUNDING]
+    failed = tuple(name for name in beyond if name not in made_up)
+    unknown = () if required is None else tuple(name for name in names if name in {*made_up, *none})
+    said = [
+        reason or f"the robot gives no limit{_of(none, names)}" if none else "",
+        f"the limit is assumed{_of(made_up, names)}" if made_up else "",
+        f"beyond what is assumed: {', '.join(name for name in beyond if name in made_up)}",
+    ]
+    return Margin(
+        unit,
+        values,
+        "" if least is None else names[least],
+        None if least is None else float(left[least]),
+        required,
+        failed,
+        unknown,
+        passed=None if required is None or (unknown and not failed) else not failed,
+        reason="; ".join(text for text in said if text and not text.endswith(": ")),
+        more=more or {},
+    )
+
+
+def _of(some: Sequence[str], names: Sequence[str]) -> str:
+    """Of which names, unless it is all of them."""
+    return "" if len(some) == len(names) else f" of {', '.join(some)}"
 
 
 def _most(
@@ -124,7 +157,9 @@ def _most(
         failed = tuple(name for name, value in values.items() if value > allowed + _ROUNDING)
     passed = None if allowed is None else not failed
     reason = reason or ("" if allowed is not None else "no limit is known, and none demanded")
-    return Margin(unit, dict(values), most, values[most], allowed, failed, passed, reason, more or {})
+    return Margin(
+        unit, dict(values), most, values[most], allowed, failed, passed=passed, reason=reason, more=more or {}
+    )
 
 
 def _torque_speed(simulation: RecordedSimulation, required: float | None) -> Margin:
@@ -134,14 +169,16 @@ def _torque_speed(simulation: RecordedSimulation, required: float | None) -> Mar
     left = np.full(len(joints), np.nan)
     if limits.stall_torque is not None:
         # as a share of the stall torque: near the no-load speed a share of what the line leaves there would mean nothing
-        least = np.where(torque * speed > 0, limits.torque_speed_left(torque, speed), np.inf).min(axis=0)
-        known = np.isfinite(least) & np.isfinite(limits.stall_torque)
-        left[known] = least[known]
-    return _least("share of stall torque", joints, left, required, reason=_no_line(left))
-
-
-def _no_line(left: Array) -> str:
-    return "" if np.isfinite(left).any() else "the actuators have no torque-speed line"
+        there = np.isfinite(limits.stall_torque)
+        left[there] = limits.torque_speed_left(torque, speed).min(axis=0)[there]
+    return _least(
+        "share of stall torque",
+        joints,
+        left,
+        required,
+        assumed=sorted({*limits.assumed_velocity, *limits.assumed_torque}),
+        reason="the actuators have no torque-speed line",
+    )
 
 
 def _linkage(simulation: RecordedSimulation, required: float | None) -> Margin:
@@ -150,24 +187,16 @@ def _linkage(simulation: RecordedSimulation, required: float | None) -> Margin:
     curves = _curves(simulation)
     if isinstance(curves, str):
         return Margin("share of limit", required=required, reason=curves)
+    joints = tuple(joints[joint] for joint in curves)
     left = np.full(len(joints), np.inf)
-    for joint, curve in curves.items():
+    for i, (joint, curve) in enumerate(curves.items()):
         allowed = curve(motion["joint_position"][:, joint])
         share = np.abs(motion["joint_torque"][:, joint]) / np.maximum(allowed, 1e-9 * curve.peak)
-        left[joint] = 1 - share.max()
+        left[i] = 1 - share.max()
     margin = _least("share of limit", joints, left, required)
     if simulation.task.robot.linkage:
         return margin
-    return Margin(
-        margin.unit,
-        margin.values,
-        margin.least,
-        margin.value,
-        required,
-        margin.failed,
-        None,
-        "the task does not ask for the linkage (robot: {linkage: true})",
-    )
+    return replace(margin, passed=None, reason="the task does not ask for the linkage (robot: {linkage: true})")
 
 
 def _curves(simulation: RecordedSimulation) -> Mapping[int, TorqueCurve] | str:

@@ -122,7 +122,13 @@ def _tell(console: Console, path: Path, certificate: Certificate, runs: int) -> 
             f"[yellow]Interrupted[/] after {certificate.perturbed.runs} of {runs} perturbed runs; nothing else was checked."
         )
         return
-    console.print(f"[red]Fails[/]: {escape(', '.join(failed))}." if failed else "[green]Passes[/].")
+    unknown = escape(", ".join(certificate.unknown))
+    if failed:
+        console.print(f"[red]Fails[/]: {escape(', '.join(failed))}.{unknown and f' Unknown: {unknown}.'}")
+    elif unknown:
+        console.print(f"[green]Passes[/] what is known. [yellow]Unknown[/]: {unknown}; robot.yaml, limits, gives them.")
+    else:
+        console.print("[green]Passes[/].")
 
 
 def _table(*headings: str, right: Sequence[str] = ()) -> Table:
@@ -136,6 +142,8 @@ def _verdicts(certificate: Certificate) -> Table:
     table = _table("criterion", "", "found", "required")
     for verdict in certificate.verdicts:
         mark = {True: Text("pass", style="green"), False: Text("fail", style="red"), None: Text("-", style="dim")}
+        if verdict.unknown:
+            mark[None] = Text("unknown", style="yellow")
         found = " ".join(part for part in (verdict.value, f"({verdict.reason})" if verdict.reason else "") if part)
         table.add_row(Text(verdict.name), mark[verdict.passed], Text(found), Text(verdict.required))
     return table

@@ -17,7 +17,7 @@ from rich.text import Text
 from levade.cli.tables import make_console
 from levade.robots import Robot, dimensions, load_robot
 from levade.robots.doctor import Patient, inspect
-from levade.robots.findings import Finding
+from levade.robots.findings import Finding, counted
 
 _ROLES = {"haa": "hip abduction", "hfe": "hip flexion", "kfe": "knee", "other": "other"}
 
@@ -64,11 +64,20 @@ def list_robots(*, as_json: bool) -> None:
 
 
 def tell_warnings(console: Console, robot: Robot, name: str) -> None:
-    """One line if there are warnings."""
+    """One line if there are warnings, which names the limits that are assumed."""
     number = sum(finding.kind == "warning" for finding in inspect(robot))
     if number:
+        made_up = [
+            f"{what} limits of {_number(float(values[list(joints)].max()))} {unit}"
+            for what, values, joints, unit in (
+                ("torque", robot.limits.torque, robot.limits.assumed_torque, "Nm"),
+                ("speed", robot.limits.velocity, robot.limits.assumed_velocity, "rad/s"),
+            )
+            if joints
+        ]
+        assumed = f" ({' and '.join(made_up)} are assumed)" if made_up else ""
         console.print(
-            f"[yellow]robot: {number} warning{'s' * (number > 1)}[/]; levade robots inspect {escape(name)} says more"
+            f"[yellow]robot: {counted(number, 'warning')}[/]{assumed}; levade robots inspect {escape(name)} says more"
         )
 
 
@@ -181,9 +190,7 @@ def _findings(findings: list[Finding]) -> Iterator[RenderableType]:
             if kind == "warning":
                 yield Text("No warnings.", style="green")
             continue
-        yield Text(
-            f"{len(chosen)} {kind}{'s' * (len(chosen) > 1)}", style=f"bold {'yellow' if kind == 'warning' else ''}"
-        )
+        yield Text(counted(len(chosen), kind), style=f"bold {'yellow' if kind == 'warning' else ''}")
         for finding in chosen:
             line = Text("  ! " if kind == "warning" else "  - ", style=style)
             line.append(finding.where, style="not dim bold" if kind == "warning" else "not dim")

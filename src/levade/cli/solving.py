@@ -4,19 +4,23 @@ from __future__ import annotations
 
 import functools
 import json
+from collections.abc import Mapping
 from contextlib import ExitStack
 from pathlib import Path
 
 from rich.console import Console
 from rich.markup import escape
 
+from levade.checks import Numeric
 from levade.cli.display import Display
+from levade.cli.doubts import binding_limits, in_other_numbers, tell_numerics, tell_unknown_limits
 from levade.cli.inspecting import tell_warnings
 from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console, motion_summary
 from levade.cli.watching import Watching, watched
 from levade.errors import located
 from levade.motions import Motion
+from levade.robots.findings import counted
 from levade.search import Generation, Stopped, make_objective
 from levade.search.initial import initial_guess
 from levade.search.run import Outcome, check_replaceable, read_run, resume, run
@@ -68,6 +72,7 @@ def solve_and_report(
         guess = initial_guess(objective.policy, earlier) if earlier else None
         go = functools.partial(run, objective, seed=seed, directory=out, initial=guess)
     tell_warnings(console, objective.robot, objective.task.robot.name)
+    tell_unknown_limits(console, objective.task, objective.robot.limits)
     with ExitStack() as stack:
         stopping = stack.enter_context(stop_between("generation"))
         watch = None
@@ -86,15 +91,17 @@ def solve_and_report(
             outcome = go(observe=observe, steer=None if watch is None else watch.steer)
         if watch is not None:
             watch.finish(outcome)
+        numerics = in_other_numbers(outcome.motion)
         if as_json:
-            print(json.dumps({**summary(outcome), **_warm(outcome, earlier)}, ensure_ascii=False), flush=True)
+            content = {**summary(outcome, numerics), **_warm(outcome, earlier)}
+            print(json.dumps(content, ensure_ascii=False), flush=True)
         else:
-            _tell(console, outcome, earlier)
+            _tell(console, outcome, earlier, numerics)
     return 0 if outcome.motion.result.success else 1
 
 
-def summary(outcome: Outcome) -> dict[str, object]:
-    """The object that ``solve --json`` prints."""
+def summary(outcome: Outcome, numerics: Mapping[str, Numeric]) -> dict[str, object]:
+    """The object that ``solve --json`` prints. numerics: what came of the motion in other numbers."""
     solution, motion, result = outcome.solution, outcome.motion, outcome.motion.result
     return {
         "task": motion.task_name,
@@ -108,6 +115,7 @@ def summary(outcome: Outcome) -> dict[str, object]:
         "cost": result.cost,
         "cost_terms": result.cost_terms,
         "errors": result.errors,
+        "numerics": {name: one.to_json() for name, one in numerics.items()},
         "stopped": str(solution.stopped),
         "diverged": solution.diverged,
         "out": str(outcome.directory),
@@ -129,7 +137,7 @@ def _saved(outcome: Outcome, earlier: list[Motion]) -> int | None:
     return min(took) - now if took and now is not None else None
 
 
-def _tell(console: Console, outcome: Outcome, earlier: list[Motion]) -> None:
+def _tell(console: Console, outcome: Outcome, earlier: list[Motion], numerics: Mapping[str, Numeric]) -> None:
     solution, directory = outcome.solution, escape(str(outcome.directory))
     for part in motion_summary(outcome.motion):
         console.print(part)
@@ -146,11 +154,19 @@ def _tell(console: Console, outcome: Outcome, earlier: list[Motion]) -> None:
         if (saved := _saved(outcome, earlier)) is not None and first is not None:
             worth = f"{saved} saved" if saved > 0 else "none saved"
             console.print(f"The motion that it began around took {first + saved} trials: {worth}.")
+        tell_numerics(console, numerics, outcome.motion, outcome.directory)
     else:
+        binding = binding_limits(outcome.motion)
+        advice = (
+            f"Limits bind: {escape(' and '.join(binding))}. A longer horizon, or a goal that asks for less, is likelier to help"
+            " than another --seed"
+            if binding
+            else "Another --seed or more --trials may find one"
+        )
         console.print(
-            f"[red]No success[/] within {spent}. Another --seed or more --trials may find one;"
-            f" {directory}/progress.csv shows how the search went."
+            f"[red]No success[/] within {spent}. {advice}; {directory}/progress.csv shows how the search went."
         )
     if solution.diverged:
-        console.print(f"[yellow]{solution.diverged} trials diverged[/]: their simulations broke down, and rank last.")
+        broke = counted(solution.diverged, "trial")
+        console.print(f"[yellow]{broke} diverged[/]: their simulations broke down, and rank last.")
     console.print(f"Written: {directory}/motion.npz, task.yaml, progress.csv, checkpoint.jsonl")

@@ -21,8 +21,8 @@ from levade.rotations import roll_pitch_yaw
 from levade.trajectory import Trajectories
 
 Quantity = Literal[
-    "roll", "pitch", "yaw", "tilt", "x", "y", "height", "speed", "vertical_speed", "angular_speed", "lowest_foot",
-    "highest_foot", "angle_margin", "speed_margin", "torque_speed_margin", "duration",
+    "roll", "pitch", "yaw", "tilt", "x", "y", "height", "travel", "speed", "vertical_speed", "angular_speed",
+    "lowest_foot", "highest_foot", "angle_margin", "speed_margin", "torque_speed_margin", "duration",
 ]  # fmt: skip
 
 QUANTITIES: dict[str, str] = {
@@ -33,6 +33,7 @@ QUANTITIES: dict[str, str] = {
     "x": "m",
     "y": "m",
     "height": "m",
+    "travel": "m",
     "speed": "m/s",
     "vertical_speed": "m/s",
     "angular_speed": "rad/s",
@@ -103,6 +104,7 @@ class Criterion:
             that a robot on its back never passes for one on its feet (`levade.costs.orientation.pitch_past_vertical`).
         tilt [rad]: angle between the trunk's up and the world's, 0 to pi.
         x, y, height [m]: of its centre of mass, world axes.
+        travel [m]: horizontal distance of its centre of mass from where the motion began.
         speed, vertical_speed [m/s]: of its centre of mass: norm, and upward component, of the velocity.
         angular_speed [rad/s]: norm of the angular velocity.
         angle_margin [rad], speed_margin, torque_speed_margin [share of the limit]: what the joint that has least left
@@ -220,6 +222,9 @@ def quantity_values(quantity: AnyQuantity, trajectories: Trajectories, rows: sli
         return functools.reduce(np.minimum if quantity == "lowest_foot" else np.maximum, soles)
     if quantity in ("x", "y", "height"):
         return trajectories.trunk_com_position(rows)[..., ("x", "y", "height").index(quantity)]
+    if quantity == "travel":
+        moved = trajectories.trunk_com_position(rows) - trajectories.trunk_com_position(slice(0, 1))
+        return np.hypot(moved[..., 0], moved[..., 1])
     if quantity in MARGINS:
         return _margin(quantity, trajectories, rows)
     if quantity == "duration":

@@ -18,10 +18,12 @@ from levade.engines.state import State
 from levade.engines.table import engine_kind
 from levade.errors import LevadeError, located
 from levade.robots import Robot
+from levade.robots.shapes import support
 from levade.scenes import Scene, compose
 
 _OVERLAP = 0.003
 """[m]: what may overlap before the start; contacts at rest sink in by less."""
+_DOWN = np.array([0.0, 0.0, -1.0])
 
 
 def model_xml(robot: Robot, scene: Scene, physics: Physics, *, gain_scale: float = 1.0) -> str:
@@ -83,7 +85,7 @@ def start_state(engine: Engine, robot: Robot, scene: Scene, start: Start) -> Sta
         feet = robot.foot_positions(posture)
         ground = scene.ground_height(start.x + feet[:, 0], start.y + feet[:, 1])
         height = robot.standing_height(start.posture) + float(ground.max())
-        data = _release(engine, engine.model, (start.x, start.y, height), (0.0, 0.0, 0.0), posture)
+        data = _release(engine, engine.model, scene, (start.x, start.y, height), (0.0, 0.0, 0.0), posture)
         return engine.hold(engine.model, data, posture, start.time)
     generator = np.random.default_rng(start.seed)
     attitude = np.array([start.roll, start.pitch, start.yaw]) + start.spread * generator.standard_normal(3)
@@ -93,7 +95,7 @@ def start_state(engine: Engine, robot: Robot, scene: Scene, start: Start) -> Sta
     posture = np.clip(posture, robot.limits.lower, robot.limits.upper)
     xml = model_xml(robot, scene, engine.physics, gain_scale=start.gain)
     model = mujoco.MjModel.from_xml_string(xml, engine.assets)
-    data = _release(engine, model, (start.x, start.y, start.height), tuple(attitude), posture)
+    data = _release(engine, model, scene, (start.x, start.y, start.height), tuple(attitude), posture)
     return engine.hold(model, data, posture, start.time)
 
 
@@ -113,16 +115,21 @@ def _given(engine: Engine, start: GivenState) -> State:
 def _release(
     engine: Engine,
     model: mujoco.MjModel,
+    scene: Scene,
     position: tuple[float, float, float],
     attitude: tuple[float, float, float],
     posture: Array,
 ) -> mujoco.MjData:
-    """The robot as it is put down. attitude: roll, pitch and yaw [rad]."""
+    """The robot as it is put down: where asked for, or higher if a part of it were in the ground.
+
+    attitude: roll, pitch and yaw [rad].
+    """
     data, layout = mujoco.MjData(model), engine.layout
     data.qpos[layout.trunk_position] = position
     roll, pitch, yaw = attitude
     mujoco.mju_euler2Quat(data.qpos[layout.trunk_quaternion], np.array([yaw, pitch, roll]), "zyx")
     data.qpos[layout.joint_qpos] = posture
+    data.qpos[layout.trunk_position][2:] += _lift(model, data, scene)
     mujoco.mj_forward(model, data)
     for contact in data.contact:
         if contact.dist < -_OVERLAP and not contact.exclude:
@@ -132,6 +139,22 @@ def _release(
                 " move the robot (start) or the obstacle (scene)"
             )
     return data
+
+
+def _lift(model: mujoco.MjModel, data: mujoco.MjData, scene: Scene) -> float:
+    """How far a robot has to be lifted until its lowest point is on the ground [m], 0 if nothing of it is below."""
+    mujoco.mj_kinematics(model, data)
+    points = np.array(
+        [
+            support(model, data, geom, _DOWN)
+            for geom in range(model.ngeom)
+            if model.body_weldid[model.geom_bodyid[geom]] and (model.geom_contype[geom] or model.geom_conaffinity[geom])
+        ]
+    )
+    if not len(points):
+        return 0.0
+    below = float((scene.ground_height(points[:, 0], points[:, 1]) - points[:, 2]).max())
+    return below if below > _OVERLAP else 0.0
 
 
 def _geom_name(model: mujoco.MjModel, geom: int) -> str:

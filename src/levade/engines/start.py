@@ -16,8 +16,8 @@ class Settled:
     posture: name of a posture of the robot; or, on top of the neutral one, joint -> angle [rad], and leg, "front",
         "hind", "left" or "right" -> name of the posture that these legs take.
 
-    The robot is put down level, with its lowest foot touching, above the point x, y, and holds the posture with its own
-    gains for ``time`` [s]; it sags a little, as its joints give way to gravity.
+    The robot is put down level, with its lowest foot touching (or whatever is lower), above the point x, y, and holds the
+    posture with its own gains for ``time`` [s]; it sags a little, as its joints give way to gravity.
     """
 
     posture: str | Mapping[str, float | str] = "neutral"
@@ -34,7 +34,8 @@ class Settled:
 class Fall:
     """Lying as a fall with weak joints left it: deterministic, from the numbers here.
 
-    height: [m], trunk's origin over z = 0 at release. x, y: [m]. roll, pitch, yaw: [rad] at release, z-y-x.
+    height: [m], trunk's origin over z = 0 at release; higher where a part of the robot would be in the ground. x, y: [m].
+    roll, pitch, yaw: [rad] at release, z-y-x.
     posture: as in `Settled`; the joints hold it with ``gain`` times their gains while they fall.
     time: [s] from release to the start of the motion.
     spread: [rad], standard deviation of random changes of the joints and of roll, pitch and yaw at release, drawn with

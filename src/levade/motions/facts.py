@@ -105,6 +105,8 @@ def _limit_facts(limits: JointLimits) -> dict[str, Any]:
             str(joint): {"peak": curve.peak, "rate": curve.rate, "centre": curve.centre}
             for joint, curve in limits.torque_curves.items()
         },
+        "assumed_velocity": list(limits.assumed_velocity),
+        "assumed_torque": list(limits.assumed_torque),
     }
 
 
@@ -122,4 +124,6 @@ def _limits_of(facts: Mapping[str, Any], lines: Callable[[], Lines]) -> JointLim
         torque_curves={int(joint): TorqueCurve(**curve) for joint, curve in facts.get("torque_curves", {}).items()},
         stall_torque=line[0],
         no_load_speed=line[1],
+        assumed_velocity=tuple(facts.get("assumed_velocity", ())),
+        assumed_torque=tuple(facts.get("assumed_torque", ())),
     )

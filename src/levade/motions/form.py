@@ -83,6 +83,8 @@ class LimitsForm(_Form):
     stall_torque: PerJoint | None = None
     no_load_speed: PerJoint | None = None
     torque_curves: dict[Annotated[str, Field(pattern=r"^\d{1,4}$")], CurveForm] = {}
+    assumed_velocity: list[Index] = []
+    assumed_torque: list[Index] = []
 
 
 class FollowerForm(_Form):
@@ -274,6 +276,10 @@ def _mistakes_in_limits(limits: LimitsForm, joints: int) -> Iterator[str]:
     for joint in limits.torque_curves:
         if int(joint) >= joints:
             yield f"meta.limits.torque_curves: no joint {joint}; there are {joints}"
+    for name in ("assumed_velocity", "assumed_torque"):
+        for joint in getattr(limits, name):
+            if joint >= joints:
+                yield f"meta.limits.{name}: no joint {joint}; there are {joints}"
 
 
 def _check_policy(form: MetaForm, content: Mapping[str, Any], arrays: Mapping[str, Array]) -> None:

@@ -5,10 +5,14 @@ from __future__ import annotations
 from functools import cache
 
 from levade.engines import engine_kind
+from levade.optimizers.blas import kernels
 
 
 def versions(engine: str = "mujoco") -> dict[str, str]:
-    """Name -> version; MuJoCo's with every engine, as each reads the model from it."""
+    """Name -> version; MuJoCo's with every engine, as each reads the model from it.
+
+    "blas" is the library with the kind of processor that it computes for, which decides bits, too.
+    """
     return dict(_versions(engine))
 
 
@@ -18,5 +22,6 @@ def _versions(engine: str) -> dict[str, str]:
 
     from levade.version import __version__
 
-    made = {"levade": __version__, **{name: version(name) for name in ("mujoco", "numpy", "cma")}}
+    made = {"blas": kernels()} if kernels() else {}
+    made |= {"levade": __version__, **{name: version(name) for name in ("mujoco", "numpy", "cma")}}
     return made | engine_kind(engine).versions()

@@ -12,6 +12,19 @@ _libraries = ThreadpoolController()
 _within = ContextVar("within", default=False)
 
 
+def kernels() -> str:
+    """The libraries behind numpy's linear algebra, each with the kind of processor that its kernels are made for.
+
+    Such as "openblas 0.3.31 Haswell". They decide how products are rounded. Empty where they do not say.
+    """
+    said = [
+        " ".join(filter(None, (one["internal_api"], one.get("version"), one.get("architecture"))))
+        for one in _libraries.info()
+        if one["user_api"] == "blas"
+    ]
+    return ", ".join(sorted(set(said)))
+
+
 @contextmanager
 def single_threaded() -> Iterator[None]:
     """Within this context, numpy's linear algebra runs on one thread; contexts within it cost nothing."""

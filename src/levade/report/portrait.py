@@ -22,7 +22,7 @@ from levade.report.files import writing
 from levade.report.rendering import FIELD_OF_VIEW, Camera, Renderer, View, outline
 from levade.report.style import LIGHT, leg_colours
 from levade.report.video import load_pillow
-from levade.robots import Leg, Robot
+from levade.robots import Leg, Robot, dimensions
 from levade.robots.addresses import Addresses
 from levade.scenes import Scene, compose
 
@@ -65,7 +65,7 @@ def _draw(pillow: Any, robot: Robot) -> Any:
     data = _standing(robot, model)
     camera = Camera(azimuth=_azimuth(robot, data), elevation=-18.0)
     (width, height), column = _SIZE, _column(pillow, robot)
-    top = data.xpos[model.body(robot.trunk).id] + [0.0, 0.0, 0.5 * robot.neutral_height]
+    top = data.xpos[model.body(robot.trunk).id] + robot.trunk_com_offset + [0.0, 0.0, 0.5 * dimensions(robot).height]
     points = np.concatenate([outline(model, data.qpos[None]), [top]])
     room = 0.88
     view = camera.frame(points, aspect=(width - 2 * column) / (room * height))
@@ -143,7 +143,7 @@ def _places(data: Any, leg: Leg) -> list[tuple[Array, str, str]]:
 def _frame(robot: Robot, data: Any, eye: _Eye) -> list[tuple[str, str, tuple[float, float], tuple[float, float]]]:
     """The trunk's axes: what to write, colour, both ends [px]."""
     body = data.body(robot.trunk)
-    length = 0.45 * robot.neutral_height
+    length = 0.45 * dimensions(robot).height
     ends = body.xpos + length * body.xmat.reshape(3, 3).T
     return [
         (text, getattr(LIGHT, axis), eye.see(body.xpos), eye.see(end))
@@ -157,9 +157,8 @@ def _write(pillow: Any, image: Any, robot: Robot, labels: list[Label], frame: An
     font, muted, title = (pillow.ImageFont.load_default(_FINE * size) for size in (_NAME, _SMALL, 28))
     k = float(_FINE)
     draw.text((k * _EDGE, k * 22), robot.name, fill=LIGHT.ink, font=title)
-    under = (
-        f"neutral posture · {robot.mass:.3g} kg · {robot.neutral_height:.2f} m high · {len(robot.joint_names)} joints"
-    )
+    tall = f"trunk's centre of mass {dimensions(robot).height:.2f} m high"
+    under = f"neutral posture · {robot.mass:.3g} kg · {tall} · {len(robot.joint_names)} joints"
     draw.text((k * _EDGE, k * 60), under, fill=LIGHT.muted, font=muted)
     for _, colour, start, end in frame:
         _arrow(draw, start, end, colour)

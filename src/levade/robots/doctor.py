@@ -162,7 +162,8 @@ def _torques(patient: Patient) -> Iterator[Finding]:
         yield note(where, f"needs {needs}, {share[worst]:.0%} of its limit of {limit}: little is left to move with")
     slow = ~np.isfinite(limits.velocity)
     if slow.any():
-        yield note(_joints(patient, slow), "no speed limit", "robot.yaml, limits: {velocity: ...} gives one")
+        remedy = "robot.yaml, limits: {velocity: ...} gives one"
+        yield warning(_joints(patient, slow), "no speed limit: as fast as it takes", remedy)
 
 
 def _feet(patient: Patient) -> Iterator[Finding]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -29,68 +30,126 @@ _NO_LIMIT = 4
 """Times the torque that could carry the robot; above it, a number in a file stands for "no limit"."""
 
 
-def find_limits(draft: Draft, bare: Bare, path: Path, form: RobotForm) -> tuple[Array, Array]:
-    """Torque [Nm] and velocity [rad/s] limits, (joints,): the description's, else the model's, else assumed (torque) or
-    infinite (velocity)."""
+@dataclass(frozen=True)
+class Drives:
+    """Limits of the joints' drives.
+
+    torque: (joints,) [Nm]. velocity: (joints,) [rad/s]. Infinite where there is none.
+    assumed_torque, assumed_velocity: indices of the joints whose limit is assumed.
+    """
+
+    torque: Array
+    velocity: Array
+    assumed_torque: tuple[int, ...] = ()
+    assumed_velocity: tuple[int, ...] = ()
+
+
+def find_limits(draft: Draft, bare: Bare, path: Path, form: RobotForm, actuation: str | None) -> Drives:
+    """The description's limits, else the model's, else those of the actuators that the description gives, else assumed.
+
+    Args:
+        draft: What was read of the model. What is assumed becomes one of its findings.
+        bare: The legs.
+        path: The description's path.
+        form: The description.
+        actuation: Name of the chosen actuation.
+    """
+    velocity, assumed_velocity = _velocity(draft, bare, path, form, actuation)
+    torque, assumed_torque = _torque(draft, bare, path, form)
+    return Drives(torque, velocity, _indices(assumed_torque), _indices(assumed_velocity))
+
+
+def _velocity(
+    draft: Draft, bare: Bare, path: Path, form: RobotForm, actuation: str | None
+) -> tuple[Array, NDArray[np.bool_]]:
+    """(joints,) [rad/s], and which of them are assumed."""
+    from levade.robots.description import DCMotorForm, joint_array
+
+    joints = bare.joints
+    if form.limits.velocity:
+        draft.origins["velocity"] = "robot.yaml"
+        return joint_array(form.limits.velocity, joints, f"{path}: limits.velocity"), np.zeros(len(joints), bool)
+    file = _file(draft)
+    velocity = np.array([draft.velocity.get(joint, np.inf) for joint in joints])
+    fast = np.isfinite(velocity) & (velocity > _FASTEST)
+    name = actuation or next(iter(form.actuations), SERVO)
+    chosen = form.actuations.get(name)
+    if isinstance(chosen, DCMotorForm):
+        file = f"robot.yaml, no-load speed of {name}"
+        own = joint_array(chosen.no_load_speed, joints, f"{path}: actuations.{name}.no_load_speed")
+        velocity = np.where(velocity <= _FASTEST, velocity, own)
+    missing = np.zeros(len(joints), bool) if isinstance(chosen, DCMotorForm) else ~(velocity <= _FASTEST)
+    draft.origins["velocity"] = file
+    if missing.any():
+        assumed = gains.assumed_speed(_leg_length(bare))
+        remedy = "robot.yaml, limits: {velocity: ...} gives the real one"
+        most = velocity[fast].max(initial=0.0)
+        high = f"speed limits of up to {most:.3g} rad/s are not believed; {assumed:.3g} rad/s is assumed"
+        for some, what in (
+            (missing & fast, high),
+            (missing & ~fast, f"no speed limit; {assumed:.3g} rad/s is assumed"),
+        ):
+            if some.any():
+                draft.findings.append(warning(_where(bare, some), what, remedy))
+        draft.origins["velocity"] = "assumed" if missing.all() else f"{file}, or assumed"
+        velocity = np.where(missing, assumed, velocity)
+    return velocity, missing
+
+
+def _torque(draft: Draft, bare: Bare, path: Path, form: RobotForm) -> tuple[Array, NDArray[np.bool_]]:
+    """(joints,) [Nm], and which of them are assumed; infinite where a description with actuations of its own has none."""
     from levade.robots.description import joint_array
 
-    joints, file = bare.joints, "the URDF" if draft.urdf else "the model"
-    if form.limits.velocity:
-        velocity = joint_array(form.limits.velocity, joints, f"{path}: limits.velocity")
-        draft.origins["velocity"] = "robot.yaml"
-    else:
-        velocity = np.array([draft.velocity.get(joint, np.inf) for joint in joints])
-        draft.origins["velocity"] = file if np.isfinite(velocity).any() else "no limit"
-    fast = np.isfinite(velocity) & (velocity > _FASTEST)
-    if fast.any():
-        what = f"speed limits of up to {velocity[fast].max():.3g} rad/s are none: not believed"
-        names = [joint for joint, gone in zip(joints, fast, strict=True) if gone]
-        where = "all joints" if fast.all() else named("joint", names)
-        draft.findings.append(warning(where, what, "robot.yaml, limits: {velocity: ...} gives the real one"))
-        velocity = np.where(fast, np.inf, velocity)
-        draft.origins["velocity"] = "no limit" if fast.all() else draft.origins["velocity"]
+    joints, none = bare.joints, np.zeros(len(bare.joints), bool)
     if form.limits.torque:
         draft.origins["torque"] = "robot.yaml"
-        return joint_array(form.limits.torque, joints, f"{path}: limits.torque"), velocity
+        return joint_array(form.limits.torque, joints, f"{path}: limits.torque"), none
     torque = np.array([draft.effort.get(joint, np.inf) for joint in joints])
-    draft.origins["torque"] = file if np.isfinite(torque).any() else "no limit"
+    draft.origins["torque"] = _file(draft) if np.isfinite(torque).any() else "no limit"
     if form.actuations:
-        return torque, velocity
-    mass = float(bare.model.body_mass.sum())
-    assumed = gains.assumed_torque(mass, max(bare.leg_length(leg) for leg in bare.legs))
+        return torque, none
+    assumed = gains.assumed_torque(float(bare.model.body_mass.sum()), _leg_length(bare))
     missing = ~(torque <= _NO_LIMIT * assumed)
     if missing.any():
-        passive = [
-            j for j, gone in zip(joints, missing, strict=True) if gone and draft.driven and j not in draft.driven
-        ]
-        _say_assumed(draft, bare, torque, missing, passive, assumed)
-        draft.origins["torque"] = "assumed" if missing.all() else f"{file}, or assumed"
+        _say_assumed(draft, bare, torque, missing, assumed)
+        draft.origins["torque"] = "assumed" if missing.all() else f"{_file(draft)}, or assumed"
         torque = np.where(missing, assumed, torque)
-    return torque, velocity
+    return torque, missing
 
 
-def _say_assumed(
-    draft: Draft, bare: Bare, torque: Array, missing: NDArray[np.bool_], passive: list[str], assumed: float
-) -> None:
-    """Warn of limits that are made up, by reason."""
-
-    def where(names: list[str]) -> str:
-        return "all joints" if len(names) == len(bare.joints) else named("joint", names)
-
+def _say_assumed(draft: Draft, bare: Bare, torque: Array, missing: NDArray[np.bool_], assumed: float) -> None:
+    """Warn of torque limits that are made up, by reason."""
     remedy = "robot.yaml, limits: {torque: ...} gives the real one"
-    if passive:
-        draft.findings.append(
-            warning(where(passive), f"without an actuator in the model: servos of {assumed:.3g} Nm are added", remedy)
-        )
-    limited = [(j, t) for j, t, gone in zip(bare.joints, torque, missing, strict=True) if gone and j not in passive]
-    high = [joint for joint, limit in limited if np.isfinite(limit)]
-    if high:
-        most = max(limit for _, limit in limited if np.isfinite(limit))
-        what = f"torque limits of up to {most:.3g} Nm are none for its weight; {assumed:.3g} Nm is assumed"
-        draft.findings.append(warning(where(high), what, remedy))
-    none = [joint for joint, limit in limited if not np.isfinite(limit)]
-    if none:
-        draft.findings.append(warning(where(none), f"no torque limit; {assumed:.3g} Nm is assumed", remedy))
+    undriven = np.array([bool(draft.driven) and joint not in draft.driven for joint in bare.joints])
+    limited = np.isfinite(torque)
+    most = torque[missing & ~undriven & limited].max(initial=0.0)
+    for chosen, what in (
+        (missing & undriven, f"without an actuator in the model: servos of {assumed:.3g} Nm are added"),
+        (
+            missing & ~undriven & limited,
+            f"torque limits of up to {most:.3g} Nm are none for its weight; {assumed:.3g} Nm is assumed",
+        ),
+        (missing & ~undriven & ~limited, f"no torque limit; {assumed:.3g} Nm is assumed"),
+    ):
+        if chosen.any():
+            draft.findings.append(warning(_where(bare, chosen), what, remedy))
+
+
+def _file(draft: Draft) -> str:
+    return "the URDF" if draft.urdf else "the model"
+
+
+def _leg_length(bare: Bare) -> float:
+    return max(bare.leg_length(leg) for leg in bare.legs)
+
+
+def _indices(chosen: NDArray[np.bool_]) -> tuple[int, ...]:
+    return tuple(int(i) for i in np.flatnonzero(chosen))
+
+
+def _where(bare: Bare, chosen: NDArray[np.bool_]) -> str:
+    names = [joint for joint, taken in zip(bare.joints, chosen, strict=True) if taken]
+    return "all joints" if len(names) == len(bare.joints) else named("joint", names)
 
 
 def find_actuation(
@@ -151,7 +210,7 @@ def _gains(
     joints = bare.joints
     servos = {joint: draft.servos[joint] for joint in joints if keep and joint in draft.servos}
     mass = float(bare.model.body_mass.sum())
-    stiffness = gains.stiffness(mass, max(bare.leg_length(leg) for leg in bare.legs))
+    stiffness = gains.stiffness(mass, _leg_length(bare))
     inertia = max(bare.joint_inertia(neutral).values())
     damping = gains.damping(float((np.array([stiffness]) if kps is None else kps).max()), inertia)
     kp = np.array([servos[joint].kp if joint in servos else stiffness for joint in joints], dtype=float)

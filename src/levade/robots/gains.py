@@ -1,4 +1,4 @@
-"""Servo gains and torque limits for robots whose files give none, from their mass and size."""
+"""Servo gains, torque and speed limits for robots whose files give none, from their mass and size."""
 
 from __future__ import annotations
 
@@ -32,6 +32,15 @@ def assumed_torque(mass: float, leg_length: float) -> float:
     It is 294 Nm for HyQ2Max (data sheet: 120 to 250 Nm), 27 Nm for Go1 (23.7 to 35.6 Nm).
     """
     return mass * GRAVITY * 0.5 * leg_length
+
+
+def assumed_speed(leg_length: float) -> float:
+    """[rad/s], of a joint whose file gives no limit: half a leg, swung, takes off for a jump of two legs' lengths.
+
+    w l / 2 = sqrt(2 g 2 l), so w = 4 sqrt(g / l). It is 14.6 rad/s for HyQ2Max (data sheet: 12), 19.2 rad/s for Go1 (20 to
+    30), 16.7 rad/s for ANYmal B (15), and too much for ANYmal C (7.5).
+    """
+    return 4 * math.sqrt(GRAVITY / leg_length)
 
 
 def speed_line(torque: float, velocity: float) -> tuple[float, float]:

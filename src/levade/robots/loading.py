@@ -89,12 +89,20 @@ def load_robot(
     if variant is not None:
         _apply_variant(draft, path, form, variant)
     bare, followers = understand(draft, path, form)
-    torque, velocity = find_limits(draft, bare, path, form)
-    bare, postures = pose(draft, bare, followers, path, form, torque)
+    drives = find_limits(draft, bare, path, form, actuation or form.actuation)
+    bare, postures = pose(draft, bare, followers, path, form, drives.torque)
     joints = bare.joints
     ranges = np.array([bare.ranges[joint] for joint in joints])
     neutral = dict(zip(joints, postures["neutral"].tolist(), strict=True))
-    limits = JointLimits(ranges[:, 0], ranges[:, 1], velocity, torque, _curves(joints, path, form) if linkage else {})
+    limits = JointLimits(
+        lower=ranges[:, 0],
+        upper=ranges[:, 1],
+        velocity=drives.velocity,
+        torque=drives.torque,
+        torque_curves=_curves(joints, path, form) if linkage else {},
+        assumed_velocity=drives.assumed_velocity,
+        assumed_torque=drives.assumed_torque,
+    )
     chosen = find_actuation(actuation or form.actuation, draft, bare, path, form, neutral, limits, kp, kd)
     if isinstance(chosen, DCMotor):
         limits = replace(limits, stall_torque=chosen.stall_torque, no_load_speed=chosen.no_load_speed)

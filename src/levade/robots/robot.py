@@ -167,7 +167,10 @@ class Robot:
         return np.array([_depth(self.model, data, foot) for foot in self.feet])
 
     def standing_height(self, posture: str | Mapping[str, float | str] = "neutral") -> float:
-        """[m], the trunk's origin above the lowest point of the feet, the trunk level."""
+        """[m], the trunk's origin above the lowest point of the feet, the trunk level; see `levade.robots.dimensions`.
+
+        Negative where the file puts the origin on the ground, or below it.
+        """
         return float(self.foot_depths(self.posture(posture)).max())
 
     @cached_property
@@ -214,9 +217,20 @@ class Robot:
         return float(self.model.body_mass.sum())
 
     @cached_property
+    def trunk_parts(self) -> tuple[int, ...]:
+        """Ids of the bodies with mass that are fixed to the trunk, such as a held arm; with the trunk's own, which is first."""
+        model, trunk = self.model, self.model.body(self.trunk).id
+        fixed = np.flatnonzero((model.body_weldid == model.body_weldid[trunk]) & (model.body_mass > 0))
+        return (trunk, *(int(body) for body in fixed if body != trunk))
+
+    @cached_property
     def trunk_com_offset(self) -> Array:
-        """(3,) [m], centre of mass of the trunk alone in the trunk frame."""
-        return self.model.body(self.trunk).ipos.copy()
+        """(3,) [m], centre of mass of the trunk, with what is fixed to it and without the legs, in the trunk frame."""
+        if len(self.trunk_parts) == 1:
+            return self.model.body(self.trunk).ipos.copy()
+        parts = list(self.trunk_parts)
+        places = self.data_at(self.postures["neutral"]).xipos[parts]
+        return np.average(places, axis=0, weights=self.model.body_mass[parts])
 
     @property
     def _free_joint(self) -> int:

@@ -134,9 +134,10 @@ def resume(
     now = versions(task.physics.engine)
     for name, version in header.versions.items():
         if now.get(name) != version:
+            remedy = f"install {name}=={version}" if name != "blas" else "go on with a processor of that kind"
             raise LevadeError(
                 f"{directory}: was started with {name} {version}, this is {now.get(name)}: going on would give another"
-                f" motion; install {name}=={version}, or start again"
+                f" motion; {remedy}, or start again"
             )
     if header.task_checksum != _checksum(task):
         raise LevadeError(

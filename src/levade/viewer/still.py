@@ -28,7 +28,7 @@ from levade.report.scene import body_poses, goal_box, goal_text, put_together
 from levade.report.shapes import moving_bodies, shapes_of
 from levade.report.style import leg_places
 from levade.report.summary import WHEN
-from levade.robots import Leg, Robot, builtin_robots, mirror_signs
+from levade.robots import Leg, Robot, builtin_robots, dimensions, mirror_signs
 from levade.robots.addresses import Addresses
 from levade.rotations import rotate
 from levade.scenes import Scene, compose
@@ -71,9 +71,9 @@ def robot_data(robot: Robot) -> dict[str, Any]:
         "postures": {name: np.round(angles, 6).tolist() for name, angles in robot.postures.items()},
         "facts": [
             ["Mass", f"{robot.mass:.4g} kg"],
-            ["Trunk", f"{robot.trunk}, {robot.model.body(robot.trunk).mass[0]:.4g} kg"],
+            ["Trunk", f"{robot.trunk}, {robot.model.body_mass[list(robot.trunk_parts)].sum():.4g} kg"],
             ["Legs", f"{len(robot.legs)}, {len(robot.joint_names)} joints"],
-            ["Height of the trunk, standing", f"{robot.neutral_height:.3f} m"],
+            ["Trunk's centre of mass, standing", f"{dimensions(robot).height:.3f} m high"],
             ["Actuation", robot.actuation.name],
             *([] if robot.name in dict(builtin_robots()) else [["Described in", robot.source]]),
         ],
