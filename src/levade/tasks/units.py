@@ -82,7 +82,8 @@ def to_si(
             inside = f"{where}.{key}"
             if key == "horizon" and isinstance(value, Mapping):
                 table[key] = {
-                    name: to_si(bound, where=f"{inside}.{name}", measures="a duration") for name, bound in value.items()
+                    name: to_si(bound, where=f"{inside}.{name}", measures="a duration", robot=robot)
+                    for name, bound in value.items()
                 }
             elif key in ("posture", "goal") and isinstance(value, Mapping) and "weight" not in value:
                 table[key] = {
