@@ -17,7 +17,7 @@ from levade.tasks.policy import goal_posture
 ENDING = 0.25
 """Share of the horizon in which an optimizer may finish a motion, without a change to what comes before."""
 
-DURATION = 0.2
+DURATION = 0.08
 """Initial standard deviation of ``log T`` where the duration is a decision."""
 
 
