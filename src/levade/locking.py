@@ -3,8 +3,8 @@
     with locked(directory, "run"):
         ...
 
-The lock is the system's (`flock`) on the file ``.levade-lock``: however a process dies, it leaves no lock. The file says who has it.
-Systems without `flock` have no lock.
+The lock is the system's (`flock`) on the file ``.levade-lock``: however a process dies, it leaves no lock. The file says
+who has it. Systems without `flock` have no lock.
 """
 
 from __future__ import annotations

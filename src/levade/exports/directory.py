@@ -37,7 +37,7 @@ def filling(directory: Path) -> Iterator[Path]:
                 check_replaceable(place)
             except OSError as error:
                 raise LevadeError(
-                    f"{place}: {error.strerror}, and a file of that name is to be written; move it away"
+                    f"{place}: {str(error.strerror).lower()}, and a file of that name is to be written; move it away"
                 ) from None
             place.parent.mkdir(parents=True, exist_ok=True)
         for file, place in zip(files, places, strict=True):
