@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import importlib.util
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -24,6 +25,8 @@ from levade.bench.pool import run_cases
 from levade.bench.results import Result, append, read, write, write_parquet
 from levade.bench.table import markdown
 from levade.errors import LevadeError, Remedy
+from levade.locking import locked
+from levade.writing import write_text
 
 PLAN, RESULTS, PARQUET, TABLE = "bench.yaml", "results.csv", "results.parquet", "table.md"
 
@@ -65,20 +68,30 @@ def bench(
     """
     plan = plan or plan_of(directory)
     wanted = cases(plan)
+    with ExitStack() as stack:
+        if not directory.exists():
+            _check_others(others, wanted, [])
+        _begin(directory, stack)
+        return _bench(plan, wanted, directory, processes=processes, force=force, others=others, observe=observe)
+
+
+def _bench(
+    plan: Plan,
+    wanted: Sequence[Case],
+    directory: Path,
+    *,
+    processes: int,
+    force: bool,
+    others: Sequence[Result],
+    observe: Callable[[Progress], object] | None,
+) -> Bench:
+    """Run cases in a directory whose lock is held."""
     path = directory / RESULTS
     before = [] if force or not path.exists() else read(path)
     _check_same(path, before, wanted)
-    keys = {case.key for case in wanted} | {result.key for result in before}
-    for other in others:
-        if other.key in keys:
-            task, robot, optimizer, seed = other.key
-            raise LevadeError(
-                f"{task} on {robot}, {optimizer}, seed {seed}: is in this bench and in what is added to it"
-            )
-        keys.add(other.key)
+    _check_others(others, wanted, before)
     try:
-        directory.mkdir(parents=True, exist_ok=True)
-        (directory / PLAN).write_text(plan_to_yaml(plan), encoding="utf-8")
+        write_text(directory / PLAN, plan_to_yaml(plan))
     except OSError as error:
         raise LevadeError(f"{directory}: cannot be written ({error.strerror}); give a directory that can") from None
     write(path, before)  # without what was cut off
@@ -123,7 +136,7 @@ def report(results: Sequence[Result], directory: Path, *, format: str = "pdf") -
     """
     table = directory / TABLE
     try:
-        table.write_text(markdown(summarise(results)), encoding="utf-8")
+        write_text(table, markdown(summarise(results)))
     except OSError as error:
         raise LevadeError(f"{table}: cannot be written ({error.strerror})") from None
     written, missing = [table], list[str]()
@@ -143,6 +156,27 @@ def in_order(results: Iterable[Result], wanted: Sequence[Case]) -> list[Result]:
     """Those of these cases first, in their order; then the others, by name."""
     place = {case.key: number for number, case in enumerate(wanted)}
     return sorted(results, key=lambda result: (place.get(result.key, len(place)), result.key))
+
+
+def _begin(directory: Path, stack: ExitStack) -> None:
+    """Make a directory and take its lock."""
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        stack.enter_context(locked(directory, "bench"))
+    except OSError as error:
+        raise LevadeError(f"{directory}: cannot be written ({error.strerror}); give a directory that can") from None
+
+
+def _check_others(others: Sequence[Result], wanted: Sequence[Case], before: Sequence[Result]) -> None:
+    """Raise LevadeError if a result that is reported beside these has the name of one."""
+    keys = {case.key for case in wanted} | {result.key for result in before}
+    for other in others:
+        if other.key in keys:
+            task, robot, optimizer, seed = other.key
+            raise LevadeError(
+                f"{task} on {robot}, {optimizer}, seed {seed}: is in this bench and in what is added to it"
+            )
+        keys.add(other.key)
 
 
 _ANEW = (Remedy("write elsewhere", "elsewhere"), Remedy("begin again", "replace"))

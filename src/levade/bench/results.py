@@ -8,12 +8,12 @@ from __future__ import annotations
 import csv
 import dataclasses
 import io
-import os
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from levade import writing
 from levade.errors import LevadeError
 from levade.optimizers import canonical
 
@@ -67,9 +67,7 @@ def append(path: Path, result: Result) -> None:
     new = not path.exists() or path.stat().st_size == 0
     text = (_line(COLUMNS) if new else "") + _line([_text(getattr(result, name)) for name in COLUMNS])
     try:
-        with path.open("ab", buffering=0) as file:
-            file.write(text.encode())
-            os.fsync(file.fileno())
+        writing.append(path, text.encode())
     except OSError as error:
         raise LevadeError(
             f"{path}: cannot be written ({error.strerror}); make room, then call again to go on"
@@ -79,12 +77,9 @@ def append(path: Path, result: Result) -> None:
 def write(path: Path, results: Iterable[Result]) -> None:
     """Replace a file by these rows, or leave it as it is. Raises LevadeError if it cannot be written."""
     lines = [_line(COLUMNS), *(_line([_text(getattr(result, name)) for name in COLUMNS]) for result in results)]
-    partial = path.with_name(f".{path.name}.partial")
     try:
-        partial.write_text("".join(lines), encoding="utf-8", newline="")
-        partial.replace(path)
+        writing.write_text(path, "".join(lines))
     except OSError as error:
-        partial.unlink(missing_ok=True)
         raise LevadeError(f"{path}: cannot be written ({error.strerror})") from None
 
 
@@ -123,14 +118,11 @@ def write_parquet(path: Path, results: Sequence[Result]) -> None:
     kinds = {"str": pyarrow.string(), "int": pyarrow.int64(), "float": pyarrow.float64(), "bool": pyarrow.bool_()}
     schema = pyarrow.schema([(name, kinds[kind.split(" ")[0]]) for name, kind in _KINDS.items()])
     table = pyarrow.Table.from_pylist([dataclasses.asdict(result) for result in results], schema=schema)
-    partial = path.with_name(f".{path.name}.partial")
     try:
-        pyarrow.parquet.write_table(table, partial)
-        partial.replace(path)
+        with writing.replacing(path) as partial:
+            pyarrow.parquet.write_table(table, partial)
     except OSError as error:
         raise LevadeError(f"{path}: cannot be written ({error.strerror})") from None
-    finally:
-        partial.unlink(missing_ok=True)
 
 
 def _line(cells: Sequence[str]) -> str:

@@ -6,12 +6,13 @@ import json
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Any, NoReturn
+from typing import Annotated, Any
 
 import typer
 
 from levade.cli.flags import in_flags
-from levade.errors import LevadeError
+from levade.cli.output import lasting_output
+from levade.errors import LevadeError, one_line
 
 app = typer.Typer(
     name="levade",
@@ -30,27 +31,39 @@ _SEVERAL = ("--tasks", "--robots", "--optimizers", "--add")
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line; whatever is wrong with the input is one line on standard error and exit status 2."""
+    with lasting_output() as output:
+        status = _run(arguments)
+        output.flush()
+        if output.refused is not None and status != 2:
+            status = _failed(f"standard output: cannot be written ({output.refused.strerror}); the work is done")
+    sys.exit(status)
+
+
+def _run(arguments: Sequence[str] | None) -> int:
+    """Run the command line. Returns the exit status."""
     # typer names these by its own copy of click since 0.26, by click itself before
     _, usage_error, click_exception, *_ = typer.BadParameter.__mro__
     arguments = _spread(sys.argv[1:] if arguments is None else arguments)
     try:
         status = app(args=arguments, standalone_mode=False)
     except LevadeError as error:
-        _fail(in_flags(error, app, arguments))
+        return _failed(in_flags(error, app, arguments))
     except usage_error as error:  # type: ignore[misc]
         command = error.ctx.command_path if error.ctx else "levade"
         message = " ".join(error.format_message().split())
-        _fail(
+        return _failed(
             f"{message} See: {command} --help" if message.endswith((".", "?")) else f"{message}; see {command} --help"
         )
     except click_exception as error:  # type: ignore[misc]
-        _fail(" ".join(error.format_message().split()))
-    except BrokenPipeError:  # the reader of a pipe has seen enough
-        sys.stderr.close()
-        sys.exit(1)
+        return _failed(" ".join(error.format_message().split()))
+    except OSError as error:  # of a path that the system does not take, such as one of a name that is too long
+        place = error.filename if isinstance(error.filename, str) else "the system"
+        return _failed(f"{place}: {error.strerror or error}; give another path")
+    except MemoryError as error:
+        return _failed(f"not enough memory{f' ({error})' if str(error) else ''}; fewer or shorter trials need less")
     except (KeyboardInterrupt, typer.Abort):
-        sys.exit(130)
-    sys.exit(status if isinstance(status, int) else 0)
+        return 130
+    return status if isinstance(status, int) else 0
 
 
 def _spread(arguments: Sequence[str]) -> list[str]:
@@ -68,9 +81,9 @@ def _spread(arguments: Sequence[str]) -> list[str]:
     return taken
 
 
-def _fail(message: str) -> NoReturn:
-    print(f"levade: {' '.join(message.split())}", file=sys.stderr)
-    sys.exit(2)
+def _failed(message: str) -> int:
+    print(f"levade: {one_line(' '.join(message.split()))}", file=sys.stderr)
+    return 2
 
 
 @app.callback(invoke_without_command=True)

@@ -23,7 +23,7 @@ from levade.motions import Motion
 from levade.robots.findings import counted
 from levade.search import Generation, Stopped, make_objective
 from levade.search.initial import initial_guess
-from levade.search.run import Outcome, check_replaceable, read_run, resume, run
+from levade.search.run import Outcome, check_replaceable, check_unlocked, read_run, resume, run
 from levade.tasks import HorizonRange, load_task
 
 
@@ -49,6 +49,7 @@ def solve_and_report(
     earlier: list[Motion] = []
     # whatever is wrong with the input is said before the display opens
     if resume_from is not None:
+        check_unlocked(resume_from)
         chosen, checkpoint = read_run(resume_from)
         seed, out = checkpoint.header.seed, resume_from
         objective = make_objective(chosen, threads=threads)
@@ -65,7 +66,9 @@ def solve_and_report(
             with located(f"{after}: "):
                 chosen = chaining.after(chosen, last)
         out = directory or Path(chosen.name)
-        if not force:
+        if force:
+            check_unlocked(out)
+        else:
             check_replaceable(out)
         objective = make_objective(chosen, threads=threads)
         earlier = [Motion.load(path) for path in begin]

@@ -17,6 +17,7 @@ from levade.engines import Perturbation
 from levade.errors import LevadeError
 from levade.motions import Motion
 from levade.stabilisers import stabilise
+from levade.writing import check_replaceable
 
 
 def stabilise_motion(
@@ -40,6 +41,10 @@ def stabilise_motion(
         raise LevadeError(f"--out {place}: is a directory; give a file in it, as {place / 'motion-stabilised.npz'}")
     if place.exists() and place.samefile(path):
         raise LevadeError(f"--out {place}: is the motion itself; give another file, or leave it out")
+    try:
+        check_replaceable(place)
+    except OSError as error:
+        raise LevadeError(f"--out {place}: cannot be written ({error.strerror}); give another") from None
     if not os.access(place.parent, os.W_OK):
         raise LevadeError(f"--out {place}: its directory cannot be written; give another")
     console = make_console()

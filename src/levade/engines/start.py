@@ -92,6 +92,10 @@ def _check_finite(where: str, **values: float) -> None:
             raise LevadeError(f"{where}.{name}: {value} is not a number")
 
 
+_LONGEST = 600.0
+"""[s], of simulation before a motion starts: a minute of computing, where robots come to rest in seconds."""
+
+
 def _check_time(name: str, time: float) -> None:
-    if not (math.isfinite(time) and time >= 0):
-        raise LevadeError(f"{name}: {time} s is not a duration; 0 or more")
+    if not (math.isfinite(time) and 0 <= time <= _LONGEST):
+        raise LevadeError(f"{name}: {time} s is not a duration from 0 to {_LONGEST:g} s")

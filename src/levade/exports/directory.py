@@ -9,6 +9,7 @@ from pathlib import Path
 from tempfile import mkdtemp
 
 from levade.errors import LevadeError
+from levade.writing import check_replaceable
 
 
 @contextmanager
@@ -32,8 +33,12 @@ def filling(directory: Path) -> Iterator[Path]:
         files = sorted(path for path in partial.rglob("*") if path.is_file())
         places = [directory / file.relative_to(partial) for file in files]
         for place in places:
-            if place.is_dir():
-                raise LevadeError(f"{place}: is a directory, and a file of that name is to be written; move it away")
+            try:
+                check_replaceable(place)
+            except OSError as error:
+                raise LevadeError(
+                    f"{place}: {str(error.strerror).lower()}, and a file of that name is to be written; move it away"
+                ) from None
             place.parent.mkdir(parents=True, exist_ok=True)
         for file, place in zip(files, places, strict=True):
             file.replace(place)

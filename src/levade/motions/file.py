@@ -7,7 +7,6 @@ write("copy.npz", content)
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,6 +22,7 @@ from levade.motions.archive import unpack
 from levade.motions.form import check
 from levade.motions.model import check_text
 from levade.rotations import conjugate, rotate
+from levade.writing import replacing
 
 SCHEMA = 2
 """Version of the file's layout; raised when a reader of the old one would be wrong.
@@ -102,15 +102,8 @@ def write(path: str | Path, content: Content) -> None:
         **content.arrays,
         **{f"asset:{name}": np.frombuffer(data, dtype=np.uint8) for name, data in content.assets.items()},
     }
-    partial = path.with_name(f".{path.name}.partial")
-    try:
-        with partial.open("wb") as file:
-            np.savez_compressed(file, **data)
-            file.flush()
-            os.fsync(file.fileno())
-        partial.replace(path)
-    finally:
-        partial.unlink(missing_ok=True)
+    with replacing(path) as partial, partial.open("wb") as file:
+        np.savez_compressed(file, **data)
 
 
 def read(path: str | Path) -> Content:

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from levade.errors import LevadeError
+from levade.writing import check_replaceable, replacing
 
 
 @contextmanager
@@ -17,17 +18,9 @@ def writing(path: Path, *, instead: str = "give a file that can") -> Iterator[Pa
     instead: what the reader of the error can do.
     """
     try:
-        if path.is_dir():
-            raise IsADirectoryError(21, "Is a directory")
-        partial = path.with_name(f".{path.stem}.partial{path.suffix}")
+        check_replaceable(path)
         path.parent.mkdir(parents=True, exist_ok=True)
-        partial.touch()
-    except OSError as error:
-        raise LevadeError(f"{path}: cannot be written ({error.strerror}); {instead}") from None
-    try:
-        yield partial
-        partial.replace(path)
+        with replacing(path) as partial:
+            yield partial
     except OSError as error:
         raise LevadeError(f"{path}: cannot be written ({error.strerror or error}); {instead}") from None
-    finally:
-        partial.unlink(missing_ok=True)

@@ -23,6 +23,7 @@ from levade.report.series import read_progress, series_data
 from levade.report.style import stylesheet
 from levade.report.summary import provenance_data, summary_data
 from levade.version import __version__
+from levade.writing import check_replaceable
 
 _MARK = '<meta name="generator" content="levade'
 """What tells a page of ours from other files."""
@@ -142,6 +143,7 @@ def _bundled(name: str) -> str:
 def _check_replaceable(path: Path, instead: str) -> None:
     """Nothing may be there but a page of levade's; what cannot be read is left to the writing to complain of."""
     try:
+        check_replaceable(path)  # opening a pipe would wait for its other end
         with path.open("rb") as file:
             ours = _MARK.encode() in file.read(2000)
     except OSError:

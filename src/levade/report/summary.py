@@ -103,10 +103,10 @@ def _peaks(motion: Motion) -> Iterator[dict[str, Any]]:
             "share": float(peak[joint] / bounds[joint]) if bounded else None,
         }
     lower, upper = limits.lower, limits.upper
-    if not (np.isfinite(lower) & np.isfinite(upper)).any():
-        return
     with np.errstate(invalid="ignore"):
         share = np.abs(motion["joint_position"] - (lower + upper) / 2) / ((upper - lower) / 2)
+    if np.isnan(share).all():  # no joint has a range, or the simulation broke down at once
+        return
     row, joint = np.unravel_index(np.nanargmax(share), share.shape)
     yield {
         "what": "joint angle",

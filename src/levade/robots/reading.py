@@ -25,6 +25,7 @@ from levade.robots.files import parts, read_xml
 from levade.robots.findings import Finding, named, warning
 from levade.robots.inertias import lift_explicit
 from levade.robots.loops import Coupling, Loop, take_couplings, take_loops
+from levade.robots.magnitudes import check_magnitudes
 from levade.robots.quiet import quiet
 from levade.robots.ranges import check_ranges, doubt_ranges
 from levade.robots.servos import Servo, read_servos
@@ -107,6 +108,7 @@ def _read(path: Path, trunk: str | None, joints: Iterable[str]) -> Draft:
     if not draft.urdf:
         lift_explicit(draft.spec)
     model = compile_readable(draft)
+    check_magnitudes(path, model)
     if hides(model.names.decode(errors="replace").replace("\0", " ")):
         raise LevadeError(f"{path}: names hold control characters, which no terminal can show; rename what has them")
     doubts = doubt_ranges(draft.spec, model)

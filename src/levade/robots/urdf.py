@@ -17,6 +17,7 @@ from levade.errors import LevadeError, did_you_mean
 from levade.robots.findings import Finding, named, note, some, warning
 from levade.robots.inertias import lifted
 from levade.robots.loops import Coupling
+from levade.robots.magnitudes import LARGEST
 from levade.robots.meshes import coarse, find_mesh, read_mesh
 
 _WORLD = "levade-world"
@@ -283,6 +284,8 @@ def _mend_inertial(path: Path, name: str, link: ET.Element) -> tuple[str, float]
         for key in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
     )
     tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    if not (mass <= LARGEST and (np.abs(tensor) <= LARGEST).all()):
+        raise LevadeError(f"{path}: link {name}: mass and inertia should be at most {LARGEST:g}, in kg and kg m2")
     principal = np.linalg.eigvalsh(tensor)
     least = mass * _SMALLEST**2
     if principal[0] > least and principal[0] + principal[1] >= principal[2] * (1 + 1e-6):

@@ -22,7 +22,7 @@ from typing import IO, Any
 from levade.errors import LevadeError
 from levade.search.evaluation import Record
 from levade.search.initial import InitialGuess
-from levade.search.storage import write_text
+from levade.writing import write_text
 
 CHECKPOINT = "checkpoint.jsonl"
 

@@ -86,7 +86,7 @@ def solve_many(
         objectives: What to search for; those of one simulation share batches, from whatever starts.
         seeds: Seed of each search. Defaults to 0 for all.
         initial: Weights that each begins around, if any.
-        observe: Called with the number of a search and each of its generations; may end that search.
+        observe: Called with the number of a search and each of its generations; may end that search. Ctrl-C ends them all.
 
     Returns:
         A solution for each objective, with the same bits as `solve` gives for it alone.
@@ -108,10 +108,20 @@ def solve_many(
             for i in asked:
                 searches[i].stop()
             continue
+        interrupted = False
         for i, evaluation in zip(asked, evaluations, strict=True):
             generation = searches[i].tell(evaluation)
-            if generation is not None and observe is not None and (wish := observe(i, generation)) is not None:
+            if generation is None or observe is None:
+                continue
+            try:
+                wish = observe(i, generation)
+            except KeyboardInterrupt:  # meant for all of them
+                interrupted, wish = True, Stopped.INTERRUPTED
+            if wish is not None:
                 searches[i].stop(wish)
+        if interrupted:
+            for i in asked:
+                searches[i].stop()
     return [search.solution for search in searches]
 
 

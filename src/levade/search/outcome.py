@@ -19,7 +19,7 @@ class Stopped(StrEnum):
     BUDGET = "budget"
     """The task's trials were spent."""
     INTERRUPTED = "interrupted"
-    """An observer, or Ctrl-C, ended it."""
+    """An observer, Ctrl-C or an error ended it."""
     RUNNING = "running"
     """It has not ended: an interim solution."""
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from levade.search.outcome import Generation
 from levade.tasks import Task
+from levade.writing import growing
 
 PROGRESS = "progress.csv"
 
@@ -19,7 +20,7 @@ class Progress:
 
     def __init__(self, task: Task, directory: Path) -> None:
         self._terms, self._criteria = list(task.costs), list(task.success)
-        self._file = (directory / PROGRESS).open("w", encoding="utf-8", newline="")
+        self._file = growing(directory / PROGRESS)
         self._table = csv.writer(self._file)
         self._table.writerow(
             [

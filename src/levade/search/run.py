@@ -13,14 +13,17 @@ DIR/checkpoint.jsonl  a line per evaluation: see `levade.search.checkpoint`
 
 from __future__ import annotations
 
+import errno
 import time
 from collections.abc import Mapping
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from levade import locking, writing
 from levade.document import read_yaml
 from levade.errors import LevadeError, Remedy
+from levade.locking import locked
 from levade.motions import Motion, versions
 from levade.search import checkpoint as checkpoints
 from levade.search.checkpoint import CHECKPOINT, Checkpoint, Header, LayoutError, Writer
@@ -32,8 +35,9 @@ from levade.search.outcome import Generation, Solution, Stopped, Trial
 from levade.search.progress import PROGRESS, Progress
 from levade.search.recording import record
 from levade.search.search import Steer
-from levade.search.storage import closing, storing, write_text
+from levade.search.storage import closing, storing
 from levade.tasks import Change, Task, task_checksum, task_from_dict, task_to_yaml
+from levade.writing import write_text
 
 TASK, MOTION = "task.yaml", "motion.npz"
 
@@ -93,16 +97,22 @@ def run(
     made = versions(task.physics.engine)
     header = Header(task.name, seed, made, _checksum(task), None if initial is None else initial.to_json())
     new = not directory.exists()
-    try:
-        directory.mkdir(parents=True, exist_ok=True)
-        write_text(directory / TASK, task_to_yaml(task, code=True))
-        file = checkpoints.begin(directory, header)
-    except OSError as error:
-        if new:
-            with suppress(OSError):
-                directory.rmdir()
-        raise LevadeError(f"{directory}: cannot be written ({error.strerror}); give another directory") from None
-    with closing(file):
+    with ExitStack() as stack:
+        try:
+            if not new and not directory.is_dir():
+                raise NotADirectoryError(errno.ENOTDIR, "Is not a directory")
+            directory.mkdir(parents=True, exist_ok=True)
+            stack.enter_context(locked(directory, "run"))
+            _check_files(directory)
+            write_text(directory / TASK, task_to_yaml(task, code=True))
+            file = checkpoints.begin(directory, header)
+        except OSError as error:
+            stack.close()
+            if new:
+                with suppress(OSError):
+                    directory.rmdir()
+            raise LevadeError(f"{directory}: cannot be written ({error.strerror}); give another directory") from None
+        stack.enter_context(closing(file))
         with storing(directory / MOTION, then=Remedy("give another directory")):
             (directory / MOTION).unlink(missing_ok=True)  # only now: a full disk has not cost an earlier motion
         return _Run(objective, header, directory, file).go([], initial, observe, steer)
@@ -129,7 +139,27 @@ def resume(
         LevadeError: If there is no run in the directory, its task has been changed since, or other versions of the
             libraries made it.
     """
-    task, checkpoint = read_run(directory)
+    with ExitStack() as stack:
+        _check_is_run(directory)
+        try:
+            stack.enter_context(locked(directory, "run"))
+            _check_files(directory)
+        except OSError as error:
+            raise LevadeError(f"{directory}: cannot be written ({error.strerror})") from None
+        task, checkpoint = read_run(directory)
+        return _resumed(directory, task, checkpoint, objective, threads, observe, steer)
+
+
+def _resumed(
+    directory: Path,
+    task: Task,
+    checkpoint: Checkpoint,
+    objective: Objective | None,
+    threads: int,
+    observe: Observe | None,
+    steer: Steer | None,
+) -> Outcome:
+    """Go on with a run whose lock is held."""
     header = checkpoint.header
     now = versions(task.physics.engine)
     for name, version in header.versions.items():
@@ -161,16 +191,19 @@ def read_run(directory: Path) -> tuple[Task, Checkpoint]:
     Raises:
         LevadeError: If there is no run in the directory.
     """
-    if not (directory / CHECKPOINT).is_file() or not (directory / TASK).is_file():
-        raise LevadeError(
-            f"{directory}: no run to resume, {TASK} or {CHECKPOINT} is missing; give the directory of a run"
-        )
+    _check_is_run(directory)
     task = task_from_dict(read_yaml(directory / TASK), where=str(directory / TASK), code=True)
     return task, checkpoints.read(directory)
 
 
+def check_unlocked(directory: Path) -> None:
+    """Raise LevadeError if a run is being written in the directory."""
+    locking.check_unlocked(directory, "run")
+
+
 def check_replaceable(directory: Path) -> None:
-    """Raise LevadeError if a run in the directory would replace an interrupted one, or files that belong to no run."""
+    """Raise LevadeError if a run in the directory would replace an interrupted or a running one, or files of no run."""
+    check_unlocked(directory)
     if not (directory / CHECKPOINT).exists():
         for name in (TASK, MOTION, PROGRESS):
             if (directory / name).exists():
@@ -191,6 +224,24 @@ def check_replaceable(directory: Path) -> None:
             f"{directory}: holds an interrupted run (seed {checkpoint.header.seed})",
             remedies=(Remedy("go on with it", "resume", directory), _REPLACE, _ELSEWHERE),
         )
+
+
+def _check_is_run(directory: Path) -> None:
+    if not (directory / CHECKPOINT).is_file() or not (directory / TASK).is_file():
+        raise LevadeError(
+            f"{directory}: no run to resume, {TASK} or {CHECKPOINT} is missing; give the directory of a run"
+        )
+
+
+def _check_files(directory: Path) -> None:
+    """Raise LevadeError if something is in a file's place that would have to be replaced and is no regular file."""
+    for name in (TASK, CHECKPOINT, PROGRESS, MOTION):
+        try:
+            writing.check_replaceable(directory / name)
+        except OSError as error:
+            raise LevadeError(
+                f"{directory / name}: cannot be written ({error.strerror}); give another directory"
+            ) from None
 
 
 class _Run:

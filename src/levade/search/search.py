@@ -152,6 +152,9 @@ class Search:
             self._event = step()
         except StopIteration:
             self._event = None
+        except BaseException:  # the generator has ended with it
+            self._event, self._stopped = None, Stopped.INTERRUPTED
+            raise
 
     def _run(self) -> _Asking:
         try:

@@ -20,17 +20,6 @@ class Closable(Protocol):
     def close(self) -> object: ...
 
 
-def write_text(path: Path, text: str) -> None:
-    """Write a file, or leave the one that is there. Raises OSError."""
-    partial = path.with_name(f".{path.name}.partial")
-    try:
-        partial.write_text(text, encoding="utf-8")
-        partial.replace(path)
-    finally:
-        with suppress(OSError):
-            partial.unlink(missing_ok=True)
-
-
 @contextmanager
 def closing(file: Closable) -> Iterator[None]:
     """Close a file whose every line has been flushed: what a full disk refused is not tried, and reported, again."""

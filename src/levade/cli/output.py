@@ -1,0 +1,83 @@
+"""Standard output and error that nobody reads, that are full, or that are closed: a command does its work all the same."""
+
+from __future__ import annotations
+
+import errno
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from typing import Any, TextIO
+
+_UNREAD = (errno.EPIPE, errno.ESHUTDOWN)
+
+
+class Output:
+    """A stream that takes whatever is written. What the system refuses is dropped, and all that follows.
+
+    Attributes:
+        refused: What the system said first, or None. That nobody reads any more is not counted.
+    """
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream, self._gone = stream, False
+        self.refused: OSError | None = None
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
+
+    def write(self, text: str) -> int:
+        """Write a text, or drop it."""
+        if not self._gone:
+            try:
+                self._stream.write(text)
+            except OSError as error:
+                self._drop(error)
+            except UnicodeEncodeError:  # characters that the stream's encoding has not
+                encoding = getattr(self._stream, "encoding", None) or "ascii"
+                return self.write(text.encode(encoding, "backslashreplace").decode(encoding))
+        return len(text)
+
+    def flush(self) -> None:
+        """Write what is held back, or drop it."""
+        if not self._gone:
+            try:
+                self._stream.flush()
+            except OSError as error:
+                self._drop(error)
+
+    def _drop(self, error: OSError) -> None:
+        self._gone = True
+        if error.errno not in _UNREAD:
+            self.refused = error
+        with suppress(OSError, ValueError):
+            # Python tries again at its end to write what the stream holds back, and would complain
+            nowhere = os.open(os.devnull, os.O_WRONLY)
+            os.dup2(nowhere, self._stream.fileno())
+            os.close(nowhere)
+            self._stream.flush()
+
+
+@contextmanager
+def lasting_output() -> Iterator[Output]:
+    """Let commands print within the context whatever becomes of the streams. Yields standard output."""
+    before = sys.stdout, sys.stderr
+    _open_closed()
+    out, err = (Output(stream or open(os.devnull, "w", encoding="utf-8")) for stream in before)  # noqa: SIM115
+    sys.stdout, sys.stderr = out, err  # type: ignore[assignment]
+    try:
+        yield out
+    finally:
+        out.flush()
+        err.flush()
+        sys.stdout, sys.stderr = before
+
+
+def _open_closed() -> None:
+    """Put a sink where a standard stream is closed: a file of levade's would take its number, and get what is printed."""
+    for number in (0, 1, 2):
+        try:
+            os.fstat(number)
+        except OSError:
+            with suppress(OSError):
+                os.open(os.devnull, os.O_RDWR)  # takes the lowest free number

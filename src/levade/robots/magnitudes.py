@@ -1,0 +1,45 @@
+"""Numbers of a model that nothing simulates: infinite ones, and ones beyond what MuJoCo takes for a state."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import mujoco
+import numpy as np
+
+from levade.errors import LevadeError
+
+LARGEST: float = mujoco.mjMAXVAL
+"""Whatever the unit: MuJoCo stops a simulation whose state goes beyond it."""
+
+_FIELDS = {
+    "body": (
+        *(("body_mass", "mass [kg]"), ("body_inertia", "inertia [kg m2]")),
+        *(("body_ipos", "centre of mass [m]"), ("body_pos", "position [m]")),
+    ),
+    "joint": (("jnt_pos", "position [m]"), ("jnt_stiffness", "stiffness")),
+    "dof": (("dof_damping", "damping"), ("dof_armature", "armature"), ("dof_frictionloss", "friction")),
+    "geom": (("geom_size", "size [m]"), ("geom_pos", "position [m]")),
+}
+
+
+def check_magnitudes(path: Path, model: mujoco.MjModel) -> None:
+    """Check that masses, lengths and joint properties are numbers that can be simulated.
+
+    Raises:
+        LevadeError: If one is not; the message names the element.
+    """
+    for kind, fields in _FIELDS.items():
+        for field, what in fields:
+            values = getattr(model, field)
+            odd = ~(np.abs(values.reshape(len(values), -1)) <= LARGEST)
+            if odd.any():
+                index, column = (int(i) for i in np.argwhere(odd)[0])
+                if kind == "dof":
+                    name = f"joint {model.joint(int(model.dof_jntid[index])).name}"
+                else:
+                    name = f"{kind} {getattr(model, kind)(index).name}"
+                value = values.reshape(len(values), -1)[index, column]
+                raise LevadeError(
+                    f"{path}: {name}: {what} {value:g} is not a number that can be simulated; at most {LARGEST:g}"
+                )

@@ -1,0 +1,111 @@
+"""The one way in which levade writes files: whole or not at all, and only in the place of regular files.
+
+    with replacing(path) as partial:
+        partial.write_text("...", encoding="utf-8")
+
+A file is written next to its place, in a new file under a name that nobody can guess, so that no planted link is followed. A
+device, a pipe or a link in the file's place stays as it is. Links to directories on the way are followed, as everywhere.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import secrets
+import stat
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import IO
+
+_NO_LINK = getattr(os, "O_NOFOLLOW", 0)
+_BINARY = getattr(os, "O_BINARY", 0)
+
+_KINDS = (
+    (stat.S_ISDIR, errno.EISDIR, "Is a directory"),
+    (stat.S_ISLNK, errno.ELOOP, "Is a symbolic link, which is not followed or replaced"),
+    (stat.S_ISCHR, errno.EINVAL, "Is a device, not a file"),
+    (stat.S_ISBLK, errno.EINVAL, "Is a device, not a file"),
+    (stat.S_ISFIFO, errno.EINVAL, "Is a pipe, not a file"),
+    (stat.S_ISSOCK, errno.EINVAL, "Is a socket, not a file"),
+)
+
+
+def check_replaceable(path: Path) -> None:
+    """Check that a path is free or a regular file.
+
+    Raises:
+        OSError: If it is anything else; the text says what.
+    """
+    try:
+        mode = path.lstat().st_mode
+    except FileNotFoundError:
+        return
+    for is_kind, number, words in _KINDS:
+        if is_kind(mode):
+            raise OSError(number, words, str(path))
+
+
+@contextmanager
+def replacing(path: Path) -> Iterator[Path]:
+    """Make an empty file next to a path, and put it in the path's place at the end of the context.
+
+    Args:
+        path: A free path, or a regular file, which stays if anything goes wrong.
+
+    Yields:
+        The file to write, with the suffix of the path.
+
+    Raises:
+        OSError: If the path is no regular file, or cannot be written.
+    """
+    check_replaceable(path)
+    descriptor, partial = _new_beside(path)
+    try:
+        yield partial
+        os.fsync(descriptor)
+        check_replaceable(path)
+        partial.replace(path)
+    finally:
+        os.close(descriptor)
+        with suppress(OSError):
+            partial.unlink(missing_ok=True)
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write a text as UTF-8 with line ends as they are, or leave the file that is there. Raises OSError as `replacing`."""
+    with replacing(path) as partial:
+        partial.write_text(text, encoding="utf-8", newline="")
+
+
+def growing(path: Path) -> IO[str]:
+    """Put an empty file in a path's place and open it, to be written line by line. Raises OSError as `replacing`."""
+    with replacing(path) as partial:
+        file = partial.open("w", encoding="utf-8", newline="")
+    return file
+
+
+def append(path: Path, content: bytes) -> None:
+    """Add to a regular file, in one write; it is made if need be. Raises OSError as `replacing`."""
+    check_replaceable(path)  # opening a pipe would wait for its reader
+    descriptor = os.open(path, os.O_WRONLY | os.O_APPEND | os.O_CREAT | _NO_LINK | _BINARY, 0o666)
+    try:
+        left = memoryview(content)
+        while left:
+            left = left[os.write(descriptor, left) :]
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+def _new_beside(path: Path) -> tuple[int, Path]:
+    """A new file in the directory of a path, open, and its path."""
+    while True:
+        partial = path.with_name(
+            f".levade-{secrets.token_hex(8)}.partial{path.suffix if len(path.suffix) < 20 else ''}"
+        )
+        try:
+            flags = os.O_RDWR | os.O_CREAT | os.O_EXCL | _NO_LINK | _BINARY
+            return os.open(partial, flags, 0o666), partial
+        except FileExistsError:
+            continue
