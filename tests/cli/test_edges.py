@@ -9,10 +9,13 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from levade.locking import locked
 from levade.motions import Motion
+from levade.motions.file import Content, read, write
+from levade.search import memory
 
 QUICK = "rearing --set search.optimizer=cma --set search.population=4 --trials 8 --set horizon=0.06"
 LONG = "n" * 300
@@ -164,3 +167,53 @@ def test_a_command_does_its_work_whatever_becomes_of_its_output(
         assert sorted(path.name for path in (tmp_path / "rearing").iterdir()) == [
             *("checkpoint.jsonl", "motion.npz", "progress.csv", "task.yaml")
         ]
+
+
+def test_a_generation_that_does_not_fit_is_announced_and_split(
+    levade, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert levade("solve", *QUICK.split(), "--out", "whole")[0] in (0, 1)
+    monkeypatch.setattr(memory, "free_memory", lambda: 250_000)  # two trials of 30 steps
+
+    status, out, err = levade("solve", *QUICK.split(), "--out", "parts")
+    assert status in (0, 1), err
+    assert "A generation of 4 trials needs" in out
+    assert "with the same results" in out
+    one, other = (Motion.load(tmp_path / name / "motion.npz") for name in ("whole", "parts"))
+    assert one["joint_position"].tobytes() == other["joint_position"].tobytes()
+
+
+@pytest.mark.parametrize("words", ["horizon=1e9", "hold=1e9", "start.settled.time=1e9", "search.population=1000000000"])
+def test_numbers_that_would_run_for_ever_are_one_line(levade, tmp_path: Path, words: str) -> None:
+    status, out, err = levade("solve", "rearing", "--set", words)
+    assert (status, out) == (2, "")
+    assert _one_line(err), err
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.fixture
+def broken(tmp_path: Path, unmet: Path) -> Path:
+    """A motion whose simulation broke down at once: nothing but NaN."""
+    content = read(unmet / "motion.npz")
+    arrays = {name: np.full_like(a, np.nan) if a.ndim > 1 else a for name, a in content.arrays.items()}
+    write(tmp_path / "nan.npz", Content({**content.meta, "diverged": True}, content.model_xml, arrays, content.assets))
+    return tmp_path / "nan.npz"
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        *("--no-report", "", "--json --report"),
+        pytest.param("--figures figures --no-report", marks=pytest.mark.slow),
+        pytest.param("--strip strip.png --no-report", marks=pytest.mark.slow),
+    ],
+)
+def test_a_motion_of_nothing_but_nan_is_shown(levade, broken: Path, words: str) -> None:
+    status, out, err = levade("show", broken.name, *words.split())
+    assert status in (0, 1), err
+    assert out
+    assert "Traceback" not in err
+
+
+def test_a_motion_of_nothing_but_nan_is_compared(levade, broken: Path, unmet: Path) -> None:
+    assert levade("show", broken.name, unmet / "motion.npz", "--no-report")[0] in (0, 1)

@@ -14,6 +14,7 @@ from levade.search import (
     Generation,
     InitialGuess,
     Objective,
+    Search,
     Simulation,
     Solution,
     Stopped,
@@ -195,3 +196,34 @@ def test_one_seed_and_one_guess_for_each(objectives: list[Objective], given: dic
 
 def test_none_at_all_is_none_found() -> None:
     assert solve_many([]) == []
+
+
+def test_ctrl_c_in_an_observer_ends_all_with_the_best_so_far(simulation: Simulation) -> None:
+    objectives = [Objective(simulation, task) for task in (tasks()["nominal"], tasks()["short"])]
+
+    def observe(number: int, generation: Generation) -> None:
+        if number == 0 and generation.generation == 2:
+            raise KeyboardInterrupt
+
+    found = solve_many(objectives, seeds=[0, 1], observe=observe)
+    assert [one.stopped for one in found] == [Stopped.INTERRUPTED] * 2
+    assert [one.generations for one in found] == [2, 2]
+
+
+def test_a_search_that_dies_is_not_said_to_be_running(simulation: Simulation) -> None:
+    objective = Objective(simulation, tasks()["nominal"])
+
+    class Boom(Exception):
+        pass
+
+    def steer(number: int) -> None:
+        if number == 2:
+            raise Boom
+
+    search = Search(objective.task, objective.space, seed=0, steer=steer)
+    with pytest.raises(Boom):  # noqa: PT012
+        while (trials := search.ask()) is not None:
+            search.tell(objective.evaluate(trials))
+    assert search.solution.stopped is Stopped.INTERRUPTED
+    assert search.solution.generations == 1
+    assert search.ask() is None

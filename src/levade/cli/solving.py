@@ -21,8 +21,11 @@ from levade.cli.watching import Watching, watched
 from levade.errors import located
 from levade.motions import Motion
 from levade.robots.findings import counted
-from levade.search import Generation, Stopped, make_objective
+from levade.search import Generation, Objective, Stopped, make_objective
 from levade.search.initial import initial_guess
+from levade.search.memory import in_words, needed
+from levade.search.objective import AT_ONCE
+from levade.search.optimizing import make_attempt
 from levade.search.run import Outcome, check_replaceable, check_unlocked, read_run, resume, run
 from levade.tasks import HorizonRange, load_task
 
@@ -74,6 +77,7 @@ def solve_and_report(
         earlier = [Motion.load(path) for path in begin]
         guess = initial_guess(objective.policy, earlier) if earlier else None
         go = functools.partial(run, objective, seed=seed, directory=out, initial=guess)
+    _tell_need(console, objective)
     tell_warnings(console, objective.robot, objective.task.robot.name)
     tell_unknown_limits(console, objective.task, objective.robot.limits)
     with ExitStack() as stack:
@@ -101,6 +105,18 @@ def solve_and_report(
         else:
             _tell(console, outcome, earlier, numerics)
     return 0 if outcome.motion.result.success else 1
+
+
+def _tell_need(console: Console, objective: Objective) -> None:
+    """Say before a search that a generation does not fit into the memory at once."""
+    task = objective.task
+    population = make_attempt(task, objective.space, seed=0).population
+    need = needed(objective.engine, task.horizon_steps + task.hold_steps)
+    if need.at_once is not None and need.at_once < min(population, AT_ONCE):
+        console.print(
+            f"A generation of {population} trials needs {in_words(population * need.trial)} of memory, and"
+            f" {in_words(need.free or 0)} are free: it is simulated {need.at_once} trials at a time, with the same results."
+        )
 
 
 def summary(outcome: Outcome, numerics: Mapping[str, Numeric]) -> dict[str, object]:

@@ -50,6 +50,14 @@ class Trials:
     pairs: tuple[Index, Index] | None = None
     closing: bool = False
 
+    def __getitem__(self, rows: slice) -> Trials:
+        """Some of the roll-outs."""
+        if self.pairs is None:
+            return replace(self, weights=self.weights[rows])
+        candidates, models = self.pairs
+        used, again = np.unique(candidates[rows], return_inverse=True)
+        return replace(self, weights=self.weights[used], pairs=(again.astype(np.intp), models[rows]))
+
     @property
     def n(self) -> int:
         """Number of roll-outs."""

@@ -9,7 +9,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 
@@ -23,6 +23,7 @@ from levade.optimizers import SearchSpace
 from levade.policies import FreePolicy, JointPolicy, Policy
 from levade.robots import Robot, load_robot
 from levade.search.evaluation import Evaluation, Trials
+from levade.search.memory import check_fits, needed
 from levade.search.optimizing import make_attempt
 from levade.search.space import search_space
 from levade.tasks import Task, looks_at_hold
@@ -122,6 +123,7 @@ class Objective:
         self.terms = {name: cost.term for name, cost in task.costs.items()}
         self.bodies = _bodies(task, simulation)
         check_reach(task, self.robot, self.engine.model)
+        check_fits(self.engine, task.horizon_steps + task.hold_steps)
         self.policy = policy or make_policy(task, self.robot, start=self.state.joint_reference[0])
         self._drawn: dict[tuple[int, int], tuple[State, Models]] = {}
 
@@ -253,9 +255,29 @@ def evaluate_many(asked: Sequence[tuple[Objective, Trials]]) -> list[Evaluation]
         key = (id(objective.engine), steps, trials.draw is None, objective.bodies)
         together.setdefault(key, []).append(i)
     for members in together.values():
-        for i, evaluation in zip(members, _evaluate_together([asked[i] for i in members]), strict=True):
+        for i, evaluation in zip(members, _evaluate_in_parts([asked[i] for i in members]), strict=True):
             found[i] = evaluation
     return [evaluation for evaluation in found if evaluation is not None]
+
+
+def _evaluate_in_parts(asked: Sequence[tuple[Objective, Trials]]) -> Iterable[Evaluation]:
+    """As `_evaluate_together`, in parts that fit into the memory if all do not fit at once."""
+    objective, trials = asked[0]
+    steps = objective.policy.horizon_steps + trials.hold_steps
+    fit = needed(objective.engine, steps).at_once
+    if fit is None or fit >= sum(trials.n for _, trials in asked):
+        return _evaluate_together(asked)
+    check_fits(objective.engine, steps)
+    most = min(fit, AT_ONCE)
+    return [
+        _joined(
+            [
+                next(iter(_evaluate_together([(one, trials[first : first + most])])))
+                for first in range(0, trials.n, most)
+            ]
+        )
+        for one, trials in asked
+    ]
 
 
 def _evaluate_together(asked: Sequence[tuple[Objective, Trials]]) -> Iterator[Evaluation]:
