@@ -9,6 +9,7 @@ DIR/motion.npz        the best motion: written at the end, and on the way whenev
                       few seconds)
 DIR/progress.csv      a line per generation
 DIR/checkpoint.jsonl  a line per evaluation: see `levade.search.checkpoint`
+DIR/.levade-lock      while the run goes on: see `levade.locking`
 """
 
 from __future__ import annotations
