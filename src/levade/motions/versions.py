@@ -22,6 +22,6 @@ def _versions(engine: str) -> dict[str, str]:
 
     from levade.version import __version__
 
-    made = {"blas": kernels()} if kernels() else {}
-    made |= {"levade": __version__, **{name: version(name) for name in ("mujoco", "numpy", "cma")}}
-    return made | engine_kind(engine).versions()
+    made = {"levade": __version__, **{name: version(name) for name in ("mujoco", "numpy", "cma")}}
+    made |= engine_kind(engine).versions()
+    return made | ({"blas": kernels()} if kernels() else {})

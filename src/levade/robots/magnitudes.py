@@ -32,6 +32,8 @@ def check_magnitudes(path: Path, model: mujoco.MjModel) -> None:
     for kind, fields in _FIELDS.items():
         for field, what in fields:
             values = getattr(model, field)
+            if not values.size:
+                continue
             odd = ~(np.abs(values.reshape(len(values), -1)) <= LARGEST)
             if odd.any():
                 index, column = (int(i) for i in np.argwhere(odd)[0])
