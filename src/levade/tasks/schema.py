@@ -19,6 +19,7 @@ from levade.costs import Criterion
 from levade.costs.success import QUANTITIES
 from levade.engines import ENGINES
 from levade.tasks.document import TERMS
+from levade.tasks.parts import HorizonRange
 from levade.tasks.task import Task
 from levade.tasks.units import PLURALS, ROBOT_UNITS, UNITS, measured
 
@@ -86,6 +87,8 @@ def _table(kind: Any, definitions: dict[str, Schema], *, term: str | None = None
         if kind is Task and field.name in ("costs", "success"):
             continue
         measures = "any" if kind is Criterion else measured(field.name, {"term": term})
+        if kind is HorizonRange:
+            measures = "a duration"
         if term == "miss" and field.name in ("target", "tolerance", "minimum", "maximum", "scale"):
             measures = "any"
         schema = _schema(hints[field.name], measures, definitions)
