@@ -55,7 +55,7 @@ def locked(directory: Path, what: str) -> Iterator[None]:
         yield
     finally:
         with suppress(OSError):
-            path.unlink()  # while it is held: whoever has opened it meanwhile finds another file, and tries again
+            path.unlink()  # while it is held: a process that opened it meanwhile finds another file, and tries again
         os.close(descriptor)
 
 

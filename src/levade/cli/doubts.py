@@ -5,18 +5,20 @@ from __future__ import annotations
 import shlex
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from rich.console import Console
 from rich.markup import escape
 
-from levade.checks import Numeric, numerics
-from levade.checks.numerics import QUICK
 from levade.costs.margins import Margins
 from levade.embodiment import JointLimits
 from levade.errors import LevadeError
 from levade.motions import Motion, RecordedSimulation
 from levade.tasks import Task, builtin_tasks, load_task
+
+if TYPE_CHECKING:
+    from levade.checks import Numeric
 
 _AT_TORQUE, _AT_SPEED = 0.99, 0.95
 """Shares of a limit from which on a joint is at it."""
@@ -58,6 +60,8 @@ def in_other_numbers(motion: Motion) -> dict[str, Numeric]:
     """
     if not motion.result.success or motion.task.physics.engine != "mujoco":
         return {}
+    from levade.checks.numerics import QUICK, numerics  # only now: a search begins without the room of checks
+
     try:
         return numerics(RecordedSimulation(motion, threads=1), QUICK)
     except LevadeError:  # the search has succeeded, and its motion is written: nothing here may make it fail

@@ -177,7 +177,7 @@ def _ending(ends: NDArray[np.intp]) -> Iterator[tuple[slice, int]]:
 def _in_parts(
     batch: Batch, rows: Array, ctrl: Array, fields: Sequence[str], parts: Iterator[tuple[slice, int]]
 ) -> tuple[dict[str, Array], NDArray[np.bool_]]:
-    """As `simulate`, some steps at a time, each time of the first so many trials.
+    """Simulate as `simulate` does, part by part; a part names its rows and how many of the first trials go on through it.
 
     ``ctrl`` and the batch's state are read when a part begins, after the iterator has yielded it.
     """

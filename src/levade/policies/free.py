@@ -204,7 +204,7 @@ class FreePolicy:
         return JointReference(position, velocity, self.timestep, self.horizon_steps, horizons=horizons)
 
     def _at(self, steps: int) -> Policy:
-        """The policy of a horizon of so many steps."""
+        """The policy whose horizon has this many steps."""
         if steps == self.policy.horizon_steps:
             return self.policy
         if steps not in self._made:
