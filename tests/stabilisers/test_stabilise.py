@@ -16,8 +16,9 @@ from levade.exports import export
 from levade.exports.player import Motion as Played
 from levade.exports.player import Stopped, play
 from levade.motions import Motion, RecordedSimulation
-from levade.stabilisers import Stabilised, linearise, stabilise
-from levade.stabilisers.linear import state_of
+from levade.regulators import linearise
+from levade.regulators.linear import state_of
+from levade.stabilisers import Stabilised, stabilise
 
 from .conftest import PUSHED
 

@@ -9,8 +9,7 @@ What it does, what it senses and what it cannot do is in docs/feedback.md.
 
 from __future__ import annotations
 
-from levade.stabilisers.linear import Linear, linearise
-from levade.stabilisers.regulator import project, steady, sweep
-from levade.stabilisers.stabiliser import Design, Stabilised, stabilise
+from levade.regulators import Design
+from levade.stabilisers.stabiliser import Stabilised, stabilise
 
-__all__ = ["Design", "Linear", "Stabilised", "linearise", "project", "stabilise", "steady", "sweep"]
+__all__ = ["Design", "Stabilised", "stabilise"]

@@ -9,43 +9,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from levade.arrays import Array
-from levade.engines import ENGINES, Perturbation, engine_kind
+from levade.engines import ENGINES, MujocoEngine, Perturbation, engine_kind, perturbed_models
 from levade.engines.perturbation import Sample
 from levade.errors import LevadeError
-from levade.feedback import Feedback, SensorErrors
 from levade.motions import Motion, RecordedSimulation, Trials, run_trials
-from levade.stabilisers.linear import Linear, Scales, linearise, state_of
-from levade.stabilisers.regulator import expectation, project, steady, sweep
-
-WEIGHED = Scales(attitude=0.03, height=0.03, speed=0.3, rate=1.0, joint=0.3, joint_speed=10.0, drive=math.inf)
-"""Deviations at the end that cost 1 each; on the way, a tenth. Weighed are things of unlike sizes, so that all count."""
-
-_CAP = Scales(attitude=1 / 6, height=math.inf, speed=math.inf, rate=2.0, joint=1 / 4, joint_speed=20 / 3)
-"""No gain is more than 1 rad by so much: about a contact that opens or closes, the linear model holds for less."""
-
-_LAST = 0.5
-"""Largest gain of the correction in force."""
-
-_NEAR = 0.2
-"""[rad], in attitude: runs that are further off are not learned from."""
+from levade.regulators import Design, linearised
 
 _TRAINING, _JUDGING = 7919, 7927
 """Beside the seed: the runs that choose are none of those of a check with the same seed, and those that judge what was chosen,
 none of either: of several designs that do nothing, the best looks better than none on the runs that it was chosen by.
 """
-
-
-@dataclass(frozen=True)
-class Design:
-    """What distinguishes one stabiliser from another.
-
-    motion, hold: [rad], correction that costs 1, up to the horizon and after it. bound: [rad], on each correction.
-    """
-
-    motion: float = 0.3
-    hold: float = 0.1
-    bound: float = 0.3
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,29 +61,18 @@ def stabilise(
     """
     simulation = RecordedSimulation(motion, threads=threads)
     _check(simulation, rate, bound, runs)
-    period = max(1, round(1.0 / (rate * simulation.timestep)))
-    size = _size(simulation)
-    linear = linearise(
-        simulation.model,
-        simulation.layout,
-        simulation.start,
-        simulation.reference,
-        period=period,
-        size=size,
-        threads=threads,
-    )
+    assert isinstance(simulation.engine, MujocoEngine)  # the one that a recorded motion is simulated in
     drawing = perturbation or Perturbation()
     sample, fresh = (
         drawing.draw(simulation.model, simulation.joints, n=runs, seed=(seed, tag)) for tag in (_TRAINING, _JUDGING)
     )
-    expected = _expectations(simulation, linear, sample, period)
-
-    def feedback(design: Design) -> Feedback:
-        gain = _gains(simulation, linear, expected, design, size)
-        return Feedback(gain, linear.reference, period * simulation.timestep, design.bound)
+    perturbed = perturbed_models(simulation.model, simulation.layout, sample, simulation.start)
+    along = linearised(
+        simulation.engine, simulation.start, simulation.reference, perturbed=perturbed, rate=rate, threads=threads
+    )
 
     def runs_of(design: Design | None, sample: Sample, tag: int, what: str = "") -> Trials:
-        given = None if design is None else feedback(design)
+        given = None if design is None else along.feedback(design)
         found = run_trials(simulation, sample, feedback=given, seed=seed + tag)
         if tell is not None:
             tell(f"{what}{'no feedback' if design is None else _text(design)}: {found.success.mean():.1%}")
@@ -137,7 +99,7 @@ def stabilise(
         better, open_loop = _surely_more(without, within), float(without.mean())
         share = float(within.mean()) if better else open_loop
     return Stabilised(
-        motion=motion.stabilised(feedback(best), runs=runs, seed=seed, design=vars(best)) if better else motion,
+        motion=motion.stabilised(along.feedback(best), runs=runs, seed=seed, design=vars(best)) if better else motion,
         design=best if better else None,
         open_loop=open_loop,
         share=share,
@@ -178,15 +140,6 @@ def _check(simulation: RecordedSimulation, rate: float, bound: float, runs: int)
         raise LevadeError(f"{runs} should be 8 to 100000; 96 is usual", field="runs")
 
 
-def _size(simulation: RecordedSimulation) -> float:
-    """[m]: how high the robot stands, about: 0.7 of its longest leg."""
-    lengths = [
-        float(np.linalg.norm(np.diff(np.concatenate([leg.anchors, leg.foot[None]]), axis=0), axis=1).sum())
-        for leg in simulation.embodiment.legs
-    ]
-    return 0.7 * max(lengths, default=0.0) or 0.6
-
-
 def _designs(bound: float, *, hold: bool) -> Iterator[dict[str, float]]:
     """Changes of the best so far, one after another."""
     for motion in (0.15, 0.6, 1.2):
@@ -214,60 +167,3 @@ def _text(design: Design) -> str:
 def _score(found: Trials) -> tuple[float, float]:
     """Share of successes; then how near the others are, which decides where the share does not."""
     return float(found.success.mean()), -float(np.minimum(found.miss, 10.0).mean())
-
-
-def _expectations(simulation: RecordedSimulation, linear: Linear, sample: Sample, period: int) -> Array:
-    """(ticks of the linear model, states - sensed, sensed): what is not sensed, as far as what is sensed tells.
-
-    From perturbed runs without feedback.
-    """
-    joints = simulation.joints
-    ticks = len(linear.a)
-    fields = ["qpos", "qvel", *(["act"] if simulation.model.na else [])]
-    found = simulation.states(sample, fields)
-    every = slice(period - 1, None, period)  # the end of the last step before each tick but the first
-    state = state_of(simulation.layout, *(found[name][:, every] for name in fields))
-    errors = SensorErrors()
-    noise = np.concatenate(
-        [
-            np.full(3, errors.attitude),
-            np.full(3, errors.rate + errors.rate_noise),
-            np.full(joints, errors.joint),
-            np.full(joints, errors.joint_noise),
-        ]
-    )
-    states, width = linear.a.shape[1], 6 + 2 * joints
-    expected = np.zeros((ticks, states - width, width))
-    hold = simulation.reference.steps > simulation.reference.horizon_steps
-    count = min(state.shape[1], len(linear.state) - 1)
-    off = state[:, :count] - linear.state[1 : count + 1]
-    # those that are far off say nothing about those that are near
-    near = np.abs(off[..., :3]).max(axis=2) < _NEAR
-    for k in range(1, ticks):
-        rows = slice(ticks - 2, None) if hold and k == ticks - 1 else slice(k - 1, k)
-        these = near[:, rows]
-        if these.any():
-            both = off[:, rows][these]
-            expected[k] = expectation(both[:, :width], both[:, width:], noise)
-    return expected
-
-
-def _gains(simulation: RecordedSimulation, linear: Linear, expected: Array, design: Design, size: float) -> Array:
-    """(gains, joints, sensed + joints)."""
-    joints, states = simulation.joints, linear.a.shape[1]
-    weight = 1.0 / WEIGHED.sized(size).column(joints, linear.drives) ** 2
-    moving, held = np.full(joints, design.motion**-2), np.full(joints, design.hold**-2)
-    a, b, last = linear.a, linear.b, []
-    if simulation.reference.steps > simulation.reference.horizon_steps:
-        gain, value = steady(a[-1], b[-1], 0.1 * weight, held)
-        a, b, last = a[:-1], b[:-1], [gain]
-    else:
-        value = np.zeros((states + joints, states + joints))
-        value[:states, :states] = np.diag(weight)
-    gains, _ = sweep(a, b, 0.1 * weight, moving, value)
-    width = 6 + 2 * joints
-    whole = np.concatenate([gains, *(one[None] for one in last)])
-    projected = np.array([project(one, what, width) for one, what in zip(whole, expected, strict=True)])
-    cap = 1.0 / _CAP.sized(size).column(joints, np.zeros(0))[:width]
-    limit = np.concatenate([cap, np.full(joints, _LAST)])
-    return np.clip(projected, -limit, limit)

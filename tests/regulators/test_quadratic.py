@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from levade.stabilisers import project, steady, sweep
-from levade.stabilisers.regulator import expectation
+from levade.regulators import project, steady, sweep
+from levade.regulators.quadratic import expectation
 
 
 def system(ticks: int) -> tuple[np.ndarray, np.ndarray]:

@@ -17,7 +17,7 @@ from levade.arrays import Array
 def sweep(a: Array, b: Array, state: Array, correction: Array, value: Array) -> tuple[Array, Array]:
     """Backwards from the end: gains (ticks, joints, states + joints), and the value matrix at the start.
 
-    a, b: as in `levade.stabilisers.linear.Linear`. state: (states,), diagonal of Q. correction: (joints,), of R.
+    a, b: as in `levade.regulators.linear.Linear`. state: (states,), diagonal of Q. correction: (joints,), of R.
     value: (states + joints,) squared, of what comes after.
     """
     gains = np.zeros((len(a), len(correction), a.shape[1] + len(correction)))

@@ -1,0 +1,16 @@
+"""Regulators: gains from what the robot senses to corrections of the joint references, along one motion.
+
+    along = linearised(engine, start, reference, perturbed=(starts, models), rate=250.0)
+    feedback = along.feedback(Design())
+
+`levade.stabilisers` chooses among such designs for a recorded motion; a search with ``feedback`` makes them along its best
+motion as it goes on.
+"""
+
+from __future__ import annotations
+
+from levade.regulators.along import Along, Design, linearised
+from levade.regulators.linear import Linear, linearise
+from levade.regulators.quadratic import project, steady, sweep
+
+__all__ = ["Along", "Design", "Linear", "linearise", "linearised", "project", "steady", "sweep"]

@@ -1,0 +1,159 @@
+"""The regulators along one motion: its linear model and what is expected of what is not sensed, once; gains for each design."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from levade.arrays import Array
+from levade.embodiment import Embodiment
+from levade.engines import Models, MujocoEngine, State
+from levade.feedback import Feedback, SensorErrors
+from levade.regulators.linear import Linear, Scales, linearise, state_of
+from levade.regulators.quadratic import expectation, project, steady, sweep
+from levade.trajectory import JointReference
+
+WEIGHED = Scales(attitude=0.03, height=0.03, speed=0.3, rate=1.0, joint=0.3, joint_speed=10.0, drive=math.inf)
+"""Deviations at the end that cost 1 each; on the way, a tenth. Weighed are things of unlike sizes, so that all count."""
+
+_CAP = Scales(attitude=1 / 6, height=math.inf, speed=math.inf, rate=2.0, joint=1 / 4, joint_speed=20 / 3)
+"""No gain is more than 1 rad by so much: about a contact that opens or closes, the linear model holds for less."""
+
+_LAST = 0.5
+"""Largest gain of the correction in force."""
+
+_NEAR = 0.2
+"""[rad], in attitude: runs that are further off are not learned from."""
+
+
+@dataclass(frozen=True)
+class Design:
+    """What distinguishes one regulator of a motion from another.
+
+    Attributes:
+        motion: Correction that costs 1 up to the horizon [rad].
+        hold: Correction that costs 1 after it [rad].
+        bound: Bound on each correction [rad].
+    """
+
+    motion: float = 0.3
+    hold: float = 0.1
+    bound: float = 0.3
+
+
+@dataclass(frozen=True, eq=False)
+class Along:
+    """What all regulators along one motion share.
+
+    Attributes:
+        linear: The motion's linear model.
+        expected: What is not sensed, per unit of what is, shape (ticks of the linear model, states - sensed, sensed).
+        period: From tick to tick [s].
+        holds: Whether the motion goes on after its horizon.
+        size: How high the robot stands, about [m].
+    """
+
+    linear: Linear
+    expected: Array
+    period: float
+    holds: bool
+    size: float
+
+    def feedback(self, design: Design) -> Feedback:
+        """The regulator of a design, which holds the robot to the motion."""
+        return Feedback(self._gains(design), self.linear.reference, self.period, design.bound)
+
+    def _gains(self, design: Design) -> Array:
+        """(gains, joints, sensed + joints)."""
+        linear = self.linear
+        a, b, last = linear.a, linear.b, []
+        states, joints = b.shape[1:]
+        weight = 1.0 / WEIGHED.sized(self.size).column(joints, linear.drives) ** 2
+        moving, held = np.full(joints, design.motion**-2), np.full(joints, design.hold**-2)
+        if self.holds:
+            gain, value = steady(a[-1], b[-1], 0.1 * weight, held)
+            a, b, last = a[:-1], b[:-1], [gain]
+        else:
+            value = np.zeros((states + joints, states + joints))
+            value[:states, :states] = np.diag(weight)
+        gains, _ = sweep(a, b, 0.1 * weight, moving, value)
+        width = 6 + 2 * joints
+        whole = np.concatenate([gains, *(one[None] for one in last)])
+        projected = np.array([project(one, what, width) for one, what in zip(whole, self.expected, strict=True)])
+        cap = 1.0 / _CAP.sized(self.size).column(joints, np.zeros(0))[:width]
+        limit = np.concatenate([cap, np.full(joints, _LAST)])
+        return np.clip(projected, -limit, limit)
+
+
+def linearised(
+    engine: MujocoEngine,
+    start: State,
+    reference: JointReference,
+    *,
+    perturbed: tuple[State, Models],
+    rate: float,
+    threads: int = 0,
+) -> Along:
+    """Linearise a motion, and learn from perturbed runs of it what is to be expected of what is not sensed.
+
+    Args:
+        engine: Simulates the motion.
+        start: Where it starts, one row.
+        reference: What is asked of the joints, of one trial.
+        perturbed: Starts and models of the perturbed runs.
+        rate: Measurements a second [Hz]; the nearest that steps allow.
+        threads: Number of threads; 0 for one per core. Results do not depend on it.
+    """
+    timestep, size = reference.timestep, size_of(engine.embodiment)
+    period = max(1, round(1.0 / (rate * timestep)))
+    linear = linearise(engine.model, engine.layout, start, reference, period=period, size=size, threads=threads)
+    expected = _expectations(engine, reference, linear, perturbed, period)
+    holds = reference.steps > reference.horizon_steps
+    return Along(linear, expected, period * timestep, holds, size)
+
+
+def size_of(embodiment: Embodiment) -> float:
+    """How high a robot stands, about [m]: 0.7 of its longest leg."""
+    lengths = [
+        float(np.linalg.norm(np.diff(np.concatenate([leg.anchors, leg.foot[None]]), axis=0), axis=1).sum())
+        for leg in embodiment.legs
+    ]
+    return 0.7 * max(lengths, default=0.0) or 0.6
+
+
+def _expectations(
+    engine: MujocoEngine, reference: JointReference, linear: Linear, perturbed: tuple[State, Models], period: int
+) -> Array:
+    """(ticks of the linear model, states - sensed, sensed), from perturbed runs without feedback."""
+    joints = engine.embodiment.joints
+    ticks = len(linear.a)
+    fields = ["qpos", "qvel", *(["act"] if engine.model.na else [])]
+    starts, models = perturbed
+    found = engine.states(starts, reference, fields, models=models)[0]
+    every = slice(period - 1, None, period)  # the end of the last step before each tick but the first
+    state = state_of(engine.layout, *(found[name][:, every] for name in fields))
+    errors = SensorErrors()
+    noise = np.concatenate(
+        [
+            np.full(3, errors.attitude),
+            np.full(3, errors.rate + errors.rate_noise),
+            np.full(joints, errors.joint),
+            np.full(joints, errors.joint_noise),
+        ]
+    )
+    states, width = linear.a.shape[1], 6 + 2 * joints
+    expected = np.zeros((ticks, states - width, width))
+    hold = reference.steps > reference.horizon_steps
+    count = min(state.shape[1], len(linear.state) - 1)
+    off = state[:, :count] - linear.state[1 : count + 1]
+    # those that are far off say nothing about those that are near
+    near = np.abs(off[..., :3]).max(axis=2) < _NEAR
+    for k in range(1, ticks):
+        rows = slice(ticks - 2, None) if hold and k == ticks - 1 else slice(k - 1, k)
+        these = near[:, rows]
+        if these.any():
+            both = off[:, rows][these]
+            expected[k] = expectation(both[:, :width], both[:, width:], noise)
+    return expected
