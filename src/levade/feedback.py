@@ -38,7 +38,8 @@ class Feedback:
     """A stabiliser.
 
     gain: (gains, joints, sensed + joints) [rad per unit sensed; rad/rad for the correction in force].
-    reference: (ticks, sensed), what is sensed on the motion itself. period: [s], from tick to tick; tick 0 is at 0 s.
+    reference: (ticks, sensed), what is sensed on the motion itself; or (n, ticks, sensed), on that of each of n runs.
+    period: [s], from tick to tick; tick 0 is at 0 s.
     bound: [rad], on each joint's correction.
     """
 
@@ -49,7 +50,8 @@ class Feedback:
 
     def correction(self, tick: int, measured: Array, last: Array) -> Array:
         """(..., joints) [rad], from the next tick on. measured: (..., sensed). last: (..., joints) [rad], in force now."""
-        off = np.concatenate([measured - self.reference[min(tick, len(self.reference) - 1)], last], axis=-1)
+        row = min(tick, self.reference.shape[-2] - 1)
+        off = np.concatenate([measured - self.reference[..., row, :], last], axis=-1)
         gain = self.gain[min(tick, len(self.gain) - 1)]
         # summed in one order for any number of runs: the bits of a run do not depend on those beside it
         return np.clip(np.einsum("...c,jc->...j", off, gain), -self.bound, self.bound)
@@ -69,7 +71,11 @@ class Feedback:
         index = np.asarray(order)
         sense = np.concatenate([np.arange(6), 6 + index, 6 + joints + index])
         columns = np.concatenate([sense, 6 + 2 * joints + index])
-        return replace(self, gain=self.gain[:, index][:, :, columns], reference=self.reference[:, sense])
+        return replace(self, gain=self.gain[:, index][:, :, columns], reference=self.reference[..., sense])
+
+    def along(self, reference: Array) -> Feedback:
+        """The same gains for what is sensed on other motions, (ticks, sensed) or (n, ticks, sensed)."""
+        return replace(self, reference=reference)
 
     def arrays(self) -> dict[str, Array]:
         """As in a motion file."""

@@ -9,7 +9,8 @@ motion as it goes on.
 
 from __future__ import annotations
 
-from levade.regulators.along import Along, Design, linearised
+from levade.regulators.along import Along, linearised
+from levade.regulators.design import Design
 from levade.regulators.linear import Linear, linearise
 from levade.regulators.quadratic import project, steady, sweep
 

@@ -11,6 +11,7 @@ from levade.arrays import Array
 from levade.embodiment import Embodiment
 from levade.engines import Models, MujocoEngine, State
 from levade.feedback import Feedback, SensorErrors
+from levade.regulators.design import Design
 from levade.regulators.linear import Linear, Scales, linearise, state_of
 from levade.regulators.quadratic import expectation, project, steady, sweep
 from levade.trajectory import JointReference
@@ -26,21 +27,6 @@ _LAST = 0.5
 
 _NEAR = 0.2
 """[rad], in attitude: runs that are further off are not learned from."""
-
-
-@dataclass(frozen=True)
-class Design:
-    """What distinguishes one regulator of a motion from another.
-
-    Attributes:
-        motion: Correction that costs 1 up to the horizon [rad].
-        hold: Correction that costs 1 after it [rad].
-        bound: Bound on each correction [rad].
-    """
-
-    motion: float = 0.3
-    hold: float = 0.1
-    bound: float = 0.3
 
 
 @dataclass(frozen=True, eq=False)

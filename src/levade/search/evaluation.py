@@ -39,6 +39,8 @@ class Trials:
             drawn for generation g.
         pairs: With a draw, the candidate and the model of each roll-out, both of shape (n,). Without, each candidate is
             one roll-out.
+        along: With a draw, the weights of the motion along which the gains of the task's feedback are made, shape (d,). None
+            is without feedback.
         closing: Whether this is asked for at the end of the search. What comes of it is not recorded, since a resumed
             search goes on instead.
     """
@@ -48,6 +50,7 @@ class Trials:
     seed: int = 0
     draw: int | None = None
     pairs: tuple[Index, Index] | None = None
+    along: Array | None = None
     closing: bool = False
 
     def __getitem__(self, rows: slice) -> Trials:
@@ -69,6 +72,8 @@ class Trials:
         of = zlib.crc32(np.ascontiguousarray(self.weights).tobytes())
         for part in self.pairs or ():
             of = zlib.crc32(np.ascontiguousarray(part, dtype=np.int64).tobytes(), of)
+        if self.along is not None:
+            of = zlib.crc32(np.ascontiguousarray(self.along).tobytes(), of)
         return zlib.crc32(repr((self.hold_steps, self.draw)).encode(), of)
 
 

@@ -19,9 +19,11 @@ from levade.arrays import Array
 from levade.costs import evaluate
 from levade.engines import FOOT_CONTACT_FORCE, Engine, Models, State, make_engine, perturbed_models, start_state
 from levade.errors import LevadeError, did_you_mean
+from levade.feedback import Feedback
 from levade.optimizers import SearchSpace
 from levade.policies import FreePolicy, JointPolicy, Policy
 from levade.robots import Robot, load_robot
+from levade.search.closed_loop import ClosedLoop
 from levade.search.evaluation import Evaluation, Trials
 from levade.search.memory import check_fits, needed
 from levade.search.optimizing import make_attempt
@@ -82,16 +84,22 @@ class Rollouts:
     starts: State
     reference: JointReference
     models: Models | None
+    feedback: Feedback | None = None
+    sensor_errors: Array | None = None
 
     def __getitem__(self, rows: slice) -> Rollouts:
         if rows == slice(0, len(self.reference.position)):
             return self  # a search starts all its trials from one state, which the engine knows again
         starts = self.starts if len(self.starts) == 1 else self.starts[rows]
-        return Rollouts(starts, self.reference[rows], None if self.models is None else self.models[rows])
+        models = None if self.models is None else self.models[rows]
+        if self.feedback is None or self.sensor_errors is None:
+            return Rollouts(starts, self.reference[rows], models)
+        feedback = self.feedback.along(self.feedback.reference[rows])
+        return Rollouts(starts, self.reference[rows], models, feedback, self.sensor_errors[rows])
 
     @classmethod
     def joined(cls, parts: Sequence[Rollouts]) -> Rollouts:
-        """Several, one after another; all on perturbed models, or none."""
+        """Several, one after another; all on perturbed models, or none, and none under feedback unless it is the only one."""
         first = parts[0]
         if len(parts) == 1:
             return first
@@ -126,6 +134,7 @@ class Objective:
         check_fits(self.engine, task.horizon_steps + task.hold_steps)
         self.policy = policy or make_policy(task, self.robot, start=self.state.joint_reference[0])
         self._drawn: dict[tuple[int, int], tuple[State, Models]] = {}
+        self._closed = None if task.feedback is None else ClosedLoop(task.feedback, task, self.engine, self.state)
 
     def with_task(self, task: Task) -> Objective:
         """Another task with the same robot, scene, physics and start, on the same simulation."""
@@ -176,8 +185,47 @@ class Objective:
         candidates, models = trials.pairs
         starts, drawn = self._models(trials.seed, trials.draw)
         # perturbed models have latency: until the first reference arrives, the joints have what they were commanded last
-        reference = replace(reference[candidates], before=self.state.joint_reference[0])
-        return Rollouts(starts[models], reference, drawn[models])
+        each = replace(reference[candidates], before=self.state.joint_reference[0])
+        made = Rollouts(starts[models], each, drawn[models])
+        if trials.along is None or self._closed is None:
+            return made
+        on_model = self._closed.sensed(reference)
+        feedback = self.regulator(trials.along, seed=trials.seed).along(on_model[candidates])
+        errors = self._closed.sensor_errors(trials.seed, trials.draw, len(drawn))
+        return replace(made, feedback=feedback, sensor_errors=errors[models])
+
+    def regulator(self, along: Array, *, seed: int) -> Feedback:
+        """The feedback of the task, with gains made along a motion, which holds the robot to that motion.
+
+        Args:
+            along: Weights of the motion, shape (d,).
+            seed: Seed of the search.
+
+        Raises:
+            LevadeError: If the task has no feedback.
+        """
+        if self._closed is None:
+            raise LevadeError("feedback: the task has none; give feedback: {rate: 250 Hz}")
+        reference = self.policy.reference(along[None], hold_steps=self.task.hold_steps)
+        return self._closed.feedback(along, reference, seed)
+
+    def sensed(self, weights: Array) -> Array:
+        """What a motion senses on the nominal model at the ticks of the task's feedback, shape (ticks, sensed).
+
+        Args:
+            weights: Its weights, shape (d,).
+        """
+        assert self._closed is not None
+        reference = self.policy.reference(weights[None], hold_steps=self.task.hold_steps)
+        return self._closed.sensed(reference)[0]
+
+    def remember(self, trials: Trials, trajectories: Trajectories) -> None:
+        """Keep what trials on the nominal model sensed, if the task has feedback: it holds perturbed models to that.
+
+        It is simulated again where it is not kept.
+        """
+        if self._closed is not None and trials.draw is None:
+            self._closed.remember(trajectories)
 
     def judge(self, trajectories: Trajectories, hold_steps: int) -> Evaluation:
         """Judge trajectories of which ``hold_steps`` of the hold were simulated.
@@ -249,10 +297,11 @@ def evaluate_many(asked: Sequence[tuple[Objective, Trials]]) -> list[Evaluation]
     Each has the same bits as alone.
     """
     found: list[Evaluation | None] = [None] * len(asked)
-    together: dict[tuple[int, int, bool, tuple[str, ...]], list[int]] = {}
+    together: dict[tuple[int, int, bool, tuple[str, ...], int], list[int]] = {}
     for i, (objective, trials) in enumerate(asked):
         steps = objective.policy.horizon_steps + trials.hold_steps
-        key = (id(objective.engine), steps, trials.draw is None, objective.bodies)
+        alone = -1 if trials.along is None else i  # under gains of its own
+        key = (id(objective.engine), steps, trials.draw is None, objective.bodies, alone)
         together.setdefault(key, []).append(i)
     for members in together.values():
         for i, evaluation in zip(members, _evaluate_in_parts([asked[i] for i in members]), strict=True):
@@ -289,11 +338,19 @@ def _evaluate_together(asked: Sequence[tuple[Objective, Trials]]) -> Iterator[Ev
     for first in range(0, len(owner), AT_ONCE):
         rows = slice(first, min(first + AT_ONCE, len(owner)))
         part = rollouts[rows]
-        trajectories = engine.rollout(part.starts, part.reference, models=part.models, record=record)
+        trajectories = engine.rollout(
+            part.starts,
+            part.reference,
+            models=part.models,
+            feedback=part.feedback,
+            sensor_errors=part.sensor_errors,
+            record=record,
+        )
         for i in np.unique(owner[rows]):
             objective, trials = asked[i]
             own = np.flatnonzero(owner[rows] == i)
             judged = trajectories if len(own) == trajectories.n else trajectories[slice(own[0], own[-1] + 1)]
+            objective.remember(trials, judged)
             parts[i].append(objective.judge(judged, trials.hold_steps))
     return map(_joined, parts)
 

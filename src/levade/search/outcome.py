@@ -35,6 +35,8 @@ class Trial:
         errors: Criterion -> error [SI].
         success: Whether it meets every criterion, for a robust task also on enough of the perturbed models.
         share: Share of the perturbed models that it succeeds on. None if it was not tried on any.
+        along: Weights of the motion along which the gains were made of the feedback that it had there, shape (d,). None if it
+            had none.
     """
 
     weights: Array
@@ -43,10 +45,11 @@ class Trial:
     errors: Mapping[str, float]
     success: bool
     share: float | None = None
+    along: Array | None = None
 
     @classmethod
-    def of(cls, weights: Array, cost: float, evaluation: Evaluation, i: int) -> Trial:
-        """Row ``i`` of an evaluation. weights: shape (d,)."""
+    def of(cls, weights: Array, cost: float, evaluation: Evaluation, i: int, along: Array | None = None) -> Trial:
+        """Row ``i`` of an evaluation. weights, along: shape (d,)."""
         return cls(
             weights=weights.copy(),
             cost=cost,
@@ -54,6 +57,7 @@ class Trial:
             errors={name: float(values[i]) for name, values in evaluation.errors.items()},
             success=bool(evaluation.success[i]),
             share=None if evaluation.samples is None else float(evaluation.samples.share[i]),
+            along=None if evaluation.samples is None else along,
         )
 
     @property

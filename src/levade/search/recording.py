@@ -76,4 +76,9 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
         "stopped": str(solution.stopped),
     }
     arrays = {name: np.ascontiguousarray(arrays[name]).copy() for name in (*ARRAYS, *LATER_ARRAYS)}
-    return Motion(meta, engine.xml, arrays, dict(engine.assets), task if holds_code(task) else None)
+    motion = Motion(meta, engine.xml, arrays, dict(engine.assets), task if holds_code(task) else None)
+    along = solution.best.along
+    if along is None:
+        return motion
+    feedback = objective.regulator(along, seed=seed).along(objective.sensed(solution.best.weights))
+    return motion.stabilised(feedback, made="in the search")

@@ -36,11 +36,13 @@ class Judge:
         task: The task.
         seed: Seed of the search, from which perturbed models follow.
         closing: Whether this judges at the end of the search: see `Trials`.
+        along: Weights of the motion along which the gains of the task's feedback are made, shape (d,). None judges without.
     """
 
     task: Task
     seed: int
     closing: bool = False
+    along: Array | None = None
 
     def evaluate(
         self,
@@ -92,6 +94,9 @@ class Judge:
         robust = self.task.robust
         if robust is None:
             return population
+        if self.task.feedback is not None and level.robust:  # the best once more, with other gains
+            others = replace(self, task=replace(self.task, feedback=None)).most(population, level)
+            return others + (1 + robust.fixed) * (1 + (level.hold_steps < self.task.hold_steps))
         validated = 1 + robust.fixed
         if not level.robust:
             partial = any(
@@ -152,7 +157,7 @@ class Judge:
             return samples
         rows_of, columns_of = (axis.ravel() for axis in np.meshgrid(np.arange(len(rows)), columns, indexing="ij"))
         asked = self._trials(candidates[rows], hold_steps)
-        found = yield replace(asked, draw=draw, pairs=(rows_of, columns_of))
+        found = yield replace(asked, draw=draw, pairs=(rows_of, columns_of), along=self.along)
         return samples.updated((rows[rows_of], columns_of), found)
 
     def _trials(self, candidates: Array, hold_steps: int) -> Trials:

@@ -79,6 +79,7 @@ class Search:
         self._starts: list[Trial] = []  # motions of the nominal model to start robust stages from
         self._trials = self._generations = self._diverged = 0
         self._trials_to_success: int | None = None
+        self._regulated = 0  # generation in which gains were last made
         self._stopped = Stopped.RUNNING
         self._asking: _Asking = self._run()
         self._event: Trials | Generation | None = None
@@ -161,6 +162,7 @@ class Search:
             yield from self._begin()
             while self._affordable():
                 yield from self._reweigh()
+                yield from self._regulate(self._generations - self._regulated)
                 report = yield from self._generation()
                 before = self._schedule.level
                 yield from self._follow(self._schedule.after(report), before)
@@ -213,6 +215,30 @@ class Search:
             yield from self._weigh_best_again()
             self._forget_costs()
 
+    def _regulate(self, since: int) -> _Asking:
+        """Make the gains of the task's feedback along the best motion, if they are due; those that hold it better stay.
+
+        Args:
+            since: Generations since they were made.
+        """
+        feedback, level, best = self._task.feedback, self._schedule.level, self._best
+        if feedback is None or not level.robust or best is None:
+            return
+        current = self._judge.along
+        if current is not None and (since < feedback.every or np.array_equal(current, best.weights)):
+            return
+        self._regulated = self._generations
+        judge = replace(self._judge, along=best.weights)
+        evaluation = yield from judge.evaluate(best.weights[None], level)
+        self._trials += evaluation.trials
+        cost = float(evaluation.cost(self._weights, self._task.robust)[0])
+        again = Trial.of(best.weights, cost, evaluation, 0, judge.along)
+        if current is None or again.rank <= best.rank:
+            self._judge, self._best = judge, again
+            if self._trials_to_success is None and again.success:
+                self._trials_to_success = self._trials
+            self._forget_costs()
+
     def _generation(self) -> Generator[Trials | Generation, Evaluation, Report]:
         """Ask for the candidates of a generation, tell the optimizer, keep the best, and report."""
         task, schedule, optimizer = self._task, self._schedule, self._optimizer
@@ -243,7 +269,7 @@ class Search:
         if self._trials_to_success is None and judged.success.any():
             self._trials_to_success = self._trials
         self._starts += [start] if start is not None else []
-        self._keep_best(contenders, judged)
+        self._keep_best(contenders, judged, self._judge.along)
         yield self._state(cost, evaluation, validated)
         return Report(spent, self._trials, self._trials_to_success, promoted=ends, found_start=start is not None)
 
@@ -288,16 +314,19 @@ class Search:
             self._optimizer = make_attempt(self._task, self._space, seed=self._seed, attempt=self._schedule.attempt)
         self._scale_step()
         level = self._schedule.level
+        if not level.robust:
+            self._judge = replace(self._judge, along=None)
         self._forget_costs(hold=level.hold_steps != before.hold_steps)
         if level != before:
             self._trials += yield from self._judge_best_again(self._judge, level)
+        yield from self._regulate(0)
         if level.robust:
             assert self._best is not None
             self._best = better(self._kept, self._best)
 
     def _close(self) -> _Asking:
         """Judge the best motion as the task does, whatever the last stage simulated."""
-        judge = replace(self._judge, closing=True)
+        judge = replace(self._judge, closing=True, along=None if self._best is None else self._best.along)
         level, full = self._schedule.level, full_level(self._task)
         if self._best is None:
             candidate = self._space.mean[None]
@@ -319,7 +348,7 @@ class Search:
         candidate = self._best.weights[None]
         evaluation = yield from judge.evaluate(candidate, level)
         self._best = None
-        self._keep_best(candidate, evaluation)
+        self._keep_best(candidate, evaluation, judge.along)
         return 0 if evaluation.samples is None else evaluation.trials
 
     def _weigh_best_again(self) -> _Asking:
@@ -339,19 +368,20 @@ class Search:
         """A trial with its cost by the current weights. One that was tried on many models has to be simulated again."""
         if trial.share is not None:
             on_models = Level(level.hold_steps, robust=True)
-            evaluation = yield from self._judge.evaluate(trial.weights[None], on_models)
+            judge = replace(self._judge, along=trial.along)
+            evaluation = yield from judge.evaluate(trial.weights[None], on_models)
         else:
             terms = {name: np.array([value]) for name, value in trial.terms.items()}
             diverged = np.array([any(value >= DIVERGED for value in trial.terms.values())])
             evaluation = Evaluation(terms, {}, np.array([trial.success]), diverged)
         return replace(trial, cost=float(evaluation.cost(self._weights, self._task.robust)[0]))
 
-    def _keep_best(self, candidates: Array, evaluation: Evaluation) -> None:
-        """Keep the best trial of all, by its rank."""
+    def _keep_best(self, candidates: Array, evaluation: Evaluation, along: Array | None = None) -> None:
+        """Keep the best trial of all, by its rank. along: see `Judge`."""
         cost = evaluation.cost(self._weights, self._task.robust)
         share = np.zeros(len(cost)) if evaluation.samples is None else evaluation.samples.share
         first = int(np.lexsort((cost, -share, ~evaluation.success))[0])
-        trial = Trial.of(candidates[first], float(cost[first]), evaluation, first)
+        trial = Trial.of(candidates[first], float(cost[first]), evaluation, first, along)
         if self._best is None or trial.rank < self._best.rank:
             self._best = trial
 

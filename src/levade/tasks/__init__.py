@@ -16,6 +16,7 @@ from levade.tasks.document import (
     task_to_yaml,
 )
 from levade.tasks.parts import Change, Cost, HorizonRange, PolicyChoice, RobotChoice, Search, Stage, StartChoice
+from levade.tasks.regulation import Regulation
 from levade.tasks.robust import Racing, Robust
 from levade.tasks.task import Task
 from levade.tasks.validation import looks_at_hold
@@ -27,6 +28,7 @@ __all__ = [
     "HorizonRange",
     "PolicyChoice",
     "Racing",
+    "Regulation",
     "RobotChoice",
     "Robust",
     "Search",

@@ -66,7 +66,7 @@ TERMS = {
 
 _ORDER = (
     *("name", "description", "robot", "scene", "physics", "start", "horizon", "hold"),
-    *("policy", "costs", "stages", "success", "search", "robust"),
+    *("policy", "costs", "stages", "success", "search", "robust", "feedback"),
 )
 _SEQUENCE = "tag:yaml.org,2002:seq"
 _BUILT_IN = Path(__file__).parent / "data"

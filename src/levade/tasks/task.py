@@ -9,10 +9,12 @@ from levade.costs import Criterion
 from levade.engines import Physics, Settled
 from levade.scenes import Scene
 from levade.tasks.parts import Change, Cost, HorizonRange, PolicyChoice, RobotChoice, Search, Stage, StartChoice
+from levade.tasks.regulation import Regulation
 from levade.tasks.robust import Robust
 from levade.tasks.validation import (
     check_costs,
     check_durations,
+    check_feedback,
     check_name,
     check_policy,
     check_search,
@@ -30,6 +32,7 @@ class Task:
     costs: name -> term and weight. success: name -> criterion; a motion succeeds when all hold.
     stages: in order; each changes the weights of the task's costs, and the last one should leave them as they are.
     robust: None looks for a motion of the nominal model alone.
+    feedback: None runs candidates on perturbed models without feedback.
     """
 
     name: str
@@ -46,6 +49,7 @@ class Task:
     stages: tuple[Stage, ...] = (Stage(),)
     search: Search = Search()
     robust: Robust | None = None
+    feedback: Regulation | None = None
 
     def __post_init__(self) -> None:
         check_name(self.name)
@@ -55,6 +59,7 @@ class Task:
         check_search(self.search, self.costs)
         check_stages(self.stages, self.costs, self.success, hold=self.hold, hold_steps=self.hold_steps)
         check_starts(self.robust, self.stages)
+        check_feedback(self.feedback, self.robust, self.horizon)
 
     def changed(self, change: Change) -> Task:
         """The same task with one more change of its weights; it replaces factors that it names in the same generation."""

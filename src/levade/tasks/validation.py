@@ -12,6 +12,7 @@ from levade.costs import Criterion
 from levade.errors import LevadeError, did_you_mean
 from levade.optimizers import OPTIMIZERS, can_restart, settings
 from levade.tasks.parts import Change, Cost, HorizonRange, PolicyChoice, Search, Stage
+from levade.tasks.regulation import Regulation
 from levade.tasks.robust import Robust
 
 LONGEST = 120.0
@@ -109,6 +110,22 @@ def check_starts(robust: Robust | None, stages: Sequence[Stage]) -> None:
         raise LevadeError(
             f"robust.starts: {robust.starts} motions of the nominal model to start from, but {missing}; give"
             " stages of both kinds, or leave starts out"
+        )
+
+
+def check_feedback(feedback: Regulation | None, robust: Robust | None, horizon: float | HorizonRange) -> None:
+    """Feedback needs something to correct."""
+    if feedback is None:
+        return
+    if robust is None:
+        raise LevadeError(
+            "feedback: is on while candidates run on perturbed models, and the task has none; give robust, such as"
+            " robust: {samples: 8}"
+        )
+    if isinstance(horizon, HorizonRange):
+        raise LevadeError(
+            f"feedback: its gains are made for one duration, and the horizon is {horizon}; give a number, such as the"
+            " duration of a motion that a search without feedback found"
         )
 
 

@@ -1,0 +1,20 @@
+"""What may be chosen of a regulator."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Design:
+    """What distinguishes one regulator of a motion from another.
+
+    Attributes:
+        motion: Correction that costs 1 up to the horizon [rad].
+        hold: Correction that costs 1 after it [rad].
+        bound: Bound on each correction [rad].
+    """
+
+    motion: float = 0.3
+    hold: float = 0.1
+    bound: float = 0.3
