@@ -120,6 +120,8 @@ class Embodiment:
         trunk_com_offset: Centre of mass of the trunk, with what is fixed to it and without the legs, in the trunk frame [m],
             shape (3,).
         legs: The legs' geometry, in leg order. Empty if it is not known (files of early versions).
+        trunk_balls: Balls whose lowest point is the trunk's, whichever way it is turned: centre in the trunk frame and radius
+            [m], shape (k, 4). Empty if it touches nothing, or it is not known (files of earlier versions).
     """
 
     trunk: str
@@ -128,6 +130,7 @@ class Embodiment:
     limits: JointLimits
     trunk_com_offset: Array
     legs: tuple[LegGeometry, ...] = ()
+    trunk_balls: Array = field(default_factory=lambda: np.zeros((0, 4)))
 
     @property
     def joints(self) -> int:

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from levade.arrays import Array
 from levade.embodiment import Embodiment, JointLimits, LegGeometry
-from levade.rotations import cross, rotate
+from levade.rotations import conjugate, cross, rotate
 
 
 @dataclass(frozen=True)
@@ -260,3 +260,10 @@ class Trajectories:
         """(n, rows) [m], the lowest point of a leg's foot over z = 0, for the given rows only."""
         foot = rotate(self.trunk_quaternion[:, rows], leg.foot_position(self.joint_position[:, rows]))
         return self.trunk_position[:, rows][..., 2] + foot[..., 2] - leg.sole
+
+    def trunk_clearance(self, rows: slice | int = slice(None)) -> Array:
+        """(n, rows) [m], the trunk's lowest point over z = 0, for the given rows only."""
+        balls = self.embodiment.trunk_balls
+        up = rotate(conjugate(self.trunk_quaternion[:, rows]), np.array([0.0, 0.0, 1.0]))
+        below = np.einsum("...c,kc->...k", up, balls[:, :3]) - balls[:, 3]  # in one order for any number of rows
+        return self.trunk_position[:, rows][..., 2] + below.min(axis=-1)

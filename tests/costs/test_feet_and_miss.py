@@ -9,6 +9,7 @@ import pytest
 from levade.costs import Criterion, Miss
 from levade.errors import LevadeError
 from levade.robots import Robot, load_robot
+from levade.robots.shapes import balls
 from levade.trajectory import JointReference, Trajectories
 
 
@@ -49,6 +50,48 @@ def motion(robot: Robot) -> tuple[Trajectories, np.ndarray]:
         diverged=np.zeros(n, dtype=bool),
     )
     return trajectories, heights
+
+
+@pytest.mark.parametrize("kind", ["box", "sphere", "capsule", "cylinder", "ellipsoid"])
+def test_balls_reach_as_low_as_the_shape_whichever_way_it_is_turned(kind: str) -> None:
+    """Against the support of each shape, in closed form; a cylinder and an ellipsoid are sampled."""
+    size = np.array([0.5, 0.2, 0.1])
+    geom = f"<geom type='{kind}' size='0.5 0.2 0.1' mass='1'/>"
+    world = f"<mujoco><worldbody><body><freejoint/>{geom}</body></worldbody></mujoco>"
+    model = mujoco.MjModel.from_xml_string(world)
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    found = balls(model, data, 0)
+    for up in np.random.default_rng(1).normal(size=(50, 3)):
+        up /= np.linalg.norm(up)
+        depth = {
+            "box": np.abs(size * up).sum(),
+            "sphere": 0.5,
+            "capsule": 0.5 + 0.2 * abs(up[2]),
+            "cylinder": 0.5 * np.hypot(*up[:2]) + 0.2 * abs(up[2]),
+            "ellipsoid": np.linalg.norm(size * up),
+        }[kind]
+        lowest = (found[:, 3] - found[:, :3] @ up).max()
+        assert lowest == pytest.approx(depth, abs=1e-8 if kind in ("box", "sphere", "capsule") else 0.02)
+
+
+def test_the_clearance_of_the_trunk_is_that_of_its_lowest_corner(motion: tuple[Trajectories, np.ndarray]) -> None:
+    """HyQ2Max's trunk is a box; its corners, by rotation matrices."""
+    trajectories, _ = motion
+    model = load_robot("hyq2max").model
+    boxes = [g for g in range(model.ngeom) if model.geom_bodyid[g] == model.body("trunk").id and model.geom_contype[g]]
+    assert [model.geom_type[g] for g in boxes] == [mujoco.mjtGeom.mjGEOM_BOX]
+    signs = np.array(np.meshgrid([-1, 1], [-1, 1], [-1, 1])).reshape(3, 8).T
+    corners = model.geom_pos[boxes[0]] + signs * model.geom_size[boxes[0]]
+    found = Criterion("trunk_clearance", minimum=100.0, at="min").error(trajectories)
+    for i in range(trajectories.n):
+        lowest = np.inf
+        for k in range(trajectories.steps):
+            matrix = np.empty(9)
+            mujoco.mju_quat2Mat(matrix, trajectories.trunk_quaternion[i, k])
+            height = (corners @ matrix.reshape(3, 3).T)[:, 2] + trajectories.trunk_position[i, k, 2]
+            lowest = min(lowest, height.min())
+        assert found[i] == pytest.approx(lowest - 100.0, abs=1e-9)
 
 
 def test_soles_are_where_mujoco_has_them(motion: tuple[Trajectories, np.ndarray]) -> None:

@@ -22,7 +22,7 @@ from levade.trajectory import Trajectories
 
 Quantity = Literal[
     "roll", "pitch", "yaw", "tilt", "x", "y", "height", "travel", "speed", "vertical_speed", "angular_speed",
-    "lowest_foot", "highest_foot", "angle_margin", "speed_margin", "torque_speed_margin", "duration",
+    "lowest_foot", "highest_foot", "trunk_clearance", "angle_margin", "speed_margin", "torque_speed_margin", "duration",
 ]  # fmt: skip
 
 QUANTITIES: dict[str, str] = {
@@ -39,6 +39,7 @@ QUANTITIES: dict[str, str] = {
     "angular_speed": "rad/s",
     "lowest_foot": "m",
     "highest_foot": "m",
+    "trunk_clearance": "m",
     "angle_margin": "rad",
     "speed_margin": "of limit",
     "torque_speed_margin": "of limit",
@@ -111,6 +112,7 @@ class Criterion:
             leaves of its range, its speed limit, its actuator's line (`levade.trajectory.JointLimits`).
         duration [s]: the horizon T, where it is a decision of the search.
         lowest_foot, highest_foot [m]: height over z = 0 of the sole that is lowest, or highest, among the ``legs``.
+        trunk_clearance [m]: height over z = 0 of the lowest point of the trunk, and of what is fixed to it.
     target, tolerance: required value, and the distance from it that still counts. Angles wrap.
     minimum, maximum: required bounds, instead of a target.
     at: at the horizon T; at the end; the largest ("max") or smallest ("min") value of the whole trial, hold included;
@@ -220,6 +222,10 @@ def quantity_values(quantity: AnyQuantity, trajectories: Trajectories, rows: sli
     if quantity in OF_FEET:
         soles = [trajectories.sole_height(leg, rows) for leg in chosen_legs(trajectories, legs)]
         return functools.reduce(np.minimum if quantity == "lowest_foot" else np.maximum, soles)
+    if quantity == "trunk_clearance":
+        if not len(trajectories.embodiment.trunk_balls):
+            raise LevadeError("trunk_clearance: nothing of the trunk can touch, or its shape is not known; use height")
+        return trajectories.trunk_clearance(rows)
     if quantity in ("x", "y", "height"):
         return trajectories.trunk_com_position(rows)[..., ("x", "y", "height").index(quantity)]
     if quantity == "travel":
@@ -229,12 +235,22 @@ def quantity_values(quantity: AnyQuantity, trajectories: Trajectories, rows: sli
         return _margin(quantity, trajectories, rows)
     if quantity == "duration":
         return np.repeat(trajectories.horizon[:, None], len(range(*rows.indices(trajectories.steps))), axis=1)
+    if quantity in ("speed", "vertical_speed", "angular_speed"):
+        return _speed(quantity, trajectories, rows)
+    return _angle(quantity, trajectories, rows)
+
+
+def _speed(quantity: str, trajectories: Trajectories, rows: slice) -> Array:
+    """(n, rows), of the trunk's centre of mass, or of its turning."""
     if quantity == "vertical_speed":
         return trajectories.trunk_com_velocity(rows)[..., 2]
     if quantity == "speed":
         return np.linalg.norm(trajectories.trunk_com_velocity(rows), axis=-1)
-    if quantity == "angular_speed":
-        return np.linalg.norm(trajectories.trunk_angular_velocity[:, rows], axis=-1)
+    return np.linalg.norm(trajectories.trunk_angular_velocity[:, rows], axis=-1)
+
+
+def _angle(quantity: str, trajectories: Trajectories, rows: slice) -> Array:
+    """(n, rows), of the trunk's attitude."""
     quaternion = trajectories.trunk_quaternion[:, rows]
     if quantity == "pitch":
         return pitch_past_vertical(quaternion)

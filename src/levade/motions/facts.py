@@ -18,7 +18,7 @@ Lines = tuple[Array, Array] | tuple[None, None]
 
 
 def robot_facts(embodiment: Embodiment, legs: Sequence[Leg]) -> dict[str, Any]:
-    """Write what ``meta`` holds of a robot: ``trunk``, ``legs``, ``limits`` and ``trunk_com_offset``."""
+    """Write what ``meta`` holds of a robot: ``trunk``, ``legs``, ``limits``, ``trunk_com_offset`` and ``trunk_balls``."""
     return {
         "trunk": embodiment.trunk,
         "legs": {
@@ -38,6 +38,7 @@ def robot_facts(embodiment: Embodiment, legs: Sequence[Leg]) -> dict[str, Any]:
         },
         "limits": _limit_facts(embodiment.limits),
         "trunk_com_offset": embodiment.trunk_com_offset.tolist(),
+        "trunk_balls": embodiment.trunk_balls.tolist(),
     }
 
 
@@ -77,6 +78,7 @@ def embodiment_of(meta: Mapping[str, Any], joint_names: tuple[str, ...], lines: 
             for name, leg in meta["legs"].items()
             if leg.get("geometry") is not None
         ),
+        trunk_balls=np.array(meta.get("trunk_balls", []), dtype=float).reshape(-1, 4),
     )
 
 

@@ -63,7 +63,7 @@ META = (
 )
 """Keys of ``meta``."""
 
-LATER = ("cost_weights", "policy", "held", "model_joints", "initial")
+LATER = ("cost_weights", "policy", "held", "model_joints", "initial", "trunk_balls")
 """Keys of ``meta`` that files of early versions lack. ``feedback`` is there if the motion has a stabiliser."""
 
 _LONGEST_META = 8_000_000

@@ -149,6 +149,7 @@ class MetaForm(_Form):
     legs: Annotated[dict[Name, LegForm], Field(min_length=1)]
     limits: LimitsForm
     trunk_com_offset: Vector
+    trunk_balls: list[Annotated[list[Number], Field(min_length=4, max_length=4)]] = []
     held: dict[Name, Number] = {}
     model_joints: list[Name] = []
     policy: PolicyForm | None = None

@@ -24,7 +24,7 @@ from levade.embodiment import Embodiment, JointLimits, LegGeometry
 from levade.errors import LevadeError, did_you_mean
 from levade.robots.actuation import Actuation
 from levade.robots.findings import Finding
-from levade.robots.shapes import support
+from levade.robots.shapes import balls, support
 from levade.robots.understanding import Leg
 
 
@@ -209,6 +209,7 @@ class Robot:
             limits=self.limits,
             trunk_com_offset=self.trunk_com_offset,
             legs=self.leg_geometry,
+            trunk_balls=self.trunk_balls,
         )
 
     @cached_property
@@ -231,6 +232,14 @@ class Robot:
         parts = list(self.trunk_parts)
         places = self.data_at(self.postures["neutral"]).xipos[parts]
         return np.average(places, axis=0, weights=self.model.body_mass[parts])
+
+    @cached_property
+    def trunk_balls(self) -> Array:
+        """(k, 4) [m], what of the trunk, and of what is fixed to it, can touch: see `levade.embodiment.Embodiment`."""
+        model, data = self.model, self.data_at(np.zeros(len(self.joint_names)))
+        touching = (model.geom_contype | model.geom_conaffinity) != 0
+        geoms = np.flatnonzero(touching & np.isin(model.geom_bodyid, self.trunk_parts))
+        return np.concatenate([np.zeros((0, 4)), *(balls(model, data, int(geom)) for geom in geoms)])
 
     @property
     def _free_joint(self) -> int:

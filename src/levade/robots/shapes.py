@@ -64,3 +64,29 @@ def tip(model: mujoco.MjModel, data: mujoco.MjData, geom: int, joint: int) -> Ar
     for _ in range(3):
         away = support(model, data, geom, away) - data.xanchor[joint]
     return data.xanchor[joint] + away
+
+
+def balls(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> Array:
+    """Balls whose lowest point is a geom's, whichever way it is turned: centres in the world and radii, shape (k, 4) [m].
+
+    Exact for spheres, capsules, boxes and the boxes around what has no better shape; others are sampled in a hundred
+    directions, to a few per mille of their size.
+    """
+    size, kind, place = model.geom_size[geom], model.geom_type[geom], data.geom_xpos[geom]
+    if kind == mujoco.mjtGeom.mjGEOM_SPHERE:
+        return np.array([[*place, size[0]]])
+    if kind == mujoco.mjtGeom.mjGEOM_CAPSULE:
+        along = size[1] * data.geom_xmat[geom].reshape(3, 3)[:, 2]
+        return np.array([[*(place + along), size[0]], [*(place - along), size[0]]])
+    points = np.unique([support(model, data, geom, direction).round(9) for direction in _DIRECTIONS], axis=0)
+    return np.column_stack([points, np.zeros(len(points))])
+
+
+def _spiral(n: int) -> Array:
+    """n unit vectors, spread evenly."""
+    k = np.arange(n) + 0.5
+    polar, azimuth = np.arccos(1 - 2 * k / n), np.pi * (1 + 5**0.5) * k
+    return np.column_stack([np.sin(polar) * np.cos(azimuth), np.sin(polar) * np.sin(azimuth), np.cos(polar)])
+
+
+_DIRECTIONS = _spiral(100)
