@@ -13,7 +13,7 @@ from levade.costs import Criterion, Position
 from levade.errors import LevadeError
 from levade.optimizers import SearchSpace
 from levade.search import Evaluation, Generation, Search, Stopped, Trials
-from levade.tasks import Change, Cost, Robust, Stage, Task
+from levade.tasks import Change, Cost, Regulation, Robust, Stage, Task
 from levade.tasks import Search as Settings
 
 POPULATION = 8
@@ -294,3 +294,35 @@ def _wanted(search: Search) -> Trials:
     trials = search.ask()
     assert trials is not None
     return trials
+
+
+@pytest.mark.parametrize("better", [True, False])
+def test_gains_that_hold_the_best_motion_less_well_are_not_taken(better: bool) -> None:
+    """Feedback whose gains are made again each generation: with later gains every roll-out costs less, or more."""
+    task = dataclasses.replace(
+        make_task(*NOMINAL_THEN_ROBUST, robust=REDRAWN, trials=500), feedback=Regulation(every=1)
+    )
+    search, asked, seen = Search(task, SPACE, seed=0), [], []
+    while (trials := search.ask()) is not None:
+        evaluation = answer(task, trials)
+        if trials.along is not None:
+            asked += [trials.along.tobytes()] if trials.along.tobytes() not in asked else []
+            change = (0.5 if better else 2.0) ** asked.index(trials.along.tobytes())
+            terms = {"position": evaluation.terms["position"] * change}
+            evaluation = dataclasses.replace(evaluation, terms=terms)
+        generation = search.tell(evaluation)
+        if generation is not None and generation.stage_name == "robust" and generation.best.along is not None:
+            seen.append(generation.best.along.tobytes())
+    assert len(asked) > 3
+    assert len(set(seen)) > 3 if better else set(seen) == {asked[0]}
+
+
+def test_feedback_is_asked_for_on_perturbed_models_only() -> None:
+    """And not before there is a motion to make gains along."""
+    task = dataclasses.replace(make_task(*NOMINAL_THEN_ROBUST, robust=REDRAWN), feedback=Regulation())
+    asked, _ = driven(Search(task, SPACE, seed=0))
+    assert all(trials.along is None for trials in asked if trials.draw is None)
+    gains = [trials.along for trials in asked if trials.draw is not None]
+    first = next(i for i, along in enumerate(gains) if along is not None)
+    assert first <= 1  # the motion to make them along is judged before
+    assert all(along is not None for along in gains[first:])
