@@ -134,6 +134,7 @@ def summary(outcome: Outcome, numerics: Mapping[str, Numeric]) -> dict[str, obje
         "cost": result.cost,
         "cost_terms": result.cost_terms,
         "errors": result.errors,
+        "feedback": motion.stabiliser is not None,
         "numerics": {name: one.to_json() for name, one in numerics.items()},
         "stopped": str(solution.stopped),
         "diverged": solution.diverged,
@@ -185,6 +186,8 @@ def _tell(console: Console, outcome: Outcome, earlier: list[Motion], numerics: M
         console.print(
             f"[red]No success[/] within {spent}. {advice}; {directory}/progress.csv shows how the search went."
         )
+    if (feedback := outcome.motion.stabiliser) is not None:
+        console.print(f"A regulator at {feedback['rate']:g} Hz holds the robot to it; levade check says what it is worth.")
     if solution.diverged:
         broke = counted(solution.diverged, "trial")
         console.print(f"[yellow]{broke} diverged[/]: their simulations broke down, and rank last.")
