@@ -187,7 +187,9 @@ def _tell(console: Console, outcome: Outcome, earlier: list[Motion], numerics: M
             f"[red]No success[/] within {spent}. {advice}; {directory}/progress.csv shows how the search went."
         )
     if (feedback := outcome.motion.stabiliser) is not None:
-        console.print(f"A regulator at {feedback['rate']:g} Hz holds the robot to it; levade check says what it is worth.")
+        console.print(
+            f"A regulator at {feedback['rate']:g} Hz holds the robot to it; levade check says what it is worth."
+        )
     if solution.diverged:
         broke = counted(solution.diverged, "trial")
         console.print(f"[yellow]{broke} diverged[/]: their simulations broke down, and rank last.")

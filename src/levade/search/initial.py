@@ -116,9 +116,10 @@ def fitted(policy: JointPolicy, motion: Motion) -> Array:
     if isinstance(policy, FreePolicy):
         steps = int(np.clip(len(position), *policy.bounds))
         own = motion.policy
-        if policy.goal is None and own is not None and own.size == policy.policy.size and steps == len(position):
-            decision = policy.decision(motion["weights"][None], steps=steps)
-            if np.array_equal(policy.reference(decision, hold_steps=0).position[0, :steps], position):
+        if own is not None and own.size == policy.policy.size and steps == len(position):
+            goal = None if policy.goal is None or own.ends is None else own.ends.goal
+            decision = policy.decision(motion["weights"][None], steps=steps, goal=goal)
+            if np.allclose(policy.reference(decision, hold_steps=0).position[0, :steps], position, rtol=0, atol=1e-12):
                 return decision
         return policy.imitate(_stretched(position, steps))
     weights = motion["weights"][None]

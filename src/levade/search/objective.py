@@ -205,7 +205,7 @@ class Objective:
             LevadeError: If the task has no feedback.
         """
         if self._closed is None:
-            raise LevadeError("feedback: the task has none; give feedback: {rate: 250 Hz}")
+            raise LevadeError("feedback: the task has none; give feedback: {}")
         reference = self.policy.reference(along[None], hold_steps=self.task.hold_steps)
         return self._closed.feedback(along, reference, seed)
 
