@@ -95,7 +95,7 @@ def arms(task: Any, seed: int, options: argparse.Namespace) -> dict[str, Any]:
 def as_table(rows: list[dict[str, Any]]) -> str:
     """One line a task and robot: shares of its seeds, in order, and what they cost."""
     lines = [
-        "| task, robot | seeds | open loop | stabilised afterwards | feedback in the search | CPU time per step, with / without |",
+        "| task, robot | seeds | open loop | stabilised afterwards | feedback in the search | CPU time per step |",
         "|---|---|---|---|---|---|",
     ]
     for key in dict.fromkeys((row["task"], row["robot"]) for row in rows):
