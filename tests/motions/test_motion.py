@@ -16,11 +16,11 @@ import mujoco
 import numpy as np
 import pytest
 
+from levade import archive as archive_module
 from levade.checks import check
 from levade.errors import LevadeError
 from levade.exports import export
 from levade.motions import ARRAYS, LATER, LATER_ARRAYS, META, SCHEMA, Motion, RecordedSimulation, replay_in
-from levade.motions import archive as archive_module
 from levade.motions.facts import robot_facts
 from levade.motions.model import check_text
 from levade.report.summary import provenance_data, summary_data

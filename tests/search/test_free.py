@@ -17,7 +17,8 @@ from levade.search.initial import initial_guess
 from levade.search.objective import evaluate_many
 from levade.search.recording import record
 from levade.search.run import MOTION, resume, run
-from levade.tasks import HorizonRange, load_task
+from levade.tasks import HorizonRange, load_task, task_text
+from levade.tasks.policy import goal_posture
 
 RANGE = "horizon={minimum: 60 ms, maximum: 0.3 s, initial: 0.12}"
 SMALL = [
@@ -140,6 +141,9 @@ def test_a_search_finds_the_duration_that_a_task_asks_for() -> None:
         (["horizon={minimum: 0.1, maximum: 0.3, initial: 0.4}"], "horizon.initial: 0.4 s should be within the bounds"),
         (["horizon={minimum: 0.1}"], "horizon.maximum: missing"),
         (["horizon={minimum: 0.1, maxmum: 0.3}"], "no 'maxmum'|maximum"),
+        (["horizon=free"], "horizon: should be a number of seconds, or bounds .*minimum: 0.3 s.* is 'free'"),
+        (["horizon=[0.3, 1.5]"], "bounds for the search such as .*is a list"),
+        (["policy.goal=fre", "policy.settle=0.4"], "policy.goal: no posture 'fre'; did you mean free"),
         (["horizon={minimum: 0.0001, maximum: 0.3}"], "at least one time step"),
         (["policy.goal=free"], "policy.goal: it is free, but no reference settles there"),
         (["policy.goal={hnd: free}", "policy.settle=0.4"], "no leg or joint 'hnd'.*hind"),
@@ -161,6 +165,46 @@ def test_a_goal_like_another_tasks_start_is_its_posture(tmp_path: Path) -> None:
         load_task("rearing", changes=["policy.goal={like: posture-recovery}"])
     with pytest.raises(LevadeError, match=r"policy.goal.like: no task 'sit-to-stnd'; did you mean sit-to-stand"):
         load_task("rearing", changes=["policy.goal={like: sit-to-stnd}"])
+
+
+def test_a_goal_like_a_file_is_relative_to_the_task_file(
+    free: Objective, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A task next to it, and a motion; with a file of the same name where one is, which is not meant."""
+    away = tmp_path / "away"
+    for folder in (away, tmp_path / "sit"):
+        folder.mkdir()
+    (tmp_path / "next.yaml").write_text("name: next\nstart: {settled: {posture: {front: crouched}}}\n")
+    (away / "next.yaml").write_text("name: other\nstart: {settled: {posture: stretched}}\n")
+    text = task_text("sit-to-stand").replace("goal: neutral", "goal: {like: next.yaml}")
+    (tmp_path / "sit.yaml").write_text(text)
+    (tmp_path / "on.yaml").write_text(text.replace("next.yaml", "./sit/motion.npz"))
+    monkeypatch.chdir(away)
+    assert load_task("../sit.yaml").policy.goal == {"front": "crouched"}
+    assert load_task("sit-to-stand", changes=["policy.goal={like: next.yaml}"]).policy.goal == "stretched"
+
+    record(free, solve(free, seed=0), seed=0).save(tmp_path / "sit" / "motion.npz")
+    task = load_task("../on.yaml")
+    assert isinstance(task.policy.goal, dict)
+    np.testing.assert_array_equal(goal_posture(task.policy, free.robot), free.robot.posture("neutral"))
+
+
+def test_a_goal_like_a_motion_that_has_none_is_one_line(tmp_path: Path) -> None:
+    path = tmp_path / "motion.npz"
+    start = np.array('{"task": {"start": {"settled": null, "fall": {"height": 0.65}}}}')
+    np.savez(path, joint_names=np.array(["lf_haa"]), joint_position_reference0=np.zeros(1), meta=start)
+    with pytest.raises(LevadeError, match="does not start standing in a posture; name a motion that does"):
+        load_task("rearing", changes=[f"policy.goal={{like: {path}}}"])
+    np.savez(
+        path, joint_names=np.array(["a\x1b"]), joint_position_reference0=np.zeros(1), meta=np.array('{"task": {}}')
+    )
+    with pytest.raises(LevadeError, match="its start cannot be read; damaged"):
+        load_task("rearing", changes=[f"policy.goal={{like: {path}}}"])
+    np.savez(path, other=np.zeros(1))
+    with pytest.raises(LevadeError, match="does not say what its joints were commanded"):
+        load_task("rearing", changes=[f"policy.goal={{like: {path}}}"])
+    with pytest.raises(LevadeError, match=r"policy.goal.like: .*nowhere.npz: no such file"):
+        load_task("rearing", changes=["policy.goal={like: nowhere.npz}"])
 
 
 def test_a_range_of_horizons_begins_in_the_middle_of_its_logarithm() -> None:

@@ -14,11 +14,11 @@ from typing import Any
 
 import numpy as np
 
+from levade.archive import unpack
 from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.feedback import ARRAYS as FEEDBACK_ARRAYS
 from levade.feedback import META as FEEDBACK_META
-from levade.motions.archive import unpack
 from levade.motions.form import check
 from levade.motions.model import check_text
 from levade.rotations import conjugate, rotate

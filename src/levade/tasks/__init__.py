@@ -6,7 +6,6 @@ task = load_task("my-task.yaml", robot="my/robot.yaml")
 
 from levade.tasks.document import (
     TERMS,
-    builtin_tasks,
     holds_code,
     load_task,
     task_checksum,
@@ -15,6 +14,7 @@ from levade.tasks.document import (
     task_to_dict,
     task_to_yaml,
 )
+from levade.tasks.files import builtin_tasks
 from levade.tasks.parts import Change, Cost, HorizonRange, PolicyChoice, RobotChoice, Search, Stage, StartChoice
 from levade.tasks.regulation import Regulation
 from levade.tasks.robust import Racing, Robust

@@ -29,10 +29,9 @@ from levade.costs import (
 )
 from levade.costs.success import QUANTITIES
 from levade.document import CONTROL, build, kind_of, parse_yaml, read_text, read_yaml
-from levade.errors import LevadeError, did_you_mean, located
+from levade.errors import LevadeError, did_you_mean
 from levade.optimizers import ALIASES, canonical
 from levade.robots import Dimensions, Robot, dimensions, load_robot
-from levade.scenes import read_heights
 from levade.tasks.code import (
     KEY,
     MissingCode,
@@ -41,9 +40,10 @@ from levade.tasks.code import (
     measure_to_dict,
     missing_code,
 )
+from levade.tasks.files import find, with_folder, with_goal, with_heights
 from levade.tasks.parts import Cost, RobotChoice, Search
 from levade.tasks.task import Task
-from levade.tasks.units import measure_of, to_si
+from levade.tasks.units import is_number, measure_of, to_si
 
 TERMS = {
     "orientation": Orientation,
@@ -69,17 +69,11 @@ _ORDER = (
     *("policy", "costs", "stages", "success", "search", "robust", "feedback"),
 )
 _SEQUENCE = "tag:yaml.org,2002:seq"
-_BUILT_IN = Path(__file__).parent / "data"
-
-
-def builtin_tasks() -> dict[str, Path]:
-    """Name -> file of every built-in task, by name."""
-    return {path.stem: path for path in sorted(_BUILT_IN.glob("*.yaml"), key=lambda path: path.stem)}
 
 
 def task_text(name_or_path: str | Path) -> str:
     """Read a task file as it was written, comments and all. Raises LevadeError if it cannot be read, or is no text."""
-    path = _find(str(name_or_path))
+    path = find(str(name_or_path))
     text = read_text(path)
     if CONTROL.search(text):
         raise LevadeError(f"{path}: is no text; it holds control characters")
@@ -99,9 +93,8 @@ def load_task(name_or_path: str | Path, *, robot: str | Robot | None = None, cha
         LevadeError: If the task cannot be read, or a value makes no sense.
     """
     made, name = (robot, robot.name) if isinstance(robot, Robot) else (None, robot)
-    path = _find(str(name_or_path))
-    content = read_yaml(path)
-    _with_folder(content, path.parent)
+    path = find(str(name_or_path))
+    content = with_folder(read_yaml(path), path.parent)
     with_robot = [change for change in changes if change.partition("=")[0].startswith("robot.")]
     if name is not None or with_robot:  # first, as numbers in units of the robot are those of this one
         content["robot"] = _other_robot(content.get("robot"), name, with_robot, where=str(path))
@@ -165,18 +158,8 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
         LevadeError: If something is missing, unknown or wrong.
     """
     content = dict(content)
-    success = content.get("success")
-    if isinstance(success, Mapping):  # a criterion's name is its quantity unless it says otherwise
-        content["success"] = {
-            name: {"quantity": name, **value} if isinstance(value, Mapping) and name in QUANTITIES else value
-            for name, value in success.items()
-        }
-        for name, value in content["success"].items():
-            if isinstance(value, Mapping) and "quantity" not in value:
-                raise LevadeError(
-                    f"{where}.success.{name}: {name!r} is no quantity, so say which: quantity: ...;"
-                    f" {did_you_mean(str(name), QUANTITIES)}"
-                )
+    if isinstance(content.get("success"), Mapping):
+        content["success"] = _with_quantities(content["success"], where)
     costs = content.get("costs")
     if isinstance(costs, Mapping):
         content["costs"] = {
@@ -197,10 +180,12 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
             else stage
             for i, stage in enumerate(content["stages"])
         ]
-    content["policy"] = _with_goal(content.get("policy", {}), f"{where}.policy.goal", code=code)
-    content = dict(to_si(content, where=where, robot=measures))
     if not code:  # a motion's task is complete, and reads no files
-        content["scene"] = _with_heights(content.get("scene", {}), f"{where}.scene.terrain")
+        content["policy"] = with_goal(content.get("policy", {}), f"{where}.policy.goal")
+    content = dict(to_si(content, where=where, robot=measures))
+    _check_horizon(content.get("horizon", 0.0), where)
+    if not code:
+        content["scene"] = with_heights(content.get("scene", {}), f"{where}.scene.terrain")
     if isinstance(costs, Mapping):
         content["costs"] = {
             name: _cost(str(name), value, where=f"{where}.costs.{name}", code=code)
@@ -221,6 +206,33 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
     return task
 
 
+def _with_quantities(success: Mapping[str, Any], where: str) -> dict[str, Any]:
+    """The criteria, each with its quantity: its name, unless it says otherwise."""
+    named = {
+        name: {"quantity": name, **value} if isinstance(value, Mapping) and name in QUANTITIES else value
+        for name, value in success.items()
+    }
+    for name, value in named.items():
+        if isinstance(value, Mapping) and "quantity" not in value:
+            raise LevadeError(
+                f"{where}.success.{name}: {name!r} is no quantity, so say which: quantity: ...;"
+                f" {did_you_mean(str(name), QUANTITIES)}"
+            )
+    return named
+
+
+def _check_horizon(horizon: Any, where: str) -> None:
+    """Raise LevadeError, naming both forms, for a horizon that is neither a number nor a table."""
+    if isinstance(horizon, Mapping) or (isinstance(horizon, int | float) and not isinstance(horizon, bool)):
+        return
+    if isinstance(horizon, str) and is_number(horizon):
+        return
+    raise LevadeError(
+        f"{where}.horizon: should be a number of seconds, or bounds for the search such as"
+        f" {{minimum: 0.3 s, maximum: 1.5 s}}, is {kind_of(horizon)}"
+    )
+
+
 def _missing_optimizer(content: dict[str, Any]) -> MissingCode | None:
     """Take an optimizer that was Python code out of a task's tables."""
     search = content.get("search")
@@ -229,54 +241,6 @@ def _missing_optimizer(content: dict[str, Any]) -> MissingCode | None:
     name = search["optimizer"].get(KEY)
     content["search"] = {key: value for key, value in search.items() if key != "optimizer"}
     return MissingCode(str(name))
-
-
-def _with_folder(content: dict[str, Any], folder: Path) -> None:
-    """The path of a terrain's file, as its task file gives it, from here."""
-    scene = content.get("scene")
-    if not isinstance(scene, Mapping):
-        return
-    terrain = scene.get("terrain")
-    if isinstance(terrain, Mapping) and isinstance(terrain.get("file"), str):
-        content["scene"] = {**scene, "terrain": {**terrain, "file": str(folder / terrain["file"])}}
-
-
-def _with_goal(policy: Any, where: str, *, code: bool) -> Any:
-    """The policy with the posture in which another task starts, where its goal is ``{like: TASK}``.
-
-    A motion's task (``code``) is complete, and reads no files.
-    """
-    goal = policy.get("goal") if isinstance(policy, Mapping) else None
-    if code or not (isinstance(goal, Mapping) and "like" in goal):
-        return policy
-    if len(goal) > 1:
-        raise LevadeError(f"{where}: like stands alone; leave out {', '.join(map(str, goal.keys() - {'like'}))}")
-    with located(f"{where}.like: "):
-        path = _find(str(goal["like"]))
-        start = read_yaml(path).get("start", {"settled": {}})
-    settled = start.get("settled", {}) if isinstance(start, Mapping) and len(start) < 2 else None
-    if not isinstance(settled, Mapping) or (start and "settled" not in start):
-        raise LevadeError(f"{where}.like: {goal['like']} does not start standing in a posture; name a task that does")
-    return {**policy, "goal": settled.get("posture", "neutral")}
-
-
-def _with_heights(scene: Any, where: str) -> Any:
-    """The scene with its terrain's heights instead of the file that they are in: a task is complete without it."""
-    terrain = scene.get("terrain") if isinstance(scene, Mapping) else None
-    if not isinstance(terrain, Mapping) or "file" not in terrain:
-        return scene
-    terrain = dict(terrain)
-    file, height = terrain.pop("file"), terrain.pop("height", None)
-    if "heights" in terrain:
-        raise LevadeError(f"{where}: give heights or a file of them, not both")
-    if not isinstance(file, str):
-        raise LevadeError(f"{where}.file: should be the path of a file, is {kind_of(file)}")
-    if height is not None and (isinstance(height, bool) or not isinstance(height, (int, float)) or not height > 0):
-        raise LevadeError(f"{where}.height: should be a positive height, that of white, is {kind_of(height)}")
-    try:
-        return {**scene, "terrain": {**terrain, "heights": read_heights(Path(file), height)}}
-    except LevadeError as error:
-        raise LevadeError(f"{where}.file: {error}") from None
 
 
 def _tolerances(
@@ -398,18 +362,6 @@ def _weight(weight: Any, where: str) -> float:
     if isinstance(weight, bool) or not isinstance(weight, (int, float)):
         raise LevadeError(f"{where}.weight: should be a number, is {'missing' if weight is None else kind_of(weight)}")
     return float(weight)
-
-
-def _find(name_or_path: str) -> Path:
-    tasks = builtin_tasks()
-    if name_or_path in tasks:
-        return tasks[name_or_path]
-    path = Path(name_or_path)
-    if path.is_file():
-        return path
-    if path.suffix in (".yaml", ".yml") or "/" in name_or_path or "\\" in name_or_path:
-        raise LevadeError(f"{path}: no such file; give a built-in task or the path of a YAML file")
-    raise LevadeError(f"no task {name_or_path!r}; {did_you_mean(name_or_path, tasks)} (or the path of a YAML file)")
 
 
 _OPEN = "search.settings."

@@ -51,6 +51,9 @@ def goal_posture(choice: PolicyChoice, robot: Robot) -> Array:
         goal = {
             key: sum(value) / 2 if isinstance(value, tuple) else value for key, value in goal.items() if value != FREE
         }
+    for value in [goal] if isinstance(goal, str) else goal.values():
+        if isinstance(value, str) and value not in robot.postures:
+            raise LevadeError(f"policy.goal: no posture {value!r}; {did_you_mean(value, [*robot.postures, FREE])}")
     with located("policy.goal: "):
         return robot.posture(goal)
 

@@ -95,7 +95,7 @@ def to_si(
         return table
     if isinstance(content, (list, tuple)):
         return [to_si(value, where=f"{where}.{i}", measures=measures, robot=robot) for i, value in enumerate(content)]
-    match = _NUMBER.fullmatch(content) if isinstance(content, str) and not _is_number(content) else None
+    match = _NUMBER.fullmatch(content) if isinstance(content, str) and not is_number(content) else None
     if match is None:
         return content
     number, unit = match.groups()
@@ -116,7 +116,7 @@ def to_si(
     return float(number) * ROBOT_UNITS[name][1](robot())
 
 
-def _is_number(text: str) -> bool:
+def is_number(text: str) -> bool:
     """Whether a text is a number without a unit: in 1e3 the e is none."""
     try:
         float(text)

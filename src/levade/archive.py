@@ -1,4 +1,4 @@
-"""The archive of a motion file: numpy's .npz, whose sizes are checked before anything is unfolded.
+"""Archives of arrays, as motion files are: numpy's .npz, whose sizes are checked before anything is unfolded.
 
     arrays = unpack(Path("motion.npz"))         # name -> array
 

@@ -1,0 +1,127 @@
+"""Files of tasks: the built-in ones, and what a task file names, a terrain or what to end like.
+
+A path in a task file is relative to the task file. A run's ``task.yaml`` is complete: it has heights and angles, and no paths.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from levade.archive import unpack
+from levade.document import hides, kind_of, read_yaml
+from levade.errors import LevadeError, did_you_mean, located
+from levade.scenes import read_heights
+
+_BUILT_IN = Path(__file__).parent / "data"
+
+
+def builtin_tasks() -> dict[str, Path]:
+    """Name -> file of every built-in task, by name."""
+    return {path.stem: path for path in sorted(_BUILT_IN.glob("*.yaml"), key=lambda path: path.stem)}
+
+
+def find(name_or_path: str) -> Path:
+    """The file of a built-in task, or of the path. Raises LevadeError if there is none."""
+    tasks = builtin_tasks()
+    if name_or_path in tasks:
+        return tasks[name_or_path]
+    path = Path(name_or_path)
+    if path.is_file():
+        return path
+    if _is_path(name_or_path):
+        raise LevadeError(f"{path}: no such file; give a built-in task or the path of a YAML file")
+    raise LevadeError(f"no task {name_or_path!r}; {did_you_mean(name_or_path, tasks)} (or the path of a YAML file)")
+
+
+def _is_path(text: str) -> bool:
+    """Whether a text is the path of a file, there or not, and no name of a built-in task."""
+    return Path(text).suffix in (".yaml", ".yml", ".npz") or "/" in text or "\\" in text
+
+
+def with_folder(content: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """The tables of a task file in a folder, the paths in them as seen from here."""
+    content = dict(content)
+    scene, policy = content.get("scene"), content.get("policy")
+    terrain = scene.get("terrain") if isinstance(scene, Mapping) else None
+    if isinstance(terrain, Mapping) and isinstance(terrain.get("file"), str):
+        content["scene"] = {**scene, "terrain": {**terrain, "file": str(folder / terrain["file"])}}
+    goal = policy.get("goal") if isinstance(policy, Mapping) else None
+    like = goal.get("like") if isinstance(goal, Mapping) else None
+    if isinstance(like, str) and like not in builtin_tasks() and (_is_path(like) or (folder / like).is_file()):
+        content["policy"] = {**policy, "goal": {**goal, "like": str(folder / like)}}
+    return content
+
+
+def with_goal(policy: Any, where: str) -> Any:
+    """The policy with the posture in which another task or a motion starts, where its goal is ``{like: TASK}``.
+
+    Raises:
+        LevadeError: If there is no such task or motion, or it does not start standing in a posture.
+    """
+    goal = policy.get("goal") if isinstance(policy, Mapping) else None
+    if not (isinstance(goal, Mapping) and "like" in goal):
+        return policy
+    if len(goal) > 1:
+        raise LevadeError(f"{where}: like stands alone; leave out {', '.join(map(str, goal.keys() - {'like'}))}")
+    like = str(goal["like"])
+    with located(f"{where}.like: "):
+        motion = Path(like).suffix == ".npz"
+        posture = _start_of_motion(Path(like)) if motion else _start_of_task(like)
+    if posture is None:
+        kind = "motion" if motion else "task"
+        raise LevadeError(f"{where}.like: {like} does not start standing in a posture; name a {kind} that does")
+    return {**policy, "goal": posture}
+
+
+def _start_of_task(name_or_path: str) -> Any:
+    """The posture in which a task starts; None if it does not start standing."""
+    start = read_yaml(find(name_or_path)).get("start", {"settled": {}})
+    settled = start.get("settled", {}) if isinstance(start, Mapping) and len(start) < 2 else None
+    if not isinstance(settled, Mapping) or (start and "settled" not in start):
+        return None
+    return settled.get("posture", "neutral")
+
+
+def _start_of_motion(path: Path) -> dict[str, float] | None:
+    """What the joints were commanded before a motion started [rad], by joint; None if it started from a fall.
+
+    A motion is a room above tasks, so that a few of its arrays are read here. `levade.motions.file` checks all of them.
+    """
+    arrays = unpack(path)
+    names, first = arrays.get("joint_names"), arrays.get("joint_position_reference0")
+    if names is None or first is None:
+        raise LevadeError(
+            f"{path}: does not say what its joints were commanded before the start; make the motion again"
+        )
+    try:
+        start = json.loads(str(arrays["meta"]))["task"]["start"]
+        posture = {str(name): float(angle) for name, angle in zip(names, first, strict=True)}
+        if not np.isfinite(list(posture.values())).all() or any(map(hides, posture)):
+            raise ValueError
+    except (ValueError, TypeError, LookupError, RecursionError):
+        raise LevadeError(f"{path}: its start cannot be read; damaged, or not a motion.npz of levade solve") from None
+    return posture if isinstance(start, Mapping) and start.get("fall") is None else None
+
+
+def with_heights(scene: Any, where: str) -> Any:
+    """The scene with its terrain's heights instead of the file that they are in."""
+    terrain = scene.get("terrain") if isinstance(scene, Mapping) else None
+    if not isinstance(terrain, Mapping) or "file" not in terrain:
+        return scene
+    terrain = dict(terrain)
+    file, height = terrain.pop("file"), terrain.pop("height", None)
+    if "heights" in terrain:
+        raise LevadeError(f"{where}: give heights or a file of them, not both")
+    if not isinstance(file, str):
+        raise LevadeError(f"{where}.file: should be the path of a file, is {kind_of(file)}")
+    if height is not None and (isinstance(height, bool) or not isinstance(height, (int, float)) or not height > 0):
+        raise LevadeError(f"{where}.height: should be a positive height, that of white, is {kind_of(height)}")
+    try:
+        return {**scene, "terrain": {**terrain, "heights": read_heights(Path(file), height)}}
+    except LevadeError as error:
+        raise LevadeError(f"{where}.file: {error}") from None
