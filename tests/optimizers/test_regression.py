@@ -54,6 +54,22 @@ def test_what_is_inside_a_bound_is_left_there_and_what_is_beyond_is_brought_insi
     )
 
 
+def test_candidates_keep_what_the_best_has_of_a_rough_coordinate() -> None:
+    """And are right for it: how errors change along it is known from the trials, and is not used."""
+    slope, rough = np.random.default_rng(0).standard_normal((20, 3)), np.arange(20) == 7
+    slope[rough] *= 100  # the easiest way to no error, if it were one
+    candidates = 0.1 * np.random.default_rng(1).standard_normal((60, 20))
+    errors = candidates @ slope + np.array([2.0, -1.0, 1.5])
+    aim, free = ErrorRegression(np.eye(20), rough=rough), ErrorRegression(np.eye(20))
+    for one in (aim, free):
+        one.tell(candidates, errors, (errors**2).sum(axis=1))
+    best = candidates[np.argmin((errors**2).sum(axis=1))]
+    found = around(aim, step=0.03)
+    np.testing.assert_array_equal(found[:, 7], best[7])
+    assert np.abs(found @ slope + np.array([2.0, -1.0, 1.5])).max() < 0.5
+    assert np.abs(around(free, step=0.03)[:, 7] - best[7]).min() > 0
+
+
 def test_candidates_are_none_without_enough_trials_and_repeat_with_the_same_random_numbers() -> None:
     slope = np.random.default_rng(0).standard_normal((20, 3))
     assert around(ErrorRegression(np.eye(20))).shape == (0, 20)

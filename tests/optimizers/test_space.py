@@ -29,10 +29,10 @@ def test_candidates_are_the_mean_and_the_factor_times_their_coordinates() -> Non
 
 def test_nothing_in_it_can_be_changed() -> None:
     mean = np.zeros(3)
-    space = SearchSpace(mean, step=0.1, one_sided=np.array([True]))
+    space = SearchSpace(mean, step=0.1, rough=np.array([False, True, False]), one_sided=np.array([True]))
     with pytest.raises(dataclasses.FrozenInstanceError):
         space.step = 0.2  # type: ignore[misc]
-    for array in (space.mean, space.factor, space.one_sided):
+    for array in (space.mean, space.factor, space.rough, space.one_sided):
         with pytest.raises(ValueError, match="read-only"):
             array[...] = 0  # type: ignore[index]
     mean[0] = 1.0  # who gave it may go on to use it
@@ -53,6 +53,7 @@ def test_nothing_in_it_can_be_changed() -> None:
         ({"factor": np.ones(4)}, "factor: expected shape (4, m) for a mean of shape (4,), got (4,)"),
         ({"factor": np.full((4, 2), np.nan)}, "factor: 8 of 8 numbers are not finite"),
         ({"ending": np.zeros((2, 3))}, "ending: expected shape (q, 4), got (2, 3)"),
+        ({"rough": np.zeros(3)}, "rough: expected shape (4,), got (3,)"),
         ({"one_sided": np.zeros((2, 3))}, "one_sided: expected shape (k,), got (2, 3)"),
     ],
 )

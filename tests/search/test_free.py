@@ -53,6 +53,20 @@ def test_a_trial_achieves_what_it_does_in_a_task_of_its_horizon(free: Objective,
             np.testing.assert_allclose(found.terms[name][i], values[0], rtol=1e-12)
 
 
+@pytest.mark.parametrize(("step", "wide"), [(0.3, 0.08), (0.05, 0.03)])
+def test_a_search_begins_as_close_around_its_duration_as_around_its_motion(
+    free: Objective, step: float, wide: float
+) -> None:
+    """The duration has a coordinate of its own, in which no candidate is aimed."""
+    task = replace(free.task, search=replace(free.task.search, step=step))
+    space = free.with_task(task).space
+    assert space.rough is not None
+    spread = space.step * space.factor[:, space.rough]
+    np.testing.assert_allclose(spread[-1], [wide])
+    assert not spread[:-1].any()
+    assert not space.factor[-1, ~space.rough].any()
+
+
 def test_trials_are_simulated_no_longer_than_they_need(free: Objective, decisions: np.ndarray) -> None:
     assert isinstance(free.policy, FreePolicy)
     before = free.engine.steps

@@ -57,7 +57,7 @@ class AimedCMAES:
         self._ending = None if finish == 0 else space.ending
         self._generator = np.random.default_rng((*(seed if isinstance(seed, tuple) else (seed,)), _TAG))
         self._one_sided = space.one_sided if space.one_sided is not None and space.one_sided.any() else None
-        self._regression = ErrorRegression(space.factor, one_sided=self._one_sided)
+        self._regression = ErrorRegression(space.factor, rough=space.rough, one_sided=self._one_sided)
         self._carried: Array | None = None
         self._refinement: EndingRefinement | None = None
         self._attempt_below = np.inf

@@ -34,6 +34,8 @@ class ErrorRegression:
 
     Args:
         factor: Factor of the search space, shape (d, m): distances are measured, and points drawn, in its coordinates.
+        rough: Coordinates in which candidates keep what the best trial has, shape (m,): see `levade.optimizers.SearchSpace`.
+            None if there are none.
         one_sided: Which of the errors belong to a bound, shape (k,): 1 at it and less inside, so that they cannot be too
             small. None if none do.
         memory: Latest trials to choose from.
@@ -44,10 +46,12 @@ class ErrorRegression:
         self,
         factor: Array,
         *,
+        rough: NDArray[np.bool_] | None = None,
         one_sided: NDArray[np.bool_] | None = None,
         memory: int = 400,
         neighbours: int = 120,
     ) -> None:
+        self._rough = None if rough is None or not rough.any() else rough
         self._factor, self._one_sided, self._memory, self._neighbours = factor, one_sided, memory, neighbours
         self._candidates = np.empty((0, len(factor)))
         self._errors = np.empty((0, 0))
@@ -121,11 +125,15 @@ class ErrorRegression:
             if fitted is None:
                 return none
             slope, farthest = fitted
+            if self._rough is not None:
+                slope[self._rough] = 0.0
             # where the best has nothing to make up for, it need not be tried again
             one_sided = None if self._one_sided is None else self._one_sided[looked_at]
             first = SPREADS[-1] if not unwanted(errors[best], one_sided).any() else 0.0
             spread = np.array([first, *itertools.islice(itertools.cycle(SPREADS), count - 1)])
             drawn = step * spread[:, None] * generator.standard_normal((count, coordinates.shape[1]))
+            if self._rough is not None:
+                drawn[:, self._rough] = 0.0
             return self._candidates[best] + corrected(drawn, errors[best], slope, farthest, one_sided) @ self._factor.T
 
     def _slope(self, coordinates: Array, errors: Array, best: int) -> tuple[Array, float] | None:

@@ -33,6 +33,8 @@ class SearchSpace:
         step: Initial step size, the standard deviation in the coordinates z.
         population: Candidates per generation, at least 4. Defaults to the optimizer's own number.
         ending: Directions that change only the last part of a motion, shape (q, d). None if there are none.
+        rough: Coordinates z in which errors jump, shape (m,), such as a duration of whole time steps: slopes along them say
+            nothing about small changes. None if there are none.
         one_sided: Which of the k errors that an optimizer is told belong to a bound, shape (k,): 1 at the bound, less inside.
             None if none do.
 
@@ -46,6 +48,7 @@ class SearchSpace:
     step: float
     population: int | None = None
     ending: Array | None = None
+    rough: NDArray[np.bool_] | None = None
     one_sided: NDArray[np.bool_] | None = None
 
     def __post_init__(self) -> None:
@@ -67,7 +70,10 @@ class SearchSpace:
         one_sided = None if self.one_sided is None else _read_only(np.asarray(self.one_sided, dtype=np.bool_))
         if one_sided is not None and one_sided.ndim != 1:
             raise LevadeError(f"one_sided: expected shape (k,), got {one_sided.shape}")
-        arrays = {"mean": mean, "factor": _read_only(factor), "ending": ending, "one_sided": one_sided}
+        rough = None if self.rough is None else _read_only(np.asarray(self.rough, dtype=np.bool_))
+        if rough is not None and rough.shape != factor.shape[1:]:
+            raise LevadeError(f"rough: expected shape ({factor.shape[1]},), got {rough.shape}")
+        arrays = {"mean": mean, "factor": _read_only(factor), "ending": ending, "rough": rough, "one_sided": one_sided}
         for name, value in arrays.items():
             object.__setattr__(
                 self, name, value

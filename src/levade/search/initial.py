@@ -65,8 +65,8 @@ class InitialGuess:
 
     def space(self, space: SearchSpace, mean: Array) -> SearchSpace:
         """The search space around one of the candidates."""
-        factor = space.factor if self.factor is None else self.factor
-        return replace(space, mean=mean, step=space.step * self.step, factor=factor)
+        around = replace(space, mean=mean, step=space.step * self.step)
+        return around if self.factor is None else replace(around, factor=self.factor, rough=None)
 
 
 AROUND = 0.5

@@ -20,6 +20,9 @@ ENDING = 0.25
 DURATION = 0.08
 """Initial standard deviation of ``log T`` where the duration is a decision."""
 
+DURATION_PER_STEP = 0.6
+"""[1/rad], and at most this many steps of the weights: what begins close around a motion begins close around its duration."""
+
 
 def search_space(task: Task, robot: Robot, policy: JointPolicy, start: State) -> SearchSpace:
     """Make the search space of a task.
@@ -54,18 +57,22 @@ def _of_weights(task: Task, robot: Robot, policy: Policy, start: State) -> Searc
 
 
 def _with_more(space: SearchSpace, policy: FreePolicy) -> SearchSpace:
-    """The same with the policy's further decisions: a duration is `DURATION` wide, angles as wide as weights.
+    """The same with the policy's further decisions: a duration is as wide as `DURATION` says, angles as wide as weights.
 
-    They are no part of what ends a motion.
+    They are no part of what ends a motion. A duration is rough: it is rounded to time steps, in which errors change by more
+    than a tight tolerance.
     """
     d, m = space.factor.shape
     more = policy.size - d
     factor = np.zeros((d + more, m + more))
     factor[:d, :m], factor[d:, m:] = space.factor, np.eye(more)
+    rough = None
     if policy.horizon is not None:
-        factor[d, m] = DURATION / space.step
+        factor[d, m] = min(DURATION / space.step, DURATION_PER_STEP)
+        rough = np.arange(m + more) == m
     ending = None if space.ending is None else np.pad(space.ending, ((0, 0), (0, more)))
-    return dataclasses.replace(space, mean=policy.decision(space.mean[None])[0], factor=factor, ending=ending)
+    mean = policy.decision(space.mean[None])[0]
+    return dataclasses.replace(space, mean=mean, factor=factor, ending=ending, rough=rough)
 
 
 def _ending(policy: Policy) -> Array | None:
