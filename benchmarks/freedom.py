@@ -1,14 +1,15 @@
-"""What it is worth to leave duration or final posture to the search. Prints two tables.
+"""What it is worth to leave duration or final posture to the search: tables of docs/duration.md.
 
     python benchmarks/freedom.py duration [--tasks rearing ...] [--robots hyq2max ...] [--seeds 100 110]
-    python benchmarks/freedom.py duration --grid         # and eight fixed durations between the bounds
+    python benchmarks/freedom.py duration --grid         # costs against eight fixed durations between the bounds
     python benchmarks/freedom.py posture [--tasks sit-to-stand ...]
 
-*Duration*: each task as it is, and with ``horizon: {minimum: T/2, maximum: 3 T, initial: T}``. *Posture*: each task as it is,
-and with ``policy.goal: free``, both with an effort that counts the hold as well, and 600 trials after the first success. The
-torque of standing is that of the last tenth of a second of the hold, as a share of each joint's limit, root mean square over
-joints. Else a search ends with its first success, or after 6000 trials. Every run is kept in results/freedom.jsonl, and is not
-made again.
+*Duration*: each task as it is, and with ``horizon: {minimum: T/2, maximum: 3 T, initial: T}``; a search ends with its first
+success, or after 6000 trials. *Grid*: the same, and eight fixed durations, with 600 trials after the first success. *Posture*:
+each task as it is, and with ``policy.goal: free``, both with an effort that counts the hold as well, and 600 trials after the
+first success. The torque of standing is that of the last tenth of a second of the hold, as a share of each joint's limit, root
+mean square over joints. Every run is kept in results/freedom.jsonl under a checksum of its task, and is not made again: delete
+the file after a change to the search. ``python benchmarks/duration.py --write`` makes the page.
 """
 
 from __future__ import annotations
@@ -18,13 +19,15 @@ import json
 import os
 import statistics
 import zlib
-from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 from typing import Any
 
 RESULTS = Path(__file__).parent / "results" / "freedom.jsonl"
-BUDGET = 6000
+BUDGET, POLISH = 6000, 600
+"""Trials of a search, and after its first success where costs are compared."""
+GRID = tuple(f"x{0.5 * 6 ** (k / 7):.2f}" for k in range(8))
+"""Fixed horizons between the bounds, as factors on the task's own."""
 TASKS = {
     "duration": ("rearing", "posture-recovery", "self-righting", "squat-jump"),
     "posture": ("sit-to-stand", "posture-recovery"),
@@ -42,17 +45,18 @@ def task_of(case: Case) -> Any:
     name, robot, kind, _ = case
     base = load_task(name, robot=robot)
     changes = [f"search.trials={BUDGET}", "search.polish=0"]
-    if kind == "free":
+    if kind in ("free", "best"):
         t = base.horizon
         changes.append(f"horizon={{minimum: {t / 2}, maximum: {3 * t}, initial: {t}}}")
+        changes += [f"search.polish={POLISH}"] if kind == "best" else []
     elif kind in ("neutral", "posture"):
-        changes += ["costs.effort.over=all", "stages=[{}]", "search.polish=600"]
+        changes += ["costs.effort.over=all", "stages=[{}]", f"search.polish={POLISH}"]
         if base.policy.settle == 0:
             changes.append(f"policy.settle={SETTLE}")
         if kind == "posture":
             changes.append("policy.goal=free")
     elif kind.startswith("x"):
-        changes.append(f"horizon={base.horizon * float(kind[1:])}")
+        changes += [f"horizon={base.horizon * float(kind[1:])}", f"search.polish={POLISH}"]
     return load_task(name, robot=robot, changes=changes)
 
 
@@ -86,13 +90,13 @@ def run(case: Case) -> dict[str, Any]:
     }
 
 
-def runs(cases: list[Case]) -> dict[Case, dict[str, Any]]:
+def runs(cases: list[Case], processes: int) -> dict[Case, dict[str, Any]]:
     """The result of each case, from the file or new."""
     kept = [json.loads(line) for line in RESULTS.read_text().splitlines()] if RESULTS.exists() else []
     done = {(tuple(one["case"]), one["checksum"]): one for one in kept}
     found = {case: done[case, checksum(case)] for case in cases if (case, checksum(case)) in done}
     missing = [case for case in cases if case not in found]
-    with ProcessPoolExecutor(min(2, os.cpu_count() or 1)) as pool, RESULTS.open("a") as file:
+    with ProcessPoolExecutor(processes) as pool, RESULTS.open("a") as file:
         for future in as_completed([pool.submit(run, case) for case in missing]):
             one = future.result()
             found[tuple(one["case"])] = one
@@ -101,24 +105,83 @@ def runs(cases: list[Case]) -> dict[Case, dict[str, Any]]:
     return found
 
 
-def row(results: list[dict[str, Any]]) -> tuple[str, str, str, str]:
-    """Successes, trials to success, horizon and cost of several seeds."""
-    won = [one for one in results if one["success"]]
-    if not won:
-        return f"0 of {len(results)}", "", "", ""
-
-    def middle(name: str, digits: int) -> str:
-        values = [one[name] for one in won]
-        return f"{statistics.median(values):.{digits}f} ({min(values):.{digits}f} to {max(values):.{digits}f})"
-
-    return f"{len(won)} of {len(results)}", middle("trials", 0), middle("horizon", 2), middle("cost", 3)
+def kept() -> dict[Case, dict[str, Any]]:
+    """The latest result of each case in the file."""
+    lines = RESULTS.read_text(encoding="utf-8").splitlines() if RESULTS.exists() else []
+    return {tuple(one["case"]): one for one in map(json.loads, lines)}
 
 
-def pairs(arguments: argparse.Namespace) -> Iterator[tuple[str, str]]:
-    """Tasks and robots that were asked for."""
-    for task in arguments.tasks or TASKS[arguments.what]:
-        for robot in arguments.robots:
-            yield task, robot
+def several(found: dict[Case, dict[str, Any]], task: str, robot: str, kind: str) -> list[dict[str, Any]]:
+    """All seeds."""
+    return [one for case, one in sorted(found.items()) if case[:3] == (task, robot, kind)]
+
+
+def pairs(found: dict[Case, dict[str, Any]], *kinds: str) -> list[tuple[str, str]]:
+    """Tasks and robots with results of all these kinds, in order of `TASKS`."""
+    tasks = dict.fromkeys(task for some in TASKS.values() for task in some)
+    robots = dict.fromkeys(case[1] for case in found)
+    return [(t, r) for r in robots for t in tasks if all(several(found, t, r, kind) for kind in kinds)]
+
+
+def middle(values: list[float], digits: int) -> str:
+    """Median and range."""
+    if not values:
+        return ""
+    return f"{statistics.median(values):.{digits}f} ({min(values):.{digits}f} to {max(values):.{digits}f})"
+
+
+def trials(results: list[dict[str, Any]]) -> list[float]:
+    """Trials to success; all of the budget where there was none."""
+    return [one["trials"] if one["success"] else BUDGET for one in results]
+
+
+def won(results: list[dict[str, Any]]) -> str:
+    """How many succeeded."""
+    return f"{sum(one['success'] for one in results)} of {len(results)}"
+
+
+def duration_table() -> str:
+    """Each task as it is, and with its duration free."""
+    found, rows = kept(), []
+    for task, robot in pairs(found, "fixed", "free"):
+        fixed, free = (several(found, task, robot, kind) for kind in ("fixed", "free"))
+        ratio = statistics.median(trials(free)) / statistics.median(trials(fixed))
+        horizon = middle([one["horizon"] for one in free if one["success"]], 2)
+        counts = f"{won(fixed)} | {won(free)} | {middle(trials(fixed), 0)} | {middle(trials(free), 0)}"
+        rows.append(f"| `{task}` | {robot} | {counts} | {ratio:.2f} | {fixed[0]['horizon']:.2f} | {horizon} |")
+    return "\n".join(rows)
+
+
+def grid_table() -> str:
+    """Cost of a free duration, of each fixed one, and how far the best of these is from the free one."""
+    found, rows = kept(), []
+    for task, robot in pairs(found, "best", *GRID):
+        free = several(found, task, robot, "best")
+        fixed = [several(found, task, robot, kind) for kind in GRID]
+        mine, least = cost(free), min(cost(one) for one in fixed if all(run["success"] for run in one))
+        cells = [f"{cost(one):.3g}" if all(run["success"] for run in one) else won(one) for one in fixed]
+        horizon = middle([one["horizon"] for one in free], 2)
+        rows.append(f"| `{task}` | {robot} | {' | '.join(cells)} | {mine:.3g} | {horizon} | {least / mine - 1:+.0%} |")
+    return "\n".join(rows)
+
+
+def cost(results: list[dict[str, Any]]) -> float:
+    """Median cost of all seeds."""
+    return statistics.median(one["cost"] for one in results)
+
+
+def posture_table() -> str:
+    """The neutral final posture, and one that the search found."""
+    found, rows = kept(), []
+    for task, robot in pairs(found, "neutral", "posture"):
+        given, free = (several(found, task, robot, kind) for kind in ("neutral", "posture"))
+        torque = [[one["torque"] for one in results if one["success"]] for results in (given, free)]
+        less = statistics.median(torque[1]) / statistics.median(torque[0]) - 1 if all(torque) else float("nan")
+        counts = f"{won(given)} | {won(free)} | {middle(trials(given), 0)} | {middle(trials(free), 0)}"
+        rows.append(
+            f"| `{task}` | {robot} | {counts} | {middle(torque[0], 3)} | {middle(torque[1], 3)} | {less:+.0%} |"
+        )
+    return "\n".join(rows)
 
 
 def main() -> None:
@@ -128,27 +191,24 @@ def main() -> None:
     parser.add_argument("--robots", nargs="+", default=["hyq2max"])
     parser.add_argument("--seeds", nargs=2, type=int, default=(100, 110))
     parser.add_argument("--grid", action="store_true")
+    parser.add_argument("--kinds", nargs="+")
+    parser.add_argument("--processes", type=int, default=min(2, os.cpu_count() or 1))
     arguments = parser.parse_args()
-    kinds = ["fixed", "free"] if arguments.what == "duration" else ["neutral", "posture"]
+    kinds = arguments.kinds or (["fixed", "free"] if arguments.what == "duration" else ["neutral", "posture"])
     if arguments.grid:
-        kinds += [f"x{0.5 * 6 ** (k / 7):.2f}" for k in range(8)]
+        kinds = ["best", *GRID]
     cases = [
         (task, robot, kind, seed)
-        for task, robot in pairs(arguments)
+        for task in arguments.tasks or TASKS[arguments.what]
+        for robot in arguments.robots
         for kind in kinds
         for seed in range(*arguments.seeds)
     ]
-    found = runs(cases)
-    last = "torque of standing" if arguments.what == "posture" else "cost"
-    print(f"| task | robot | kind | success | trials to success | T [s] | {last} |\n|---|---|---|---|---|---|---|")
-    for task, robot in pairs(arguments):
-        for kind in kinds:
-            results = [found[task, robot, kind, seed] for seed in range(*arguments.seeds)]
-            success, trials, horizon, cost = row(results)
-            if arguments.what == "posture":
-                shares = [one["torque"] for one in results if one["success"]]
-                cost = f"{statistics.median(shares):.3f}" if shares else ""
-            print(f"| `{task}` | {robot} | {kind} | {success} | {trials} | {horizon} | {cost} |")
+    runs(cases, arguments.processes)
+    if arguments.what == "posture":
+        print(posture_table())
+    else:
+        print(grid_table() if arguments.grid else duration_table())
 
 
 if __name__ == "__main__":

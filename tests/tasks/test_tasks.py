@@ -406,7 +406,7 @@ def test_tasks_that_are_not_there(name: str, message: str) -> None:
         (["start.settled.posture=netral"], r"^start.settled.posture: .*no posture 'netral'; did you mean neutral\?"),
         (
             ["policy.initial=interpolate", "policy.goal=stand"],
-            r"^policy.goal: .*no posture 'stand'; valid names: crouched, h2m, neutral, stretched",
+            r"^policy.goal: .*no posture 'stand'; valid names: crouched, free, h2m, neutral, stretched",
         ),
         (["policy.variance=-1"], r"^policy.variance: -1.0 is out of range"),
         (["policy.groups=[[lf, rf], [lh, xx]]"], r"^policy.groups: .*no leg 'xx'; valid names: lf, lh, rf, rh"),

@@ -46,15 +46,19 @@ def _is_path(text: str) -> bool:
 def with_folder(content: dict[str, Any], folder: Path) -> dict[str, Any]:
     """The tables of a task file in a folder, the paths in them as seen from here."""
     content = dict(content)
-    scene, policy = content.get("scene"), content.get("policy")
-    terrain = scene.get("terrain") if isinstance(scene, Mapping) else None
-    if isinstance(terrain, Mapping) and isinstance(terrain.get("file"), str):
-        content["scene"] = {**scene, "terrain": {**terrain, "file": str(folder / terrain["file"])}}
-    goal = policy.get("goal") if isinstance(policy, Mapping) else None
-    like = goal.get("like") if isinstance(goal, Mapping) else None
-    if isinstance(like, str) and like not in builtin_tasks() and (_is_path(like) or (folder / like).is_file()):
-        content["policy"] = {**policy, "goal": {**goal, "like": str(folder / like)}}
+    for part, key, name in (("scene", "terrain", "file"), ("policy", "goal", "like")):
+        table = content.get(part)
+        inner = table.get(key) if isinstance(table, Mapping) else None
+        if not (isinstance(table, Mapping) and isinstance(inner, Mapping) and isinstance(inner.get(name), str)):
+            continue
+        if name == "file" or _is_beside(folder, inner[name]):
+            content[part] = {**table, key: {**inner, name: str(folder / inner[name])}}
     return content
+
+
+def _is_beside(folder: Path, like: str) -> bool:
+    """Whether a text means a file as seen from a folder, and no built-in task."""
+    return like not in builtin_tasks() and (_is_path(like) or (folder / like).is_file())
 
 
 def with_goal(policy: Any, where: str) -> Any:

@@ -1,0 +1,366 @@
+"""What the duration of the paper's two motions costs HyQ2Max, and docs/duration.md with it and the results of freedom.py.
+
+    python benchmarks/duration.py                      # three seeds, both tasks, nine durations: 15 core-minutes
+    python benchmarks/duration.py --write              # only draw the figure and write the page, from benchmarks/results
+
+Each search has a fixed horizon T and looks for a motion of little effort that keeps away from the limits: squared misses of the
+goal, the effort, and twice the largest share of a limit. Of all its trials that reach the goal, the one of least effort and the
+one of the least share are kept, and simulated again through 2 s of hold. A seed begins at T = 0.5 s with 1000 trials, and goes
+on to shorter and longer T with 400 each, around the two motions of the T before. Results are kept in results/duration.jsonl
+after every seed; what is there is not made again.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import statistics
+import tempfile
+import zlib
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+HERE = Path(__file__).parent
+RESULTS = HERE / "results" / "duration.jsonl"
+PAGE = HERE.parent / "docs" / "duration.md"
+FIGURE = "figures/duration.png"
+
+DURATIONS = (0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.5, 2.1, 3.0)
+"""[s]"""
+FIRST = 0.5
+"""[s], where a seed begins."""
+TRIALS, MORE = 1000, 400
+"""Of the first search of a seed, and of each that goes on from it."""
+HOLD = 0.4
+"""[s], of the recovery while it is searched: a robot that is falling then falls on."""
+ANGLE, HEIGHT = 0.02, 0.02
+"""[rad] and [m], how near the goal has to be reached."""
+SHARES = ("speed", "torque", "torque-speed")
+"""Kinds of limit. Torques end at theirs: the actuators give no more."""
+
+
+def goal(angles: dict[str, float], height: float, at: str = "horizon", loose: float = 1.0) -> tuple[dict, dict]:
+    """Costs and criteria of angles and a height: a miss of one tolerance more than half of one costs 10."""
+    suffix = "" if at == "horizon" else f"_{at}"
+    bounds = {name: (target, loose * ANGLE) for name, target in angles.items()} | {"height": (height, loose * HEIGHT)}
+    costs = {
+        f"miss_{name}{suffix}": {
+            "term": "miss",
+            "weight": 10,
+            "quantity": name,
+            "target": target,
+            "at": at,
+            "tolerance": tolerance / 2,
+            "scale": tolerance,
+        }
+        for name, (target, tolerance) in bounds.items()
+    }
+    success = {
+        f"{name}{suffix}": {"quantity": name, "target": target, "tolerance": tolerance, "at": at}
+        for name, (target, tolerance) in bounds.items()
+    }
+    return costs, success
+
+
+def task_of(name: str, horizon: float) -> Any:
+    """One of the paper's tasks with another horizon, criteria and costs."""
+    from levade.costs import Criterion
+    from levade.tasks import Cost, load_task
+
+    if name == "rearing":
+        costs, success = goal({"pitch": -1.0472}, 0.90)
+        changes = ["search.step=0.3", "search.smoothness=0.2", "search.modes=null"]
+    else:
+        level = {"roll": 0.0, "pitch": 0.0}
+        (costs, success), (more, held) = goal({**level, "yaw": 0.0}, 0.61), goal(level, 0.61, "end", loose=2.5)
+        costs, success = costs | more, success | held
+        changes = ["search.step=0.1", "search.smoothness=0.3", "search.modes=null", f"hold={HOLD}"]
+    costs |= {"effort": {"weight": 1.0}, "joint_limits": {"weight": 10}}
+    success["angles"] = {"quantity": "angle_margin", "minimum": 0.0, "at": "min"}
+    changes += [
+        *(f"horizon={horizon}", "policy.kernels=8", "policy.variance=0.015", "stages=[{}]"),
+        *(f"costs={json.dumps(costs)}", f"success={json.dumps(success)}"),
+        *("search.population=16", "search.restart=null", "search.polish=null"),
+    ]
+    task = load_task(name, changes=changes)
+    assert all(isinstance(criterion, Criterion) for criterion in task.success.values())
+    return replace(task, costs={**task.costs, "share": Cost(largest_share, 2.0)})
+
+
+def shares(trajectories: Any) -> np.ndarray:
+    """The largest share of each kind of limit, over joints and time, shape (n, 3): those of `levade check`."""
+    limits = trajectories.limits
+    torque, speed = trajectories.joint_torque, trajectories.joint_velocity
+    kinds = (
+        1 - limits.speed_left(speed),
+        np.abs(torque) / limits.torque,
+        1 - limits.torque_speed_left(torque, speed),
+    )
+    return np.stack([kind.max(axis=(1, 2)) for kind in kinds], axis=1)
+
+
+def largest_share(trajectories: Any) -> np.ndarray:
+    """The largest of all, shape (n,)."""
+    return shares(trajectories).max(axis=1)
+
+
+class Kept:
+    """The successful trials of least effort and of the least share, of all that a search has tried."""
+
+    def __init__(self) -> None:
+        self.best: dict[str, tuple[float, np.ndarray]] = {}
+
+    def look(self, weights: np.ndarray, evaluation: Any) -> None:
+        won = np.flatnonzero(evaluation.success)
+        for name in ("effort", "share"):
+            values = evaluation.terms[name][won]
+            if len(won) and values.min() < self.best.get(name, (np.inf,))[0]:
+                self.best[name] = float(values.min()), weights[won[values.argmin()]].copy()
+
+
+def search(name: str, horizon: float, seed: int, guess: np.ndarray | None) -> tuple[dict[str, Any], np.ndarray]:
+    """One search: what it found, and the weights to go on from."""
+    from levade.optimizers.blas import single_threaded
+    from levade.search import Search, make_objective
+    from levade.search.initial import InitialGuess
+
+    budget = TRIALS if guess is None else MORE
+    task = task_of(name, horizon)
+    task = replace(task, search=replace(task.search, trials=budget))
+    objective = make_objective(task, threads=1)
+    initial = None if guess is None else InitialGuess(guess, step=0.5)
+    searching, kept = Search(objective.task, objective.space, seed=seed, initial=initial), Kept()
+    with single_threaded():
+        while (trials := searching.ask()) is not None:
+            evaluation = objective.evaluate(trials)
+            kept.look(trials.weights, evaluation)
+            searching.tell(evaluation)
+    solution = searching.solution
+    found = {which: measured(objective, name, weights) for which, (_, weights) in kept.best.items()}
+    row = {
+        "task": name,
+        "T": horizon,
+        "seed": seed,
+        "trials": solution.trials,
+        "steps": objective.engine.steps,
+        **found,
+    }
+    going_on = [weights for _, weights in kept.best.values()] or [solution.best.weights]
+    return row, np.stack(going_on)
+
+
+def measured(objective: Any, name: str, weights: np.ndarray) -> dict[str, Any]:
+    """Effort, shares, what standing costs in a second, and whether a recovered robot stays up through 2 s."""
+    from levade.costs import Effort
+
+    motion = objective.rollout(weights[None])
+    row = {
+        "effort": float(objective.terms["effort"](motion)[0]),
+        "shares": dict(zip(SHARES, shares(motion)[0].tolist(), strict=True)),
+    }
+    if name == "rearing":
+        still = objective.policy.hold(objective.state.joint_reference[0])[None]
+        return row | {"standing": float(Effort()(objective.rollout(still))[0]) / objective.task.horizon}
+    held = objective.rollout(weights[None], hold_steps=round(2.0 / objective.task.physics.timestep))
+    criteria = [one for one in objective.task.success.values() if one.at == "end"]
+    share = held.joint_torque[0, -250:] / held.limits.torque
+    standing = float(np.square(share).sum(axis=1).mean())
+    return row | {"standing": standing, "stays": bool(all(criterion.holds(held)[0] for criterion in criteria))}
+
+
+def chain(name: str, seed: int) -> Iterator[dict[str, Any]]:
+    """All durations of one seed."""
+    first, guess = search(name, FIRST, seed, None)
+    yield first
+    start = DURATIONS.index(FIRST)
+    for way in (DURATIONS[:start][::-1], DURATIONS[start + 1 :]):
+        around = guess
+        for horizon in way:
+            row, around = search(name, horizon, seed, around)
+            yield row
+
+
+def checksum(name: str) -> int:
+    """What decides the results of a task, the seed apart."""
+    from levade.tasks import task_to_dict
+
+    content = json.dumps(task_to_dict(task_of(name, FIRST), code=True), default=str)
+    return zlib.crc32(f"{content} {DURATIONS} {TRIALS} {MORE}".encode())
+
+
+def kept() -> list[dict[str, Any]]:
+    """What is in the results."""
+    if not RESULTS.exists():
+        return []
+    return [json.loads(line) for line in RESULTS.read_text(encoding="utf-8").splitlines()]
+
+
+def run(tasks: Sequence[str], seeds: Sequence[int]) -> None:
+    """Make what is missing. A seed that was stopped on the way begins again."""
+    from levade.motions import versions
+
+    for seed in seeds:
+        for name in tasks:
+            about = {"checksum": checksum(name), "versions": versions()}
+            done = [
+                row for row in kept() if (row["task"], row["seed"], row["checksum"]) == (name, seed, about["checksum"])
+            ]
+            if len(done) == len(DURATIONS):
+                continue
+            rows = []
+            for row in chain(name, seed):
+                rows.append({**row, **about})
+                print({key: row[key] for key in row if key != "trials"}, flush=True)
+            others = [row for row in kept() if (row["task"], row["seed"]) != (name, seed)]
+            text = "".join(json.dumps(row) + "\n" for row in [*others, *rows])
+            RESULTS.write_text(text, encoding="utf-8")
+
+
+def of(rows: Sequence[dict[str, Any]], task: str, horizon: float, which: str) -> list[dict[str, Any]]:
+    """The motions of all seeds that were kept for one reason: "effort" or "share"."""
+    return [row[which] for row in rows if (row["task"], row["T"]) == (task, horizon) and which in row]
+
+
+def middle(values: Sequence[float], digits: int) -> str:
+    """Median and range."""
+    if not values:
+        return ""
+    low, median, high = min(values), statistics.median(values), max(values)
+    return f"{median:.{digits}f} ({low:.{digits}f} to {high:.{digits}f})"
+
+
+def table(rows: Sequence[dict[str, Any]], task: str) -> str:
+    """One row for each duration."""
+    lines = []
+    for horizon in DURATIONS:
+        asked = [row for row in rows if (row["task"], row["T"]) == (task, horizon)]
+        thrifty, gentle = of(rows, task, horizon, "effort"), of(rows, task, horizon, "share")
+        cells = [f"{horizon:g} s", f"{len(gentle)} of {len(asked)}", middle([one["effort"] for one in thrifty], 2)]
+        cells += [middle([one["shares"][kind] for one in gentle], 2) for kind in SHARES]
+        if task != "rearing":
+            cells.append(f"{sum(one['stays'] for one in gentle)} of {len(gentle)}" if gentle else "")
+        lines.append(f"| {' | '.join(cells)} |")
+    return "\n".join(lines)
+
+
+def drawing(rows: Sequence[dict[str, Any]]) -> Any:
+    """The figure: a row for each task; effort, and shares of limits, over T."""
+    from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
+
+    from levade.report.figures import PAGE as WIDTH
+    from levade.report.style import LIGHT
+
+    looks = {
+        "speed": {"color": LIGHT.z, "marker": "o", "linestyle": "-"},
+        "torque": {"color": LIGHT.x, "marker": "s", "linestyle": (0, (4, 1.6))},
+        "torque-speed": {"color": LIGHT.y, "marker": "^", "linestyle": (0, (1.2, 1.2))},
+    }
+    figure = Figure(figsize=(WIDTH, 4.6), layout="constrained")
+    grid = figure.subplots(2, 2, sharex=True)
+    for line, task in zip(grid, ("rearing", "posture-recovery"), strict=True):
+        effort, share = line
+        curve(effort, {T: [one["effort"] for one in of(rows, task, T, "effort")] for T in DURATIONS},
+              color=LIGHT.ink, marker="o", linestyle="-")  # fmt: skip
+        standing = statistics.median([one["standing"] for T in DURATIONS for one in of(rows, task, T, "effort")] or [0])
+        effort.plot(DURATIONS, [standing * T for T in DURATIONS], color=LIGHT.muted, linewidth=0.9, dashes=(2, 3))
+        for kind, look in looks.items():
+            values = {T: [one["shares"][kind] for one in of(rows, task, T, "share")] for T in DURATIONS}
+            curve(share, values, **look)
+        top = max(1.15, 1.06 * share.get_ylim()[1])
+        share.axhspan(1.0, top, facecolor=LIGHT.limit, alpha=0.22, linewidth=0, zorder=0.5)
+        share.axhline(1.0, color=LIGHT.limit, linewidth=0.7, zorder=1)
+        share.set_ylim(0.0, top)
+        effort.set_ylim(0.0, None)
+        effort.set_ylabel("least effort [s]")
+        share.set_ylabel("share of the limit")
+        effort.set_title(task, fontweight="bold")
+        share.set_title(f"{task}: the motion that keeps farthest from its limits")
+        for axes in line:
+            failed = [T for T in DURATIONS if not of(rows, task, T, "share")]
+            axes.plot(failed, [0.04] * len(failed), transform=axes.get_xaxis_transform(), linestyle="", marker="x",
+                      markersize=5, color=LIGHT.bad)  # fmt: skip
+            for reading in (0.3, 3.0):
+                axes.axvline(reading, color=LIGHT.muted, linewidth=0.6, dashes=(1, 2), zorder=1)
+    for axes in grid[1]:
+        axes.set_xscale("log")
+        axes.set_xticks(DURATIONS, [f"{T:g}" for T in DURATIONS])
+        axes.minorticks_off()
+        axes.set_xlabel("duration T [s]")
+    handles = [Line2D([], [], label=kind, markersize=4, **look) for kind, look in looks.items()]
+    handles = [
+        Line2D([], [], label="effort", color=LIGHT.ink, marker="o", markersize=4),
+        Line2D([], [], label="standing for T", color=LIGHT.muted, linewidth=0.9, dashes=(2, 3)),
+        *handles,
+        Line2D([], [], label="no seed reached the goal", color=LIGHT.bad, marker="x", linestyle=""),
+    ]
+    figure.legend(handles=handles, loc="outside upper center", ncols=6)
+    return figure
+
+
+def curve(axes: Any, values: dict[float, list[float]], **look: Any) -> None:
+    """Seeds as points, and a line through their medians."""
+    marker = look.pop("marker")
+    there = [T for T, some in values.items() if some]
+    axes.plot(there, [statistics.median(values[T]) for T in there], **look)
+    points = [(T, value) for T in there for value in values[T]]
+    axes.plot(*zip(*points, strict=True) if points else ([], []), linestyle="", marker=marker, markersize=3.2,
+              color=look["color"], markeredgecolor="white", markeredgewidth=0.4, zorder=3)  # fmt: skip
+
+
+def page() -> str:
+    """The page, from the template and the results of this script and of freedom.py."""
+    import freedom
+
+    rows = kept()
+    seeds = len({row["seed"] for row in rows})
+    made = ", ".join(f"{name} {version}" for name, version in rows[0]["versions"].items()) if rows else "nothing"
+    filled = {
+        "@REARING@": table(rows, "rearing"),
+        "@RECOVERY@": table(rows, "posture-recovery"),
+        "@SEEDS@": str(seeds),
+        "@MADE@": made,
+        "@FREE@": freedom.duration_table(),
+        "@GRID@": freedom.grid_table(),
+        "@POSTURE@": freedom.posture_table(),
+    }
+    text = (HERE / "duration.md.in").read_text(encoding="utf-8")
+    for place, content in filled.items():
+        text = text.replace(place, content)
+    return text
+
+
+def write() -> None:
+    """The figure and the page."""
+    from PIL import Image
+
+    from levade.report.figures import write_figures
+
+    rows = kept()
+    with tempfile.TemporaryDirectory() as directory:
+        (path,) = write_figures({"duration": lambda: drawing(rows)}, Path(directory), "png")
+        few = Image.open(path).convert("RGB").quantize(64, dither=Image.Dither.NONE)  # a third of the bytes
+        few.save(PAGE.parent / FIGURE, optimize=True)
+    PAGE.write_text(page(), encoding="utf-8")
+    print(f"written: {PAGE}")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--tasks", nargs="+", default=["rearing", "posture-recovery"])
+    parser.add_argument("--seeds", nargs=2, type=int, default=(0, 3))
+    parser.add_argument("--write", action="store_true", help="only write the page and its figure")
+    arguments = parser.parse_args()
+    if not arguments.write:
+        os.environ["OPENBLAS_NUM_THREADS"] = "1"
+        run(arguments.tasks, range(*arguments.seeds))
+    write()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,57 @@
+"""benchmarks/duration.py measures what `levade check` measures, and benchmarks/freedom.py changes what it says."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import ModuleType
+
+import numpy as np
+import pytest
+
+from levade.checks import Demands
+from levade.checks.margins import margins
+from levade.motions import RecordedSimulation
+from levade.search import make_objective, solve
+from levade.search.recording import record
+from levade.tasks import HorizonRange, load_task
+
+Script = Callable[[str], ModuleType]
+
+
+def test_shares_are_what_the_margins_of_the_check_leave(script: Script) -> None:
+    duration = script("duration")
+    objective = make_objective(load_task("rearing", changes=["search.trials=24"]), threads=1)
+    motion = record(objective, solve(objective, seed=0), seed=0)
+    found = duration.shares(objective.rollout(motion["weights"][None]))[0]
+    left = margins(RecordedSimulation(motion), Demands())
+    wanted = [left[name.replace("-", "_")].value for name in duration.SHARES]
+    np.testing.assert_allclose(1 - found, wanted, atol=1e-12)
+    assert found.max() > 0.3
+
+
+@pytest.mark.parametrize("task", ["rearing", "posture-recovery"])
+def test_the_goal_is_that_of_the_paper_with_every_angle_in_range(script: Script, task: str) -> None:
+    made, own = script("duration").task_of(task, 0.7), load_task(task)
+    assert made.horizon == 0.7
+    assert made.start == own.start
+    assert made.success["height"].target == own.success["height"].target
+    assert made.success["pitch"].target == own.success["pitch"].target
+    assert (made.success["pitch"].tolerance, made.success["height"].tolerance) == (0.02, 0.02)
+    assert made.success["angles"].minimum == 0.0
+    assert {"effort", "share"} <= set(made.costs)
+
+
+def test_the_cases_of_a_free_duration_and_posture_are_what_the_page_says(script: Script) -> None:
+    freedom = script("freedom")
+    for kind, polish in (("free", 0), ("best", 600)):
+        task = freedom.task_of(("rearing", "hyq2max", kind, 0))
+        assert isinstance(task.horizon, HorizonRange)
+        assert (task.horizon.minimum, task.horizon.maximum, task.horizon.initial) == pytest.approx((0.15, 0.9, 0.3))
+        assert (task.search.polish, task.search.trials) == (polish, 6000)
+    assert freedom.task_of(("rearing", "hyq2max", "fixed", 0)).horizon == 0.3
+    assert [freedom.task_of(("rearing", "hyq2max", kind, 0)).horizon for kind in freedom.GRID[::7]] == pytest.approx(
+        [0.15, 0.9]
+    )
+    task = freedom.task_of(("sit-to-stand", "hyq2max", "posture", 0))
+    assert task.policy.goal == "free"
+    assert task.costs["effort"].term.over == "all"
