@@ -34,6 +34,7 @@ from levade.tasks import (
 from levade.tasks.units import UNITS, to_si
 
 BUILT_IN = list(builtin_tasks())
+HORIZON = "horizon: should be a number of seconds, or bounds for the search such as {minimum: 0.3 s, maximum: 1.5 s}"
 
 
 @pytest.mark.slow
@@ -283,7 +284,7 @@ def test_every_unit_has_its_size(unit: str) -> None:
         ({"horizon": 0}, "horizon: 0.0 s should be at least one time step (0.002 s); 0.3 to 3 s is usual"),
         ({"horizon": -1}, "horizon: -1.0 s should be at least one time step"),
         ({"horizon": math.inf}, "horizon: inf s should be"),
-        ({"horizon": True}, "horizon: should be a number, is true or false"),
+        ({"horizon": True}, f"{HORIZON}, is true or false"),
         ({"horizon": 100, "hold": 100}, "horizon: 100.0 s and hold 100.0 s are together more than 120 s"),
         ({"hold": -1}, "hold: -1.0 s should be 0 or more"),
         ({"policy": {"kernels": 0}}, "policy.kernels: 0 should be 1 to 1000; the paper has 16"),
@@ -363,8 +364,8 @@ def test_each_mistake_is_one_line_that_names_the_key(changes: dict[str, object],
         ("horizon", "changes: horizon: should be path=value, such as horizon=0.4"),
         ("=3", "changes: : no '' in the task"),
         ("horizon=[1", "changes: horizon: not YAML"),
-        ("horizon=", "changes: horizon: should be a valid number, is empty"),
-        ("horizon=long", "changes: horizon: should be a valid number"),
+        ("horizon=", f"changes: {HORIZON}, is empty"),
+        ("horizon=long", f"changes: {HORIZON}, is 'long'"),
         ("horizon=0", "changes: horizon: 0.0 s should be at least one time step"),
         ("start.fall.height=1", "changes: start.fall.height: no 'fall' in start"),
         ("start.settled.posture=[1]", "changes: start.settled.posture: should be a valid string, is a list"),
