@@ -259,7 +259,7 @@ def drawing(rows: Sequence[dict[str, Any]]) -> Any:
     looks = {
         "speed": {"color": LIGHT.z, "marker": "o", "linestyle": "-"},
         "torque": {"color": LIGHT.x, "marker": "s", "linestyle": (0, (4, 1.6))},
-        "torque-speed": {"color": LIGHT.y, "marker": "^", "linestyle": (0, (1.2, 1.2))},
+        "torque–speed": {"color": LIGHT.y, "marker": "^", "linestyle": (0, (1.2, 1.2))},
     }
     figure = Figure(figsize=(WIDTH, 4.6), layout="constrained")
     grid = figure.subplots(2, 2, sharex=True)
@@ -270,23 +270,29 @@ def drawing(rows: Sequence[dict[str, Any]]) -> Any:
         standing = statistics.median([one["standing"] for T in DURATIONS for one in of(rows, task, T, "effort")] or [0])
         effort.plot(DURATIONS, [standing * T for T in DURATIONS], color=LIGHT.muted, linewidth=0.9, dashes=(2, 3))
         for kind, look in looks.items():
-            values = {T: [one["shares"][kind] for one in of(rows, task, T, "share")] for T in DURATIONS}
+            values = {
+                T: [one["shares"][kind.replace("–", "-")] for one in of(rows, task, T, "share")] for T in DURATIONS
+            }
             curve(share, values, **look)
         top = max(1.15, 1.06 * share.get_ylim()[1])
         share.axhspan(1.0, top, facecolor=LIGHT.limit, alpha=0.22, linewidth=0, zorder=0.5)
         share.axhline(1.0, color=LIGHT.limit, linewidth=0.7, zorder=1)
         share.set_ylim(0.0, top)
         effort.set_ylim(0.0, None)
-        effort.set_ylabel("least effort [s]")
+        effort.set_ylabel("effort [s]")
         share.set_ylabel("share of the limit")
-        effort.set_title(task, fontweight="bold")
-        share.set_title(f"{task}: the motion that keeps farthest from its limits")
+        effort.set_title(f"{task}: least effort", fontweight="bold")
+        share.set_title(f"{task}: farthest from the limits", fontweight="bold")
+        share.annotate("beyond the limit", (0.98, 1.0), xycoords=("axes fraction", "data"), xytext=(0, 3),
+                       textcoords="offset points", ha="right", color=LIGHT.limit, fontsize=6.5)  # fmt: skip
         for axes in line:
             failed = [T for T in DURATIONS if not of(rows, task, T, "share")]
             axes.plot(failed, [0.04] * len(failed), transform=axes.get_xaxis_transform(), linestyle="", marker="x",
                       markersize=5, color=LIGHT.bad)  # fmt: skip
-            for reading in (0.3, 3.0):
-                axes.axvline(reading, color=LIGHT.muted, linewidth=0.6, dashes=(1, 2), zorder=1)
+            for T, reading, side in ((0.3, "paper", "left"), (3.0, "its code", "right")):
+                axes.axvline(T, color=LIGHT.muted, linewidth=0.6, dashes=(1, 2), zorder=1)
+                axes.annotate(reading, (T, 1.0), xycoords=("data", "axes fraction"), xytext=(2 if side == "left" else -2, -8),
+                              textcoords="offset points", ha=side, color=LIGHT.muted, fontsize=6.5)  # fmt: skip
     for axes in grid[1]:
         axes.set_xscale("log")
         axes.set_xticks(DURATIONS, [f"{T:g}" for T in DURATIONS])
