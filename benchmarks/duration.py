@@ -1,13 +1,14 @@
 """What the duration of the paper's two motions costs HyQ2Max, and docs/duration.md with it and the results of freedom.py.
 
-    python benchmarks/duration.py                      # three seeds, both tasks, nine durations: 15 core-minutes
+    python benchmarks/duration.py                      # three seeds, both tasks, eight durations: 20 core-minutes
     python benchmarks/duration.py --write              # only draw the figure and write the page, from benchmarks/results
 
-Each search has a fixed horizon T and looks for a motion of little effort that keeps away from the limits: squared misses of the
-goal, the effort, and twice the largest share of a limit. Of all its trials that reach the goal, the one of least effort and the
-one of the least share are kept, and simulated again through 2 s of hold. A seed begins at T = 0.5 s with 1000 trials, and goes
-on to shorter and longer T with 400 each, around the two motions of the T before. Results are kept in results/duration.jsonl
-after every seed; what is there is not made again.
+Searches have a fixed horizon T and look for a motion of little effort that keeps away from the limits: squared misses of the
+goal, the effort, and the 8-norm of all shares of limits, with plain CMA-ES. A seed begins at T = 0.5 s with six short searches
+from nothing, and a longer one around the best of them. It goes on to shorter and longer T, with two from nothing and one around
+the best of these and the motions of the T before, stretched or after a wait. Of all trials that reach the goal, the one of least
+effort and the one of the least norm are kept, and simulated again, the recovery through 2 s of hold. Results are kept in
+results/duration.jsonl after every seed; what is there is not made again.
 """
 
 from __future__ import annotations
@@ -15,7 +16,6 @@ from __future__ import annotations
 import argparse
 import json
 import os
-import statistics
 import tempfile
 import zlib
 from collections.abc import Iterator, Sequence
@@ -30,15 +30,19 @@ RESULTS = HERE / "results" / "duration.jsonl"
 PAGE = HERE.parent / "docs" / "duration.md"
 FIGURE = "figures/duration.png"
 
-DURATIONS = (0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.5, 2.1, 3.0)
+DURATIONS = (0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.5, 3.0)
 """[s]"""
 FIRST = 0.5
 """[s], where a seed begins."""
-TRIALS, MORE = 1000, 400
-"""Of the first search of a seed, and of each that goes on from it."""
+STARTS, AGAIN, SHORT, LONG = 6, 2, 140, 400
+"""Searches from nothing at `FIRST` and at every other T, the trials of each, and those of the search around the best."""
+SPACING, FEWEST, WIDE = 0.15, 6, 0.7
+"""[s] between kernels, the fewest of them, and their standard deviation in spacings: trials are not spent on details."""
+LOAD = 3.0
+"""Weight of the load."""
 HOLD = 0.4
 """[s], of the recovery while it is searched: a robot that is falling then falls on."""
-ANGLE, HEIGHT = 0.02, 0.02
+ANGLE, HEIGHT = 0.05, 0.05
 """[rad] and [m], how near the goal has to be reached."""
 SHARES = ("speed", "torque", "torque-speed")
 """Kinds of limit. Torques end at theirs: the actuators give no more."""
@@ -51,7 +55,7 @@ def goal(angles: dict[str, float], height: float, at: str = "horizon", loose: fl
     costs = {
         f"miss_{name}{suffix}": {
             "term": "miss",
-            "weight": 10,
+            "weight": 3,
             "quantity": name,
             "target": target,
             "at": at,
@@ -80,20 +84,26 @@ def task_of(name: str, horizon: float) -> Any:
         (costs, success), (more, held) = goal({**level, "yaw": 0.0}, 0.61), goal(level, 0.61, "end", loose=2.5)
         costs, success = costs | more, success | held
         changes = ["search.step=0.1", "search.smoothness=0.3", "search.modes=null", f"hold={HOLD}"]
-    costs |= {"effort": {"weight": 1.0}, "joint_limits": {"weight": 10}}
+    costs |= {"effort": {"weight": 0.5}, "joint_limits": {"weight": 10}}
     success["angles"] = {"quantity": "angle_margin", "minimum": 0.0, "at": "min"}
+    kernels = max(FEWEST, round(horizon / SPACING))
     changes += [
-        *(f"horizon={horizon}", "policy.kernels=8", "policy.variance=0.015", "stages=[{}]"),
+        *(
+            f"horizon={horizon}",
+            f"policy.kernels={kernels}",
+            f"policy.variance={(WIDE / (kernels - 1)) ** 2}",
+            "stages=[{}]",
+        ),
         *(f"costs={json.dumps(costs)}", f"success={json.dumps(success)}"),
-        *("search.population=16", "search.restart=null", "search.polish=null"),
+        *("search.population=16", "search.optimizer=cma", "search.restart=null", "search.polish=null"),
     ]
     task = load_task(name, changes=changes)
     assert all(isinstance(criterion, Criterion) for criterion in task.success.values())
-    return replace(task, costs={**task.costs, "share": Cost(largest_share, 2.0)})
+    return replace(task, costs={**task.costs, "load": Cost(load, LOAD)})
 
 
-def shares(trajectories: Any) -> np.ndarray:
-    """The largest share of each kind of limit, over joints and time, shape (n, 3): those of `levade check`."""
+def shares_of_joints(trajectories: Any) -> np.ndarray:
+    """The largest share of each kind of limit over time, shape (n, joints, 3): those of `levade check`."""
     limits = trajectories.limits
     torque, speed = trajectories.joint_torque, trajectories.joint_velocity
     kinds = (
@@ -101,57 +111,89 @@ def shares(trajectories: Any) -> np.ndarray:
         np.abs(torque) / limits.torque,
         1 - limits.torque_speed_left(torque, speed),
     )
-    return np.stack([kind.max(axis=(1, 2)) for kind in kinds], axis=1)
+    return np.stack([kind.max(axis=1) for kind in kinds], axis=2)
 
 
-def largest_share(trajectories: Any) -> np.ndarray:
-    """The largest of all, shape (n,)."""
-    return shares(trajectories).max(axis=1)
+def shares(trajectories: Any) -> np.ndarray:
+    """Those of the joint that has the largest, shape (n, 3)."""
+    return shares_of_joints(trajectories).max(axis=1)
+
+
+def load(trajectories: Any) -> np.ndarray:
+    """The 8-norm of all shares, shape (n,): all large ones count, where of the largest alone a search does not see the next."""
+    of_joints = shares_of_joints(trajectories)
+    return np.power(np.power(of_joints, 8).reshape(len(of_joints), -1).sum(axis=1), 1 / 8)
 
 
 class Kept:
-    """The successful trials of least effort and of the least share, of all that a search has tried."""
+    """The successful trials of least effort and of least load, of all that a search has tried."""
 
     def __init__(self) -> None:
         self.best: dict[str, tuple[float, np.ndarray]] = {}
 
     def look(self, weights: np.ndarray, evaluation: Any) -> None:
         won = np.flatnonzero(evaluation.success)
-        for name in ("effort", "share"):
+        for name in ("effort", "load"):
             values = evaluation.terms[name][won]
             if len(won) and values.min() < self.best.get(name, (np.inf,))[0]:
                 self.best[name] = float(values.min()), weights[won[values.argmin()]].copy()
 
 
-def search(name: str, horizon: float, seed: int, guess: np.ndarray | None) -> tuple[dict[str, Any], np.ndarray]:
-    """One search: what it found, and the weights to go on from."""
+def search(name: str, horizon: float, seed: int, around: np.ndarray | None) -> tuple[dict[str, Any], np.ndarray]:
+    """Some searches from nothing, and one around the best of them and the references ``around``.
+
+    Args:
+        name: The task.
+        horizon: T [s].
+        seed: Seed of the searches.
+        around: References of motions of another T [rad], shape (motions, steps, joints); None if there are none.
+
+    Returns:
+        What was found, and the references of the motions that were kept.
+    """
     from levade.optimizers.blas import single_threaded
-    from levade.search import Search, make_objective
+    from levade.search import make_objective
     from levade.search.initial import InitialGuess
 
-    budget = TRIALS if guess is None else MORE
-    task = task_of(name, horizon)
-    task = replace(task, search=replace(task.search, trials=budget))
-    objective = make_objective(task, threads=1)
-    initial = None if guess is None else InitialGuess(guess, step=0.5)
-    searching, kept = Search(objective.task, objective.space, seed=seed, initial=initial), Kept()
+    objective = make_objective(task_of(name, horizon), threads=1)
+    begun = [] if around is None else list(guesses(objective, around))
+    looked = Kept()
     with single_threaded():
-        while (trials := searching.ask()) is not None:
-            evaluation = objective.evaluate(trials)
-            kept.look(trials.weights, evaluation)
-            searching.tell(evaluation)
-    solution = searching.solution
-    found = {which: measured(objective, name, weights) for which, (_, weights) in kept.best.items()}
-    row = {
-        "task": name,
-        "T": horizon,
-        "seed": seed,
-        "trials": solution.trials,
-        "steps": objective.engine.steps,
-        **found,
-    }
-    going_on = [weights for _, weights in kept.best.values()] or [solution.best.weights]
-    return row, np.stack(going_on)
+        for start in range(STARTS if around is None else AGAIN):
+            own = Kept()
+            begun.append(drive(objective, SHORT, (own, looked), seed=1000 * seed + start))
+            begun += [weights for _, weights in own.best.values()]
+        drive(objective, LONG, (looked,), seed=seed, initial=InitialGuess(np.stack(begun), step=0.3))
+    row = {"task": name, "T": horizon, "seed": seed, "steps": objective.engine.steps}
+    row |= {which: measured(objective, name, weights) for which, (_, weights) in looked.best.items()}
+    kept = np.stack([weights for _, weights in looked.best.values()] or begun[-1:])
+    return row, objective.policy.reference(kept, hold_steps=0).position
+
+
+def drive(objective: Any, budget: int, looking: Sequence[Kept], *, seed: int, initial: Any = None) -> np.ndarray:
+    """One search. Returns the weights of its best trial."""
+    from levade.search import Search
+
+    task = replace(objective.task, search=replace(objective.task.search, trials=budget))
+    searching = Search(task, objective.space, seed=seed, initial=initial)
+    while (trials := searching.ask()) is not None:
+        evaluation = objective.evaluate(trials)
+        for one in looking:
+            one.look(trials.weights, evaluation)
+        searching.tell(evaluation)
+    return searching.solution.best.weights
+
+
+def guesses(objective: Any, around: np.ndarray) -> np.ndarray:
+    """Weights of motions of another duration: each stretched; and where it is shorter, as it is after a wait."""
+    steps, before = objective.policy.horizon_steps, objective.state.joint_reference[0]
+    share = np.arange(1, steps + 1) / steps * around.shape[1]
+    rows = np.arange(1, around.shape[1] + 1)
+    positions = [np.stack([np.interp(share, rows, angle) for angle in one.T], axis=1) for one in around]
+    if steps > around.shape[1]:
+        wait = np.repeat(before[None], steps - around.shape[1], axis=0)
+        positions += [np.concatenate([wait, one]) for one in around]
+    return objective.policy.imitate(np.stack(positions))
 
 
 def measured(objective: Any, name: str, weights: np.ndarray) -> dict[str, Any]:
@@ -190,7 +232,7 @@ def checksum(name: str) -> int:
     from levade.tasks import task_to_dict
 
     content = json.dumps(task_to_dict(task_of(name, FIRST), code=True), default=str)
-    return zlib.crc32(f"{content} {DURATIONS} {TRIALS} {MORE}".encode())
+    return zlib.crc32(f"{content} {DURATIONS} {STARTS} {AGAIN} {SHORT} {LONG}".encode())
 
 
 def kept() -> list[dict[str, Any]]:
@@ -222,30 +264,45 @@ def run(tasks: Sequence[str], seeds: Sequence[int]) -> None:
 
 
 def of(rows: Sequence[dict[str, Any]], task: str, horizon: float, which: str) -> list[dict[str, Any]]:
-    """The motions of all seeds that were kept for one reason: "effort" or "share"."""
+    """The motions of all seeds that were kept for one reason: "effort" or "load"."""
     return [row[which] for row in rows if (row["task"], row["T"]) == (task, horizon) and which in row]
 
 
-def middle(values: Sequence[float], digits: int) -> str:
-    """Median and range."""
-    if not values:
-        return ""
-    low, median, high = min(values), statistics.median(values), max(values)
-    return f"{median:.{digits}f} ({low:.{digits}f} to {high:.{digits}f})"
+def hardest(motion: dict[str, Any]) -> float:
+    """The largest share of speed and torque-speed; torques are at their limit at some instant of most motions."""
+    return max(motion["shares"]["speed"], motion["shares"]["torque-speed"])
 
 
 def table(rows: Sequence[dict[str, Any]], task: str) -> str:
-    """One row for each duration."""
+    """One row for each duration: least effort of all seeds, and the motion that keeps farthest from the limits."""
     lines = []
     for horizon in DURATIONS:
         asked = [row for row in rows if (row["task"], row["T"]) == (task, horizon)]
-        thrifty, gentle = of(rows, task, horizon, "effort"), of(rows, task, horizon, "share")
-        cells = [f"{horizon:g} s", f"{len(gentle)} of {len(asked)}", middle([one["effort"] for one in thrifty], 2)]
-        cells += [middle([one["shares"][kind] for one in gentle], 2) for kind in SHARES]
-        if task != "rearing":
-            cells.append(f"{sum(one['stays'] for one in gentle)} of {len(gentle)}" if gentle else "")
+        thrifty, gentle = of(rows, task, horizon, "effort"), of(rows, task, horizon, "load")
+        cells = [f"{horizon:g} s", f"{len(gentle)} of {len(asked)}"]
+        if gentle:
+            best = min(gentle, key=hardest)
+            cells.append(f"{min(one['effort'] for one in thrifty):.2f}")
+            cells += [f"{best['shares'][kind]:.2f}" for kind in SHARES]
+            cells.append(", ".join(f"{hardest(one):.2f}" for one in sorted(gentle, key=hardest)))
+            cells += [f"{sum(one['stays'] for one in gentle)} of {len(gentle)}"] if task != "rearing" else []
+        else:
+            cells += [""] * (5 if task == "rearing" else 6)
         lines.append(f"| {' | '.join(cells)} |")
     return "\n".join(lines)
+
+
+def front(rows: Sequence[dict[str, Any]], task: str) -> list[tuple[float, float, dict[str, float]]]:
+    """T, least effort and the shares of the gentlest motion of all seeds, where a longer T may wait before a shorter motion."""
+    found: list[tuple[float, float, dict[str, float]]] = []
+    thrifty, gentle = [], []
+    for horizon in DURATIONS:
+        thrifty += [(horizon, one) for one in of(rows, task, horizon, "effort")]
+        gentle += of(rows, task, horizon, "load")
+        if gentle:
+            effort = min(one["effort"] + one["standing"] * (horizon - own) for own, one in thrifty)
+            found.append((horizon, effort, min(gentle, key=hardest)["shares"]))
+    return found
 
 
 def drawing(rows: Sequence[dict[str, Any]]) -> Any:
@@ -259,21 +316,21 @@ def drawing(rows: Sequence[dict[str, Any]]) -> Any:
     looks = {
         "speed": {"color": LIGHT.z, "marker": "o", "linestyle": "-"},
         "torque": {"color": LIGHT.x, "marker": "s", "linestyle": (0, (4, 1.6))},
-        "torque–speed": {"color": LIGHT.y, "marker": "^", "linestyle": (0, (1.2, 1.2))},
+        "torque-speed": {"color": LIGHT.y, "marker": "^", "linestyle": (0, (1.2, 1.2))},
     }
     figure = Figure(figsize=(WIDTH, 4.6), layout="constrained")
     grid = figure.subplots(2, 2, sharex=True)
-    for line, task in zip(grid, ("rearing", "posture-recovery"), strict=True):
-        effort, share = line
-        curve(effort, {T: [one["effort"] for one in of(rows, task, T, "effort")] for T in DURATIONS},
-              color=LIGHT.ink, marker="o", linestyle="-")  # fmt: skip
-        standing = statistics.median([one["standing"] for T in DURATIONS for one in of(rows, task, T, "effort")] or [0])
-        effort.plot(DURATIONS, [standing * T for T in DURATIONS], color=LIGHT.muted, linewidth=0.9, dashes=(2, 3))
+    for (effort, share), task in zip(grid, ("rearing", "posture-recovery"), strict=True):
+        line = front(rows, task)
+        curve(
+            effort,
+            [(T, one["effort"]) for T in DURATIONS for one in of(rows, task, T, "effort")],
+            [(T, least) for T, least, _ in line],
+            {"color": LIGHT.ink, "marker": "o", "linestyle": "-"},
+        )
         for kind, look in looks.items():
-            values = {
-                T: [one["shares"][kind.replace("–", "-")] for one in of(rows, task, T, "share")] for T in DURATIONS
-            }
-            curve(share, values, **look)
+            points = [(T, one["shares"][kind]) for T in DURATIONS for one in of(rows, task, T, "load")]
+            curve(share, points, [(T, shares[kind]) for T, _, shares in line], look)
         top = max(1.15, 1.06 * share.get_ylim()[1])
         share.axhspan(1.0, top, facecolor=LIGHT.limit, alpha=0.22, linewidth=0, zorder=0.5)
         share.axhline(1.0, color=LIGHT.limit, linewidth=0.7, zorder=1)
@@ -283,40 +340,61 @@ def drawing(rows: Sequence[dict[str, Any]]) -> Any:
         share.set_ylabel("share of the limit")
         effort.set_title(f"{task}: least effort", fontweight="bold")
         share.set_title(f"{task}: farthest from the limits", fontweight="bold")
-        share.annotate("beyond the limit", (0.98, 1.0), xycoords=("axes fraction", "data"), xytext=(0, 3),
-                       textcoords="offset points", ha="right", color=LIGHT.limit, fontsize=6.5)  # fmt: skip
-        for axes in line:
-            failed = [T for T in DURATIONS if not of(rows, task, T, "share")]
-            axes.plot(failed, [0.04] * len(failed), transform=axes.get_xaxis_transform(), linestyle="", marker="x",
-                      markersize=5, color=LIGHT.bad)  # fmt: skip
+        note(share, "beyond the limit", (0.98, 1.0), ("axes fraction", "data"), (0, 3), "right", LIGHT.limit)
+        failed = [T for T in DURATIONS if not of(rows, task, T, "load")]
+        for axes in (effort, share):
+            axes.plot(
+                *(failed, [0.04] * len(failed)),
+                transform=axes.get_xaxis_transform(),
+                linestyle="",
+                marker="x",
+                markersize=5,
+                color=LIGHT.bad,
+            )
             for T, reading, side in ((0.3, "paper", "left"), (3.0, "its code", "right")):
                 axes.axvline(T, color=LIGHT.muted, linewidth=0.6, dashes=(1, 2), zorder=1)
-                axes.annotate(reading, (T, 1.0), xycoords=("data", "axes fraction"), xytext=(2 if side == "left" else -2, -8),
-                              textcoords="offset points", ha=side, color=LIGHT.muted, fontsize=6.5)  # fmt: skip
+                shift = (2 if side == "left" else -2, -8)
+                note(axes, reading, (T, 1.0), ("data", "axes fraction"), shift, side, LIGHT.muted)
     for axes in grid[1]:
         axes.set_xscale("log")
         axes.set_xticks(DURATIONS, [f"{T:g}" for T in DURATIONS])
         axes.minorticks_off()
         axes.set_xlabel("duration T [s]")
-    handles = [Line2D([], [], label=kind, markersize=4, **look) for kind, look in looks.items()]
     handles = [
         Line2D([], [], label="effort", color=LIGHT.ink, marker="o", markersize=4),
-        Line2D([], [], label="standing for T", color=LIGHT.muted, linewidth=0.9, dashes=(2, 3)),
-        *handles,
+        *(Line2D([], [], label=kind.replace("-", "–"), markersize=4, **look) for kind, look in looks.items()),
         Line2D([], [], label="no seed reached the goal", color=LIGHT.bad, marker="x", linestyle=""),
     ]
-    figure.legend(handles=handles, loc="outside upper center", ncols=6)
+    figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
     return figure
 
 
-def curve(axes: Any, values: dict[float, list[float]], **look: Any) -> None:
-    """Seeds as points, and a line through their medians."""
-    marker = look.pop("marker")
-    there = [T for T, some in values.items() if some]
-    axes.plot(there, [statistics.median(values[T]) for T in there], **look)
-    points = [(T, value) for T in there for value in values[T]]
-    axes.plot(*zip(*points, strict=True) if points else ([], []), linestyle="", marker=marker, markersize=3.2,
-              color=look["color"], markeredgecolor="white", markeredgewidth=0.4, zorder=3)  # fmt: skip
+def note(axes: Any, text: str, place: Any, coordinates: Any, shift: tuple[int, int], side: str, colour: str) -> None:
+    """A small word at a place."""
+    axes.annotate(
+        *(text, place),
+        xycoords=coordinates,
+        xytext=shift,
+        textcoords="offset points",
+        ha=side,
+        color=colour,
+        fontsize=6.5,
+    )
+
+
+def curve(axes: Any, points: Sequence[tuple[float, float]], line: Sequence[tuple[float, float]], look: dict) -> None:
+    """Every seed as a point, and the front as a line."""
+    axes.plot(*zip(*line, strict=True) if line else ([], []), color=look["color"], linestyle=look["linestyle"])
+    axes.plot(
+        *(zip(*points, strict=True) if points else ([], [])),
+        linestyle="",
+        marker=look["marker"],
+        markersize=3.4,
+        color=look["color"],
+        zorder=3,
+        markeredgecolor="white",
+        markeredgewidth=0.4,
+    )
 
 
 def page() -> str:
