@@ -5,10 +5,10 @@
 
 Searches have a fixed horizon T and look for a motion of little effort that keeps away from the limits: squared misses of the
 goal, the effort, and the 8-norm of all shares of limits, with plain CMA-ES. A seed begins at T = 0.5 s with six short searches
-from nothing, and a longer one around the best of them. It goes on to shorter and longer T, with two from nothing and one around
-the best of these and the motions of the T before, stretched or after a wait. Of all trials that reach the goal, the one of least
-effort and the one of the least norm are kept, and simulated again, the recovery through 2 s of hold. Results are kept in
-results/duration.jsonl after every seed; what is there is not made again.
+from nothing, and a longer one around the best of them. It goes on to shorter and longer T, with two from nothing and one
+around the best of these and the motions of the T before, stretched or after a wait. Of all trials that reach the goal, the one
+of least effort and the one of the least norm are kept, and simulated again, the recovery through 2 s of hold. Results are in
+results/duration.jsonl, seed by seed; what is there is not made again.
 """
 
 from __future__ import annotations
