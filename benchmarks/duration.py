@@ -243,7 +243,7 @@ def kept() -> list[dict[str, Any]]:
 
 
 def run(tasks: Sequence[str], seeds: Sequence[int]) -> None:
-    """Make what is missing. A seed that was stopped on the way begins again."""
+    """Make what is missing. A seed that was stopped on the way begins again when this is run again."""
     from levade.motions import versions
 
     for seed in seeds:
@@ -254,13 +254,12 @@ def run(tasks: Sequence[str], seeds: Sequence[int]) -> None:
             ]
             if len(done) == len(DURATIONS):
                 continue
-            rows = []
+            others, rows = [row for row in kept() if (row["task"], row["seed"]) != (name, seed)], []
             for row in chain(name, seed):
                 rows.append({**row, **about})
                 print({key: row[key] for key in row if key != "trials"}, flush=True)
-            others = [row for row in kept() if (row["task"], row["seed"]) != (name, seed)]
-            text = "".join(json.dumps(row) + "\n" for row in [*others, *rows])
-            RESULTS.write_text(text, encoding="utf-8")
+                text = "".join(json.dumps(row) + "\n" for row in [*others, *rows])
+                RESULTS.write_text(text, encoding="utf-8")
 
 
 def of(rows: Sequence[dict[str, Any]], task: str, horizon: float, which: str) -> list[dict[str, Any]]:
@@ -278,6 +277,8 @@ def table(rows: Sequence[dict[str, Any]], task: str) -> str:
     lines = []
     for horizon in DURATIONS:
         asked = [row for row in rows if (row["task"], row["T"]) == (task, horizon)]
+        if not asked:
+            continue
         thrifty, gentle = of(rows, task, horizon, "effort"), of(rows, task, horizon, "load")
         cells = [f"{horizon:g} s", f"{len(gentle)} of {len(asked)}"]
         if gentle:
@@ -303,6 +304,24 @@ def front(rows: Sequence[dict[str, Any]], task: str) -> list[tuple[float, float,
             effort = min(one["effort"] + one["standing"] * (horizon - own) for own, one in thrifty)
             found.append((horizon, effort, min(gentle, key=hardest)["shares"]))
     return found
+
+
+def conclusion(rows: Sequence[dict[str, Any]]) -> str:
+    """What the front says of 0.3 s and 3 s, and the shortest T within the limits, for each task that has results."""
+    said = []
+    for task, does in (("rearing", "Rearing"), ("posture-recovery", "Recovery")):
+        line = {horizon: (effort, shares) for horizon, effort, shares in front(rows, task)}
+        within = [T for T, (_, shares) in line.items() if max(shares["speed"], shares["torque-speed"]) <= 1]
+        if 0.3 not in line or 3.0 not in line:
+            continue
+        effort, shares = line[0.3]
+        least = f"{within[0]:g} s" if within else "none of these"
+        said.append(
+            f"- **{does}** in 0.3 s needs {shares['speed']:.2f} of the speed limit and {shares['torque-speed']:.2f} of the"
+            f" torque–speed line at best, and an effort of {effort:.2f} s. The shortest T within both is {least}. With 3 s the"
+            f" effort is {line[3.0][0]:.2f} s."
+        )
+    return "\n".join(said)
 
 
 def drawing(rows: Sequence[dict[str, Any]]) -> Any:
@@ -340,8 +359,9 @@ def drawing(rows: Sequence[dict[str, Any]]) -> Any:
         share.set_ylabel("share of the limit")
         effort.set_title(f"{task}: least effort", fontweight="bold")
         share.set_title(f"{task}: farthest from the limits", fontweight="bold")
-        note(share, "beyond the limit", (0.98, 1.0), ("axes fraction", "data"), (0, 3), "right", LIGHT.limit)
-        failed = [T for T in DURATIONS if not of(rows, task, T, "load")]
+        note(share, "beyond the limit", (0.02, 1.0), ("axes fraction", "data"), (0, 3), "left", LIGHT.limit)
+        tried = {row["T"] for row in rows if row["task"] == task}
+        failed = [T for T in DURATIONS if T in tried and not of(rows, task, T, "load")]
         for axes in (effort, share):
             axes.plot(
                 *(failed, [0.04] * len(failed)),
@@ -402,12 +422,15 @@ def page() -> str:
     import freedom
 
     rows = kept()
-    seeds = len({row["seed"] for row in rows})
+    seeds = " and ".join(
+        f"{len({row['seed'] for row in rows if row['task'] == task})}" for task in ("rearing", "posture-recovery")
+    )
     made = ", ".join(f"{name} {version}" for name, version in rows[0]["versions"].items()) if rows else "nothing"
     filled = {
         "@REARING@": table(rows, "rearing"),
         "@RECOVERY@": table(rows, "posture-recovery"),
-        "@SEEDS@": str(seeds),
+        "@CONCLUSION@": conclusion(rows),
+        "@SEEDS@": seeds,
         "@MADE@": made,
         "@FREE@": freedom.duration_table(),
         "@GRID@": freedom.grid_table(),
