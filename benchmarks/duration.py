@@ -294,7 +294,7 @@ def table(rows: Sequence[dict[str, Any]], task: str) -> str:
 
 
 def front(rows: Sequence[dict[str, Any]], task: str) -> list[tuple[float, float, dict[str, float]]]:
-    """T, least effort and the shares of the gentlest motion of all seeds, where a longer T may wait before a shorter motion."""
+    """T, least effort and the shares of the gentlest motion of all seeds, where a longer T may wait, before or after."""
     found: list[tuple[float, float, dict[str, float]]] = []
     thrifty, gentle = [], []
     for horizon in DURATIONS:
