@@ -318,8 +318,8 @@ def conclusion(rows: Sequence[dict[str, Any]]) -> str:
         least = f"{within[0]:g} s" if within else "none of these"
         said.append(
             f"- **{does}** in 0.3 s needs {shares['speed']:.2f} of the speed limit and {shares['torque-speed']:.2f} of the"
-            f" torque–speed line at best, and an effort of {effort:.2f} s. The shortest T within both is {least}. With 3 s the"
-            f" effort is {line[3.0][0]:.2f} s."
+            f" torque–speed line at best, and an effort of {effort:.2f} s. The shortest T for which a motion within both was"
+            f" found is {least}. Of 3 s the front's effort is {line[3.0][0]:.2f} s."
         )
     return "\n".join(said)
 
@@ -359,7 +359,7 @@ def drawing(rows: Sequence[dict[str, Any]]) -> Any:
         share.set_ylabel("share of the limit")
         effort.set_title(f"{task}: least effort", fontweight="bold")
         share.set_title(f"{task}: farthest from the limits", fontweight="bold")
-        note(share, "beyond the limit", (0.02, 1.0), ("axes fraction", "data"), (0, 3), "left", LIGHT.limit)
+        note(share, "beyond the limit", (0.94, 1.0), ("axes fraction", "data"), (0, 3), "right", LIGHT.limit)
         tried = {row["T"] for row in rows if row["task"] == task}
         failed = [T for T in DURATIONS if T in tried and not of(rows, task, T, "load")]
         for axes in (effort, share):
