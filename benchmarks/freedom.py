@@ -6,10 +6,10 @@
 
 *Duration*: each task as it is, and with ``horizon: {minimum: T/2, maximum: 3 T, initial: T}``; a search ends with its first
 success, or after 6000 trials. *Grid*: the same, and eight fixed durations, with 600 trials after the first success. *Posture*:
-each task as it is, and with ``policy.goal: free``, both with an effort that counts the hold as well, and 600 trials after the
-first success. The torque of standing is that of the last tenth of a second of the hold, as a share of each joint's limit, root
-mean square over joints. Every run is kept in results/freedom.jsonl under a checksum of its task, and is not made again: delete
-the file after a change to the search. ``python benchmarks/duration.py --write`` makes the page.
+each task as it is, and with ``policy.goal: free``, both with an effort of weight 1 that counts the hold as well, and 300 trials
+after the first success. The torque of standing is that of the last tenth of a second of the hold, as a share of each joint's
+limit, root mean square over joints. Every run is kept in results/freedom.jsonl under a checksum of its task, and is not made
+again: delete the file after a change to the search. ``python benchmarks/duration.py --write`` makes the page.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def task_of(case: Case) -> Any:
         changes.append(f"horizon={{minimum: {t / 2}, maximum: {3 * t}, initial: {t}}}")
         changes += [f"search.polish={POLISH}"] if kind == "best" else []
     elif kind in ("neutral", "posture"):
-        changes += ["costs.effort.over=all", "stages=[{}]", f"search.polish={POLISH}"]
+        changes += ["costs.effort.over=all", "costs.effort.weight=1", "stages=[{}]", f"search.polish={POLISH // 2}"]
         if base.policy.settle == 0:
             changes.append(f"policy.settle={SETTLE}")
         if kind == "posture":
