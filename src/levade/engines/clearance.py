@@ -7,10 +7,10 @@ A pair of the robot's shapes counts if the two may touch in the model. So adjace
 overlap in the neutral posture, which the robot's model lets pass through each other (`levade.robots.preparing`).
 
 With a clearance, MuJoCo also finds contacts of shapes that are only near each other. They have no force. Each shape of the
-robot has half of the clearance as its ``gap``, and each of the scene as much less: gaps add up, so contacts with the scene are
+robot has half of the clearance as its ``gap``, and each of the scene as much less. Gaps add up, so contacts with the scene are
 found as before. Spheres and capsules, and boxes that meet these, have the same contacts with a clearance and without, to the
-bit. Where MuJoCo finds contacts by iteration (cylinders, ellipsoids, meshes), the last digits of a depth depend on the gap, so a
-model with a clearance is another model. A clearance of 0 sets no gap, and leaves every motion its bits.
+bit. Where MuJoCo finds contacts by iteration (cylinders, ellipsoids, meshes), the last digits of a depth depend on the gap, so
+a model with a clearance is another model. A clearance of 0 sets no gap, and leaves every motion its bits.
 """
 
 from __future__ import annotations

@@ -39,7 +39,7 @@ from levade.search.optimizing import make_attempt
 from levade.search.space import search_space
 from levade.tasks import Task, looks_at_hold
 from levade.tasks.policy import make_policy
-from levade.tasks.reach import check_reach
+from levade.tasks.reach import check_clearance, check_reach
 from levade.trajectory import JointReference, Trajectories
 
 AT_ONCE = 128
@@ -140,6 +140,7 @@ class Objective:
         self.terms = {name: cost.term for name, cost in task.costs.items()}
         self.recorded = _recorded(task, simulation)
         check_reach(task, self.robot, self.engine.model)
+        check_clearance(task, self.robot, self.engine.model)
         check_fits(self.engine, task.horizon_steps + task.hold_steps)
         self.policy = policy or make_policy(task, self.robot, start=self.state.joint_reference[0])
         self._drawn: dict[tuple[int, int], tuple[State, Models]] = {}
