@@ -123,6 +123,9 @@ class Trajectories:
         None unless asked for.
     body_contact_force: body name -> (n, steps) [N], magnitude of the net force that the ground and the obstacles put on
         the body; holds the bodies that were asked for.
+    self_distance: (n, steps) [m], least distance between two parts of the robot at the end of each step; negative where they
+        are in each other, and never more than the clearance that was asked for (`levade.engines.clearance`). None unless
+        asked for.
     begin: (n,) the row in which each trial begins; rows before it repeat that one and do not count. None where all begin in
         row 0.
     """
@@ -141,6 +144,7 @@ class Trajectories:
     diverged: NDArray[np.bool_]
     foot_contact_force: Array | None = None
     body_contact_force: Mapping[str, Array] = field(default_factory=dict)
+    self_distance: Array | None = None
     begin: NDArray[np.intp] | None = None
 
     def __getitem__(self, trials: slice) -> Trajectories:

@@ -72,7 +72,7 @@ def test_another_engine_is_tried_or_says_why_not(standing: Motion, monkeypatch: 
         assert one.over_time["time"][-1] == pytest.approx(0.3)
         assert len(one.over_time["position"]) == len(one.over_time["time"])
 
-    def missing(*_: object) -> None:
+    def missing(*_: object, **__: object) -> None:
         raise LevadeError("ode: not installed; install it")
 
     monkeypatch.setattr(engines, "replay_in", missing)

@@ -7,7 +7,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from levade.costs import Criterion, Margins
+from levade.costs import Criterion, Margins, Miss, clearance_of
 from levade.embodiment import JointLimits
 from levade.errors import LevadeError
 from levade.robots import load_robot
@@ -102,7 +102,7 @@ def test_limits_come_with_the_robots_line():
 @pytest.mark.parametrize(
     ("wanted", "message"),
     [
-        ({}, "margins: none is wanted; give at least one of angle, speed, torque_speed, midplane"),
+        ({}, "margins: none is wanted; give at least one of angle, speed, torque_speed, midplane, self_distance"),
         ({"speed": 0.0}, "margins.speed: 0.0 should be a positive margin; leave it out if none is wanted"),
         ({"angle": float("nan")}, "margins.angle: nan should be a positive margin"),
     ],
@@ -110,3 +110,28 @@ def test_limits_come_with_the_robots_line():
 def test_margins_that_make_no_sense_are_refused(wanted, message):
     with pytest.raises(LevadeError, match=message):
         Margins(**wanted)
+
+
+def test_parts_that_are_too_near_each_other_miss_a_margin(at_rest):
+    """At the clearance nothing is missed, touching costs 1, and a centimetre deep 4."""
+    distance = np.full((2, 25), 0.01)
+    distance[0, 7], distance[1, 24] = 0.0, -0.01  # the second in the hold
+    near = dataclasses.replace(at_rest, self_distance=distance)
+    assert Margins(self_distance=0.01)(near) == pytest.approx([1.0, 4.0])
+    assert Margins(self_distance=0.01, over="horizon")(near) == pytest.approx([1.0, 0.0])
+    apart = Criterion("self_distance", minimum=0.0, at="min")
+    assert apart.error(near) == pytest.approx([0.0, -0.01])
+    assert apart.holds(near).tolist() == [True, False]
+
+
+def test_the_clearance_that_is_measured_is_the_largest_that_something_looks_at():
+    apart, wide = Criterion("self_distance", minimum=0.005, at="min"), Margins(self_distance=0.02)
+    assert clearance_of([Criterion("height", minimum=1.0), Margins(speed=0.1)]) is None
+    assert clearance_of([Criterion("self_distance", minimum=-0.01)]) == 0.0
+    assert clearance_of([apart, Criterion("self_distance", target=0.01, tolerance=0.002)]) == pytest.approx(0.012)
+    assert clearance_of([apart, wide, Miss("self_distance", minimum=0.01)]) == 0.02
+
+
+def test_distances_that_were_not_recorded_are_missing_in_one_line(at_rest):
+    with pytest.raises(LevadeError, match="self_distance: distances between the robot's parts were not recorded"):
+        Margins(self_distance=0.01)(at_rest)

@@ -93,3 +93,13 @@ def test_the_height_of_the_scene_adds_to_the_reach(task: Task) -> None:
     make_objective(replace(high, scene=Scene(slope=0.1)))
     with pytest.raises(LevadeError, match=r"hip to centre of mass 0\.22 m, 0\.10 m of the scene\)"):
         make_objective(replace(high, scene=Scene(boxes=(Box((1.5, 0.0, 0.05), (1.0, 1.0, 0.1)),))))
+
+
+def test_more_distance_between_parts_than_a_posture_leaves_is_refused(task: Task) -> None:
+    """The thighs of the two sides are 0.24 m apart, less two radii."""
+    near = Criterion("self_distance", minimum=0.9, at="min")
+    with pytest.raises(
+        LevadeError, match=r"^success.goal.minimum: asks for 900 mm between the parts of toy, but \w+ and \w+"
+    ):
+        make_objective(asking(task, near))
+    make_objective(asking(task, replace(near, minimum=0.001)))

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import yaml
 
-from levade.costs import Effort, JointLimitExcess, Orientation, Position
+from levade.costs import Criterion, Effort, JointLimitExcess, Margins, Orientation, Position
 from levade.engines import Fall, Settled
 from levade.errors import LevadeError
 from levade.robots import dimensions, load_robot
@@ -124,6 +124,19 @@ def test_slow_tasks_are_the_fast_ones_with_more_time(name: str) -> None:
     assert (slow.success, slow.scene, slow.start, slow.hold) == (fast.success, fast.scene, fast.start, fast.hold)
     for term in ("orientation", "position", "effort", "joint_limits"):
         assert slow.costs[term] == fast.costs[term]
+
+
+def test_changes_add_whole_costs_and_criteria() -> None:
+    added = [
+        "costs.apart={term: margins, weight: 0.02, self_distance: 1 cm}",
+        "success.self_distance={minimum: 5 mm, at: min}",
+    ]
+    task = load_task("rearing", changes=added)
+    assert task.costs["apart"] == Cost(Margins(self_distance=0.01), 0.02)
+    assert task.success["self_distance"] == Criterion("self_distance", minimum=0.005, at="min")
+    assert task.clearance == 0.01
+    assert task_from_dict(task_to_dict(task), where="task") == task
+    assert load_task("rearing").clearance is None
 
 
 def test_changes_by_path() -> None:
@@ -358,6 +371,9 @@ def test_each_mistake_is_one_line_that_names_the_key(changes: dict[str, object],
         ("costs.efort.weight=1", "changes: costs.efort.weight: no 'efort' in costs; did you mean effort?"),
         ("costs.effort.wight=1", "changes: costs.effort.wight: no 'wight' in costs.effort; did you mean weight?"),
         ("stages.7.step=1", "changes: stages.7.step: no '7' in stages; valid names: 0, 1"),
+        ("costs.near=0.1", "changes: costs.near: no 'near' in costs; valid names: "),
+        ("costs.near={weight: 1}", "changes: costs.near: no term 'near'; valid names: "),
+        ("success.apart={minimum: 0}", "changes: success.apart: 'apart' is no quantity, so say which: quantity: "),
         ("horizon.ms=300", "changes: horizon.ms: horizon is a single value, 0.3; set it as a whole"),
         ("scene.boxes.0=1", "changes: scene.boxes.0: scene.boxes is empty; set it as a whole"),
         ("search.settings.aimd=3", "changes: search.settings: no 'aimd' for cma-aimed; did you mean aimed?"),

@@ -8,6 +8,7 @@ import mujoco
 import numpy as np
 
 from levade.arrays import Array
+from levade.engines.clearance import self_contacts
 from levade.motions import RecordedSimulation
 
 
@@ -53,13 +54,14 @@ def poses(simulation: RecordedSimulation) -> tuple[Array, list[Collision], Array
         mujoco.mj_comPos(model, data)
         mujoco.mj_collision(model, data)
         centres[row] = data.geom_xpos[feet]
+        for one, other, distance in self_contacts(model, data):
+            if distance < 0:
+                bodies = sorted((model.body(one).name, model.body(other).name))
+                found.setdefault((bodies[0], bodies[1]), []).append((-distance, row))
         for contact in data.contact:
             pair = [int(geom) for geom in contact.geom]
             one, other = (int(model.geom_bodyid[geom]) for geom in pair)
             if one and other:
-                if one != other and contact.dist < 0 and not contact.exclude:
-                    bodies = sorted((model.body(one).name, model.body(other).name))
-                    found.setdefault((bodies[0], bodies[1]), []).append((-float(contact.dist), row))
                 continue
             part = pair[1] if one == 0 else pair[0]
             if part in feet:

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from levade.checks.numerics import apart
-from levade.costs import errors, success
 from levade.costs.orientation import geodesic
 from levade.engines import ENGINES
 from levade.errors import LevadeError
@@ -42,15 +41,14 @@ def other_engines(simulation: RecordedSimulation) -> dict[str, Replayed]:
 
 def _replay(simulation: RecordedSimulation, engine: str) -> Replayed:
     try:
-        trajectories = replay_in(engine, simulation.motion).trajectories
+        replay = replay_in(engine, simulation.motion, criteria=simulation.criteria)
     except LevadeError as error:
         return Replayed(reason=str(error))
-    off = errors(simulation.criteria, trajectories)
     return Replayed(
-        success=bool(success(simulation.criteria, trajectories)[0]),
-        errors={name: float(error[0]) for name, error in off.items()},
-        apart=apart(simulation, trajectories),
-        over_time=_over_time(simulation, trajectories),
+        success=replay.success,
+        errors=dict(replay.errors),
+        apart=apart(simulation, replay.trajectories),
+        over_time=_over_time(simulation, replay.trajectories),
     )
 
 

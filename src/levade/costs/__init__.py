@@ -14,6 +14,7 @@
 A term is anything that takes Trajectories and returns one number per trial, unweighted, in the term's own unit.
 """
 
+from levade.costs.clearance import clearance_of
 from levade.costs.contact import GroundContact
 from levade.costs.duration import Duration
 from levade.costs.effort import Effort
@@ -49,6 +50,7 @@ __all__ = [
     "SpeedLimitExcess",
     "Term",
     "TorqueLimitExcess",
+    "clearance_of",
     "errors",
     "evaluate",
     "success",

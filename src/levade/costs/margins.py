@@ -1,4 +1,4 @@
-"""What a motion leaves of the joints' limits at its tightest instant, as `levade check` measures it."""
+"""What a motion leaves of the hardware's limits at its tightest instant, as `levade check` measures it."""
 
 from __future__ import annotations
 
@@ -9,9 +9,12 @@ from typing import ClassVar
 import numpy as np
 
 from levade.arrays import Array
+from levade.costs.clearance import self_distance
 from levade.costs.rows import Over, rows_over
 from levade.errors import LevadeError
 from levade.trajectory import Trajectories
+
+_WANTED = ("angle", "speed", "torque_speed", "midplane", "self_distance")
 
 
 @dataclass(frozen=True)
@@ -24,7 +27,8 @@ class Margins:
     angle: [rad] to the ends of the range. speed: share of the speed limit. torque_speed: share of the stall torque to the
         actuator's line |torque| / stall_torque + |speed| / no_load_speed = 1 while driving; a drive is beyond it where its
         torque lags behind its speed. midplane: [m], how far each foot stays on its own side of the trunk's middle plane: legs
-        that do not cross do not collide. None for what does not count; joints without a limit never miss its margin.
+        that do not cross do not collide. self_distance: [m], between parts of the robot. None for what does not count; joints
+        without a limit never miss its margin.
     over: the motion proper, or the hold as well.
     """
 
@@ -34,10 +38,11 @@ class Margins:
     speed: float | None = None
     torque_speed: float | None = None
     midplane: float | None = None
+    self_distance: float | None = None
     over: Over = "all"
 
     def __post_init__(self) -> None:
-        wanted = {name: getattr(self, name) for name in ("angle", "speed", "torque_speed", "midplane")}
+        wanted = {name: getattr(self, name) for name in _WANTED}
         if all(value is None for value in wanted.values()):
             raise LevadeError(f"margins: none is wanted; give at least one of {', '.join(wanted)}")
         for name, value in wanted.items():
@@ -45,6 +50,11 @@ class Margins:
                 raise LevadeError(
                     f"margins.{name}: {value} should be a positive margin; leave it out if none is wanted"
                 )
+
+    @property
+    def clearance(self) -> float | None:
+        """See `levade.costs.clearance`."""
+        return self.self_distance
 
     def __call__(self, trajectories: Trajectories) -> Array:
         """(n,) [-]."""
@@ -65,6 +75,9 @@ class Margins:
                 for leg in trajectories.legs
             ]
             missed += [_shortfall(side.min(axis=1, keepdims=True), self.midplane) for side in outward]
+        if self.self_distance is not None:
+            nearest = self_distance(trajectories, rows).min(axis=1, keepdims=True)
+            missed.append(_shortfall(nearest, self.self_distance))
         return np.ascontiguousarray(np.concatenate(missed, axis=1)).sum(axis=1)
 
 

@@ -56,6 +56,11 @@ class Miss:
         at = "horizon" if self.at == "motion" else self.at
         return Criterion(self.quantity, self.target, tolerance, self.minimum, self.maximum, at, self.legs)
 
+    @property
+    def clearance(self) -> float | None:
+        """See `levade.costs.clearance`."""
+        return self._criterion.clearance
+
     def __call__(self, trajectories: Trajectories) -> Array:
         """(n,) [-]."""
         rows = slice(0, trajectories.horizon_steps) if self.at == "motion" else None

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from levade.arrays import Array
+from levade.costs.clearance import self_distance
 from levade.costs.evaluate import DIVERGED, within
 from levade.costs.orientation import angle_between, pitch_past_vertical, world_up, wrap
 from levade.costs.rows import rows_at
@@ -22,7 +23,8 @@ from levade.trajectory import Trajectories
 
 Quantity = Literal[
     "roll", "pitch", "yaw", "tilt", "x", "y", "height", "travel", "speed", "vertical_speed", "angular_speed",
-    "lowest_foot", "highest_foot", "trunk_clearance", "angle_margin", "speed_margin", "torque_speed_margin", "duration",
+    "lowest_foot", "highest_foot", "trunk_clearance", "angle_margin", "speed_margin", "torque_speed_margin",
+    "self_distance", "duration",
 ]  # fmt: skip
 
 QUANTITIES: dict[str, str] = {
@@ -43,6 +45,7 @@ QUANTITIES: dict[str, str] = {
     "angle_margin": "rad",
     "speed_margin": "of limit",
     "torque_speed_margin": "of limit",
+    "self_distance": "m",
     "duration": "s",
 }
 """Quantity -> unit."""
@@ -89,7 +92,7 @@ def unit_of(quantity: str) -> str:
 
 CIRCULAR = ("roll", "pitch", "yaw")
 OF_FEET = ("lowest_foot", "highest_foot")
-MARGINS = ("angle_margin", "speed_margin", "torque_speed_margin")
+MARGINS = ("angle_margin", "speed_margin", "torque_speed_margin", "self_distance")
 
 Legs = str | tuple[str, ...]
 """Some of the legs: "all", "front", "hind", "left", "right", a leg's name, or several of these."""
@@ -110,6 +113,8 @@ class Criterion:
         angular_speed [rad/s]: norm of the angular velocity.
         angle_margin [rad], speed_margin, torque_speed_margin [share of the limit]: what the joint that has least left
             leaves of its range, its speed limit, its actuator's line (`levade.trajectory.JointLimits`).
+        self_distance [m]: the least between two parts of the robot that may touch; negative where they are in each other.
+            What is farther than the clearance counts as that far.
         duration [s]: the horizon T, where it is a decision of the search.
         lowest_foot, highest_foot [m]: height over z = 0 of the sole that is lowest, or highest, among the ``legs``.
         trunk_clearance [m]: height over z = 0 of the lowest point of the trunk, and of what is fixed to it.
@@ -149,6 +154,15 @@ class Criterion:
             raise LevadeError(f"{where}.tolerance: {self.tolerance} is negative; 0 or more")
         if self.minimum is not None and self.maximum is not None and self.minimum > self.maximum:
             raise LevadeError(f"{where}: the minimum {self.minimum} is above the maximum {self.maximum}")
+
+    @property
+    def clearance(self) -> float | None:
+        """See `levade.costs.clearance`; None for another quantity."""
+        if self.quantity != "self_distance":
+            return None
+        target = [] if self.target is None else [self.target + (self.tolerance or 0.0)]
+        bounds = [bound for bound in (self.minimum, self.maximum) if bound is not None]
+        return max(0.0, *target, *bounds)
 
     @property
     def is_speed(self) -> bool:
@@ -269,7 +283,9 @@ def _measured(measure: Measure, trajectories: Trajectories, rows: slice) -> Arra
 
 
 def _margin(quantity: str, trajectories: Trajectories, rows: slice) -> Array:
-    """(n, rows), of the joint that has least left."""
+    """(n, rows), of the joint that has least left, or of the parts that are nearest."""
+    if quantity == "self_distance":
+        return self_distance(trajectories, rows)
     limits = trajectories.limits
     if quantity == "angle_margin":
         left = np.minimum(limits.angle_left(trajectories.joint_position[:, rows]), np.pi)  # a joint without a range

@@ -5,6 +5,7 @@ start = start_state(engine, robot, Scene(), Settled("neutral"))
 trajectories = engine.rollout(start, policy.reference(weights))
 """
 
+from levade.engines.clearance import SELF_DISTANCE
 from levade.engines.engine import Engine
 from levade.engines.layout import FOOT_CONTACT_FORCE, Layout
 from levade.engines.models import Models, perturbed_models
@@ -19,6 +20,7 @@ from levade.engines.table import ENGINES, EngineKind, engine_kind
 __all__ = [
     "ENGINES",
     "FOOT_CONTACT_FORCE",
+    "SELF_DISTANCE",
     "Engine",
     "EngineKind",
     "Fall",

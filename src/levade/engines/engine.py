@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import ClassVar
 
@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from levade.arrays import Array
 from levade.embodiment import Embodiment
+from levade.engines.clearance import SELF_DISTANCE, distances_at
 from levade.engines.layout import FOOT_CONTACT_FORCE, Layout
 from levade.engines.models import FIELDS, Models, delayed
 from levade.engines.physics import Physics
@@ -146,28 +147,45 @@ class Engine(ABC):
                 nominal model to rounding, not to the bit.
             feedback: Stabiliser that corrects the reference from what each trial senses.
             sensor_errors: What is added to what is sensed, shape (n, ticks, sensed); see `levade.feedback.SensorErrors`.
-            record: Forces to record: `FOOT_CONTACT_FORCE`, and names of `bodies` for their contact force with the scene.
+            record: What to record besides: `FOOT_CONTACT_FORCE`, `levade.engines.SELF_DISTANCE`, and names of `bodies` for
+                their contact force with the scene.
 
         Returns:
             What the trials did. Trials whose simulation breaks down are marked in ``diverged``; their later rows repeat
             the last sound one.
 
         Raises:
-            LevadeError: If the rows do not fit together, a name in ``record`` is unknown, or the engine has no feedback.
+            LevadeError: If the rows do not fit together, a name in ``record`` is unknown or cannot be measured, or the engine
+                has no feedback.
         """
         for name in record:
-            if name != FOOT_CONTACT_FORCE and name not in self.bodies:
-                hint = did_you_mean(name, (FOOT_CONTACT_FORCE, *self.bodies))
+            if name == SELF_DISTANCE and self.layout.clearance is None:
+                raise LevadeError(
+                    "record: the model measures no distances between the robot's parts; make it with a clearance"
+                )
+            if name not in (FOOT_CONTACT_FORCE, SELF_DISTANCE, *self.bodies):
+                hint = did_you_mean(name, (FOOT_CONTACT_FORCE, SELF_DISTANCE, *self.bodies))
                 raise LevadeError(f"record: no body {name!r} in the model; {hint}")
         ends = reference.ends
         if ends is None:
-            return self._simulate(self._trials(starts, reference, models, feedback, sensor_errors), record)
+            done = self._simulate(self._trials(starts, reference, models, feedback, sensor_errors), record)
+            return self._with_distances(done, record)
         order = np.argsort(-ends, kind="stable")
         starts = starts if len(starts) == 1 else starts[order]
         models = models if models is None or len(models) == 1 else models[order]
         errors = None if sensor_errors is None else sensor_errors[order]
         done = self._simulate(self._trials(starts, reference[order], models, feedback, errors), record)
-        return done.aligned(np.argsort(order))
+        return self._with_distances(done, record).aligned(np.argsort(order))
+
+    def _with_distances(self, done: Trajectories, record: Sequence[str]) -> Trajectories:
+        """Add the distances between the robot's parts, if they are asked for and the engine has not measured them itself."""
+        if SELF_DISTANCE not in record or done.self_distance is not None:
+            return done
+        qpos = np.tile(self.model.qpos0, (done.n, done.steps, 1))
+        qpos[..., self.layout.trunk_position] = done.trunk_position
+        qpos[..., self.layout.trunk_quaternion] = done.trunk_quaternion
+        qpos[..., self.layout.joint_qpos] = done.joint_position
+        return replace(done, self_distance=np.stack([distances_at(self.model, one) for one in qpos]))
 
     @abstractmethod
     def _simulate(self, trials: Trials, record: Sequence[str]) -> Trajectories:

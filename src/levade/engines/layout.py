@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 
 from levade.arrays import Array
 from levade.embodiment import Embodiment
+from levade.engines.clearance import SELF_DISTANCE, clearance_in, sensor_address
 from levade.engines.state import State
 from levade.robots.addresses import Addresses, Index, compact
 from levade.trajectory import JointReference, Trajectories
 
 FOOT_CONTACT_FORCE = "foot_contact_force"
-"""In what a roll-out records: the contact force on each foot. Every other name is that of a body."""
+"""In what a roll-out records: the contact force on each foot. Names other than this and `SELF_DISTANCE` are those of bodies."""
 
 _FOOT_SENSOR, _BODY_SENSOR = "_contact_force", "_scene_force"
 """What follows the name of a foot's geom, or of a body, in the name of its sensor."""
@@ -33,6 +34,8 @@ class Layout(Addresses):
         ctrl_velocity: Where their velocity references are.
         foot_sensors: Where the force on each foot is in sensordata.
         body_sensors: Where the force on each body is in sensordata, by the body's name.
+        distance_sensor: Where the least distance between the robot's parts is in sensordata; None if it is not measured.
+        clearance: Distance from which on parts count as apart [m]; None if it is not measured.
     """
 
     embodiment: Embodiment
@@ -41,6 +44,8 @@ class Layout(Addresses):
     ctrl_velocity: Index
     foot_sensors: tuple[int, ...]
     body_sensors: Mapping[str, int]
+    distance_sensor: int | None = None
+    clearance: float | None = None
 
     @classmethod
     def of_model(cls, model: mujoco.MjModel, embodiment: Embodiment) -> Layout:
@@ -64,6 +69,8 @@ class Layout(Addresses):
                 for name, address in sensors.items()
                 if name.endswith(_BODY_SENSOR)
             },
+            distance_sensor=sensor_address(model),
+            clearance=clearance_in(model),
         )
 
     def state(self, qpos: Array, qvel: Array, act: Array, *, joint_reference: Array | None = None) -> State:
@@ -112,9 +119,18 @@ class Layout(Addresses):
             diverged=diverged,
             foot_contact_force=self.foot_forces(out["sensordata"]) if FOOT_CONTACT_FORCE in record else None,
             body_contact_force={
-                body: self.force_on(body, out["sensordata"]) for body in record if body != FOOT_CONTACT_FORCE
+                body: self.force_on(body, out["sensordata"]) for body in record if body in self.body_sensors
             },
         )
+
+    def addresses(self, record: Sequence[str]) -> list[int]:
+        """Where the sensors of what a roll-out records are in sensordata."""
+        found = [self.body_sensors[name] for name in record if name in self.body_sensors]
+        if FOOT_CONTACT_FORCE in record:
+            found += self.foot_sensors
+        if SELF_DISTANCE in record and self.distance_sensor is not None:
+            found.append(self.distance_sensor)
+        return found
 
     def foot_forces(self, sensordata: Array) -> Array:
         """Forces on the feet [N], shape (n, steps, feet, 3), in world axes."""

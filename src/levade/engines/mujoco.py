@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from levade.arrays import Array
 from levade.engines.batches import RESET_OFF, SENSORS_OFF, STATE, quiet, simulate
+from levade.engines.clearance import SELF_DISTANCE, distances, distances_at
 from levade.engines.engine import Engine, Trials, broke_down
 from levade.engines.models import Models, with_free_frames
 from levade.engines.state import State
@@ -32,7 +33,7 @@ class MujocoEngine(Engine):
     stops: ClassVar[bool] = True
 
     def _prepare(self) -> None:
-        self._batches: dict[tuple[bool, bool], Batch] = {}
+        self._batches: dict[tuple[tuple[int, ...] | None, bool], Batch] = {}
         self._varied: set[str] = set()
         self._latest: tuple[State, Array] | None = None
 
@@ -75,7 +76,8 @@ class MujocoEngine(Engine):
         Raises:
             LevadeError: If the rows do not fit together.
         """
-        return self._recorded(self._trials(starts, reference, models, feedback, sensor_errors), fields)
+        trials = self._trials(starts, reference, models, feedback, sensor_errors)
+        return self._recorded(trials, fields, None if "sensordata" in fields else ())
 
     def hold(self, model: mujoco.MjModel, data: mujoco.MjData, posture: Array, time: float) -> State:
         steps = round(time / self.physics.timestep)
@@ -89,12 +91,27 @@ class MujocoEngine(Engine):
         return self.layout.state(data.qpos, data.qvel, data.act, joint_reference=posture)
 
     def _simulate(self, trials: Trials, record: Sequence[str]) -> Trajectories:
-        out, diverged = self._recorded(trials, (*_RECORDED, "sensordata") if record else _RECORDED)
-        return self.layout.trajectories(out, trials.reference, diverged=diverged, record=record)
+        fields = (*_RECORDED, "sensordata") if record else _RECORDED
+        out, diverged = self._recorded(trials, fields, tuple(sorted(self.layout.addresses(record))))
+        found = self.layout.trajectories(out, trials.reference, diverged=diverged, record=record)
+        return found if SELF_DISTANCE not in record else replace(found, self_distance=self._distances(trials, out))
 
-    def _recorded(self, trials: Trials, fields: Sequence[str]) -> tuple[dict[str, Array], NDArray[np.bool_]]:
+    def _distances(self, trials: Trials, out: Mapping[str, Array]) -> Array:
+        """Distances [m] at the end of each step, shape (n, steps), from a sensor of those at its beginning."""
+        address, clearance = self.layout.distance_sensor, self.layout.clearance
+        assert address is not None
+        assert clearance is not None
+        trial = np.arange(trials.n)
+        last = np.full(trials.n, trials.reference.steps) - 1 if trials.ends is None else trials.ends - 1
+        least = np.roll(distances(out["sensordata"], address, clearance), -1, axis=1)
+        least[trial, last] = distances_at(self.model, out["qpos"][trial, last])
+        return least
+
+    def _recorded(
+        self, trials: Trials, fields: Sequence[str], sensors: tuple[int, ...] | None
+    ) -> tuple[dict[str, Array], NDArray[np.bool_]]:
         n, models = trials.n, trials.models
-        batch = self._batch_for(n, sensors="sensordata" in fields, versions=models is not None)
+        batch = self._batch_for(n, sensors=sensors, versions=models is not None)
         if models is not None:
             self._set_fields(batch, models.fields, n)
         rows, ctrl = self._rows(trials.starts), self.ctrl(trials.commanded, n)
@@ -124,16 +141,23 @@ class MujocoEngine(Engine):
         """The model that versions are made of."""
         return with_free_frames(self.model, self.layout)
 
-    def _batch_for(self, n: int, *, sensors: bool, versions: bool) -> Batch:
-        """A batch of at least n simulations. A batch takes its options when it is made: with sensors or without.
+    def _batch_for(self, n: int, *, sensors: tuple[int, ...] | None, versions: bool) -> Batch:
+        """A batch of at least n simulations. A batch takes its options when it is made, and which sensors it computes.
 
         Sensors are read only, so the motion is the same with and without them. A batch of versions of the model has
         fields of its own in each simulation.
+
+        Args:
+            n: Number of simulations.
+            sensors: Addresses of the sensors to compute, in ascending order; all of them if None.
+            versions: Whether each simulation has a version of the model.
         """
         batch = self._batches.get((sensors, versions))
         if batch is None or batch.nsim < n:
             model = copy.deepcopy(self._free if versions else self.model)
-            model.opt.disableflags |= RESET_OFF | (0 if sensors else SENSORS_OFF)
+            model.opt.disableflags |= RESET_OFF | (0 if sensors is None or sensors else SENSORS_OFF)
+            if sensors:  # all of them together take as long as a fifth of the physics
+                model.sensor_needstage[~np.isin(model.sensor_adr, sensors)] = mujoco.mjtStage.mjSTAGE_NONE
             batch = self._batches[sensors, versions] = Batch(model, n, self.threads)
         return batch
 

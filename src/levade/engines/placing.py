@@ -10,6 +10,7 @@ import mujoco
 import numpy as np
 
 from levade.arrays import Array
+from levade.engines.clearance import measure_clearance
 from levade.engines.engine import Engine
 from levade.engines.layout import add_contact_sensors
 from levade.engines.physics import Physics
@@ -26,7 +27,9 @@ _OVERLAP = 0.003
 _DOWN = np.array([0.0, 0.0, -1.0])
 
 
-def model_xml(robot: Robot, scene: Scene, physics: Physics, *, gain_scale: float = 1.0) -> str:
+def model_xml(
+    robot: Robot, scene: Scene, physics: Physics, *, gain_scale: float = 1.0, clearance: float | None = None
+) -> str:
     """Write the model of a robot in a scene: MJCF with actuators, contact sensors and the numerical settings.
 
     Args:
@@ -34,6 +37,7 @@ def model_xml(robot: Robot, scene: Scene, physics: Physics, *, gain_scale: float
         scene: Ground and obstacles.
         physics: Numerical settings.
         gain_scale: Factor on the gains of the joints.
+        clearance: Up to where distances between the robot's parts are measured [m]; None if they are not.
     """
     spec = compose(robot, scene, gain_scale=gain_scale)
     option = spec.option
@@ -43,10 +47,14 @@ def model_xml(robot: Robot, scene: Scene, physics: Physics, *, gain_scale: float
     option.impratio = physics.impratio
     option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
     add_contact_sensors(spec, robot.feet)
+    if clearance is not None:
+        measure_clearance(spec, robot.trunk, clearance)
     return spec.to_xml()
 
 
-def make_engine(robot: Robot, scene: Scene, physics: Physics, *, threads: int = 0) -> Engine:
+def make_engine(
+    robot: Robot, scene: Scene, physics: Physics, *, threads: int = 0, clearance: float | None = None
+) -> Engine:
     """Put a robot into a scene, in the engine that ``physics.engine`` names.
 
     Args:
@@ -54,11 +62,12 @@ def make_engine(robot: Robot, scene: Scene, physics: Physics, *, threads: int = 
         scene: Ground and obstacles.
         physics: Engine and numerical settings.
         threads: Number of threads or processes, 0 for one per core. Results do not depend on it.
+        clearance: Up to where distances between the robot's parts are measured [m]; None if they are not.
 
     Raises:
         LevadeError: If the engine needs what is not installed, or cannot simulate the robot.
     """
-    xml = model_xml(robot, scene, physics)
+    xml = model_xml(robot, scene, physics, clearance=clearance)
     return engine_kind(physics.engine).make(xml, robot.assets, robot.embodiment, physics, threads=threads)
 
 

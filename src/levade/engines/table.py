@@ -40,13 +40,22 @@ class EngineKind:
         module, _, name = self.path.partition(":")
         return getattr(import_module(module), name)
 
-    def make(self, xml: str, assets: Mapping[str, bytes], embodiment: Any, physics: Any, *, threads: int = 0) -> Any:
+    def make(
+        self,
+        xml: str,
+        assets: Mapping[str, bytes],
+        embodiment: Any,
+        physics: Any,
+        *,
+        threads: int = 0,
+        model: Any = None,
+    ) -> Any:
         """Make an engine; arguments as of `levade.engines.Engine`.
 
         Raises:
             LevadeError: If a library is missing, or the engine cannot simulate the model.
         """
-        return self.load()(xml, assets, embodiment, physics, threads=threads)
+        return self.load()(xml, assets, embodiment, physics, threads=threads, model=model)
 
     def versions(self) -> dict[str, str]:
         """Versions that decide the bits of a simulation, by the names of packages and libraries.

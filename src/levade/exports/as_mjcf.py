@@ -11,6 +11,7 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 
 import mujoco
 
+from levade.engines.clearance import forget_clearance
 from levade.engines.layout import remove_contact_sensors
 from levade.errors import LevadeError
 from levade.exports import as_csv
@@ -56,6 +57,7 @@ def robot_alone(model_xml: str, assets: Mapping[str, bytes], feet: Sequence[str]
         MJCF of the robot with its actuators.
     """
     spec = mujoco.MjSpec.from_string(model_xml, assets=dict(assets))
+    forget_clearance(spec)
     remove_contact_sensors(spec, feet)
     remove_scene(spec)
     return spec.to_xml()

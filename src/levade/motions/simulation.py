@@ -17,10 +17,11 @@ import mujoco
 import numpy as np
 
 from levade.arrays import Array
-from levade.costs import Criterion, errors, success
+from levade.costs import Criterion, clearance_of, errors, success
 from levade.embodiment import Embodiment
 from levade.engines import (
     FOOT_CONTACT_FORCE,
+    SELF_DISTANCE,
     Engine,
     Layout,
     Models,
@@ -32,6 +33,7 @@ from levade.engines import (
     engine_kind,
     perturbed_models,
 )
+from levade.engines.clearance import clearance_in, with_clearance
 from levade.errors import LevadeError
 from levade.feedback import Feedback
 from levade.motions.motion import Motion
@@ -71,8 +73,13 @@ class RecordedSimulation:
         self.criteria = dict(self.task.success if criteria is None else criteria)
         self.embodiment: Embodiment = motion.embodiment
         self.timestep = motion.timestep
-        self.engine = _mujoco(motion, threads) if engine is None else engine
+        self.engine = _mujoco(motion, threads, self._clearance) if engine is None else engine
         self.model, self.layout = self.engine.model, self.engine.layout
+
+    @property
+    def _clearance(self) -> float | None:
+        """Distance [m] up to which the criteria look at the robot's parts; None if none does."""
+        return clearance_of(self.criteria.values())
 
     @property
     def joints(self) -> int:
@@ -136,8 +143,9 @@ class RecordedSimulation:
             sensor_errors: What is added to what the feedback senses, shape (n, ticks, sensed).
         """
         starts, models = self._models(self.nominal if sample is None else sample)
+        record = () if self._clearance is None else (SELF_DISTANCE,)
         return self.engine.rollout(
-            starts, self.reference, models=models, feedback=feedback, sensor_errors=sensor_errors
+            starts, self.reference, models=models, feedback=feedback, sensor_errors=sensor_errors, record=record
         )
 
     def states(self, sample: Sample, fields: Sequence[str]) -> dict[str, Array]:
@@ -160,10 +168,19 @@ class RecordedSimulation:
         return perturbed_models(self.model, self.layout, sample, self.start)
 
 
-def _mujoco(motion: Motion, threads: int) -> MujocoEngine:
+def _mujoco(motion: Motion, threads: int, clearance: float | None) -> MujocoEngine:
     physics = replace(motion.task.physics, engine="mujoco", timestep=motion.timestep)
-    model = motion.compiled()
+    model = _measuring(motion, clearance)
     return MujocoEngine(motion.model_xml, motion.assets, motion.embodiment, physics, threads=threads, model=model)
+
+
+def _measuring(motion: Motion, clearance: float | None) -> mujoco.MjModel:
+    """The motion's model, which measures distances up to a clearance [m] at least, unless that is None."""
+    model = motion.compiled()
+    measured = clearance_in(model)
+    if clearance is None or (measured is not None and measured >= clearance):
+        return model
+    return with_clearance(motion.model_xml, motion.assets, motion.embodiment.trunk, clearance)
 
 
 def _start(motion: Motion, layout: Layout) -> State:
@@ -178,7 +195,7 @@ class Replay:
     Attributes:
         engine: Its engine.
         trajectories: Those of one trial, with foot forces.
-        errors: Criterion of the motion's task -> error [SI].
+        errors: Criterion -> error [SI].
         success: Whether all of them are met.
     """
 
@@ -188,7 +205,9 @@ class Replay:
     success: bool
 
 
-def replay_in(engine: str, motion: Motion, *, ode: Ode | None = None) -> Replay:
+def replay_in(
+    engine: str, motion: Motion, *, ode: Ode | None = None, criteria: Mapping[str, Criterion] | None = None
+) -> Replay:
     """Simulate a motion's references from its start in an engine.
 
     The replay begins in the file's own state, wherever the engine itself would have the robot settle. In the engine that made
@@ -198,23 +217,27 @@ def replay_in(engine: str, motion: Motion, *, ode: Ode | None = None) -> Replay:
         engine: A name in `levade.engines.ENGINES`.
         motion: The motion.
         ode: Settings of the engine ode. Defaults to those of the motion's task.
+        criteria: What success means. Defaults to the criteria of the motion's task.
 
     Raises:
         LevadeError: If the engine is not there, or cannot simulate the motion's model.
     """
     kind = engine_kind(engine)
-    motion.compiled()  # what is wrong with the model is told as of a motion
+    criteria = motion.task.success if criteria is None else criteria
+    clearance = clearance_of(criteria.values())
+    model = _measuring(motion, clearance)  # what is wrong with the model is told as of a motion
     physics = motion.task.physics
     physics = replace(physics, engine=engine, timestep=motion.timestep, ode=ode or physics.ode)
-    simulated = kind.make(motion.model_xml, motion.assets, motion.embodiment, physics, threads=1)
+    simulated = kind.make(motion.model_xml, motion.assets, motion.embodiment, physics, threads=1, model=model)
     start = _start(motion, simulated.layout)
-    trajectories = simulated.rollout(start, motion.reference, record=[FOOT_CONTACT_FORCE])
-    off = errors(motion.task.success, trajectories)
+    record = (FOOT_CONTACT_FORCE,) if clearance is None else (FOOT_CONTACT_FORCE, SELF_DISTANCE)
+    trajectories = simulated.rollout(start, motion.reference, record=record)
+    off = errors(criteria, trajectories)
     return Replay(
         engine=engine,
         trajectories=trajectories,
         errors={name: float(error[0]) for name, error in off.items()},
-        success=bool(success(motion.task.success, trajectories)[0]),
+        success=bool(success(criteria, trajectories)[0]),
     )
 
 

@@ -17,7 +17,16 @@ import numpy as np
 
 from levade.arrays import Array
 from levade.costs import evaluate
-from levade.engines import FOOT_CONTACT_FORCE, Engine, Models, State, make_engine, perturbed_models, start_state
+from levade.engines import (
+    FOOT_CONTACT_FORCE,
+    SELF_DISTANCE,
+    Engine,
+    Models,
+    State,
+    make_engine,
+    perturbed_models,
+    start_state,
+)
 from levade.errors import LevadeError, did_you_mean
 from levade.feedback import Feedback
 from levade.optimizers import SearchSpace
@@ -30,7 +39,7 @@ from levade.search.optimizing import make_attempt
 from levade.search.space import search_space
 from levade.tasks import Task, looks_at_hold
 from levade.tasks.policy import make_policy
-from levade.tasks.reach import check_reach
+from levade.tasks.reach import check_clearance, check_reach
 from levade.trajectory import JointReference, Trajectories
 
 AT_ONCE = 128
@@ -69,7 +78,7 @@ class Simulation:
         if robot is None:
             choice = asdict(task.robot)
             robot = load_robot(choice.pop("name"), **choice)
-        engine = make_engine(robot, task.scene, task.physics, threads=threads)
+        engine = make_engine(robot, task.scene, task.physics, threads=threads, clearance=task.clearance)
         return cls(robot, engine, start_state(engine, robot, task.scene, task.start.choice))
 
     def starting(self, start: State) -> Simulation:
@@ -129,8 +138,9 @@ class Objective:
         self.simulation, self.task = simulation, task
         self.robot, self.engine, self.state = simulation.robot, simulation.engine, simulation.start
         self.terms = {name: cost.term for name, cost in task.costs.items()}
-        self.bodies = _bodies(task, simulation)
+        self.recorded = _recorded(task, simulation)
         check_reach(task, self.robot, self.engine.model)
+        check_clearance(task, self.robot, self.engine.model)
         check_fits(self.engine, task.horizon_steps + task.hold_steps)
         self.policy = policy or make_policy(task, self.robot, start=self.state.joint_reference[0])
         self._drawn: dict[tuple[int, int], tuple[State, Models]] = {}
@@ -155,7 +165,7 @@ class Objective:
             feet: Whether to record the contact forces on the feet.
         """
         reference = self.policy.reference(weights, hold_steps=hold_steps)
-        record = (FOOT_CONTACT_FORCE, *self.bodies) if feet else self.bodies
+        record = (FOOT_CONTACT_FORCE, *self.recorded) if feet else self.recorded
         return self.engine.rollout(self.state, reference, record=record)
 
     def evaluate(self, trials: Trials | Array) -> Evaluation:
@@ -301,7 +311,7 @@ def evaluate_many(asked: Sequence[tuple[Objective, Trials]]) -> list[Evaluation]
     for i, (objective, trials) in enumerate(asked):
         steps = objective.policy.horizon_steps + trials.hold_steps
         alone = -1 if trials.along is None else i  # under gains of its own
-        key = (id(objective.engine), steps, trials.draw is None, objective.bodies, alone)
+        key = (id(objective.engine), steps, trials.draw is None, objective.recorded, alone)
         together.setdefault(key, []).append(i)
     for members in together.values():
         for i, evaluation in zip(members, _evaluate_in_parts([asked[i] for i in members]), strict=True):
@@ -331,7 +341,7 @@ def _evaluate_in_parts(asked: Sequence[tuple[Objective, Trials]]) -> Iterable[Ev
 
 def _evaluate_together(asked: Sequence[tuple[Objective, Trials]]) -> Iterator[Evaluation]:
     """Evaluate trials of one engine, of one length, all on the nominal model or all on perturbed ones."""
-    engine, record = asked[0][0].engine, asked[0][0].bodies
+    engine, record = asked[0][0].engine, asked[0][0].recorded
     rollouts = Rollouts.joined([objective.rollouts(trials) for objective, trials in asked])
     owner = np.repeat(np.arange(len(asked)), [trials.n for _, trials in asked])
     parts: list[list[Evaluation]] = [[] for _ in asked]
@@ -366,8 +376,8 @@ def _joined(parts: Sequence[Evaluation]) -> Evaluation:
     return Evaluation(tables("terms"), tables("errors"), success, diverged, tables("slack"))
 
 
-def _bodies(task: Task, simulation: Simulation) -> tuple[str, ...]:
-    """Bodies whose contact forces the task's costs look at."""
+def _recorded(task: Task, simulation: Simulation) -> tuple[str, ...]:
+    """What else has to be recorded for the task's costs and criteria: distances, and bodies' contact forces."""
     named: set[str] = set()
     for name, cost in task.costs.items():
         for body in getattr(cost.term, "bodies", ()):
@@ -375,4 +385,12 @@ def _bodies(task: Task, simulation: Simulation) -> tuple[str, ...]:
                 hint = did_you_mean(body, simulation.engine.bodies)
                 raise LevadeError(f"costs.{name}.bodies: no body {body!r} in {simulation.robot.name}; {hint}")
             named.add(body)
-    return tuple(sorted(named))
+    if task.clearance is None:
+        return tuple(sorted(named))
+    measured = simulation.engine.layout.clearance
+    if measured is None or measured < task.clearance:
+        raise LevadeError(
+            f"self_distance: the task asks for {task.clearance:g} m between the robot's parts, but the simulation measures"
+            f" {'none' if measured is None else f'up to {measured:g} m'}; build the simulation for this task"
+        )
+    return (SELF_DISTANCE, *sorted(named))

@@ -87,7 +87,9 @@ def load_task(name_or_path: str | Path, *, robot: str | Robot | None = None, cha
         name_or_path: Which task.
         robot: Another robot than the task's: its name, its file, or a `levade.robots.Robot`.
         changes: Changes of single values, "path=value" each, such as "costs.effort.weight=0.5". The path has to exist in the
-            task with all its defaults. Another ``search.optimizer`` comes without the settings of the task's own.
+            task with all its defaults, except for settings of the optimizer and whole costs and criteria, such as
+            "success.apart={quantity: self_distance, minimum: 0, at: min}".
+            Another ``search.optimizer`` comes without the settings of the task's own.
 
     Raises:
         LevadeError: If the task cannot be read, or a value makes no sense.
@@ -364,10 +366,6 @@ def _weight(weight: Any, where: str) -> float:
     return float(weight)
 
 
-_OPEN = "search.settings."
-"""A table to which a change may add: what is left out of it has defaults that a task does not list."""
-
-
 def _apply(content: dict[str, Any], change: str) -> None:
     """Change the value at a path of nested tables and lists."""
     path, equals, text = change.partition("=")
@@ -379,7 +377,7 @@ def _apply(content: dict[str, Any], change: str) -> None:
     at: Any = content
     for i, key in enumerate([*parents, last]):
         keys = list(at) if isinstance(at, dict) else [str(n) for n in range(len(at))] if isinstance(at, list) else []
-        new = i == len(parents) and path.startswith(_OPEN)  # a wrong name there is told by the task itself
+        new = i == len(parents) and _may_add(".".join(parents), value)
         if key not in keys and not new:
             place = ".".join(parents[:i]) or "the task"
             if not keys:
@@ -391,6 +389,11 @@ def _apply(content: dict[str, Any], change: str) -> None:
             at[index] = value
         else:
             at = at[index]
+
+
+def _may_add(table: str, value: Any) -> bool:
+    """Whether a change may add to a table; a wrong name there is told by the task itself."""
+    return table == "search.settings" or (table in ("costs", "success") and isinstance(value, Mapping))
 
 
 def _plain(value: Any) -> Any:

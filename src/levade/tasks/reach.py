@@ -1,4 +1,4 @@
-"""Reach: whether a robot's legs are long enough for the heights that a task asks for."""
+"""Reach: whether a robot's legs are long enough, and its parts far enough apart, for what a task asks for."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ import numpy as np
 
 from levade.arrays import Array
 from levade.costs import Position
+from levade.engines import Settled
+from levade.engines.clearance import clearance_in, self_contacts
 from levade.errors import LevadeError
 from levade.robots import Leg, Robot
 from levade.tasks.task import Task
@@ -51,6 +53,42 @@ def check_reach(task: Task, robot: Robot, model: Any) -> None:
                 f" most with a foot on the ground (leg {leg:.2f} m, hip to centre of mass {hip:.2f} m{scene}); ask for less,"
                 " such as 1.3 heights, or of a jump, in a criterion with at: max"
             )
+
+
+def check_clearance(task: Task, robot: Robot, model: Any) -> None:
+    """Raise LevadeError if a criterion asks for more distance between the robot's parts than a posture leaves.
+
+    The postures are the neutral one and the one at the start. model: robot and scene, compiled.
+    """
+    if clearance_in(model) is None:
+        return
+    start = task.start.choice
+    postures = {"neutral": "neutral"} | ({"start": start.posture} if isinstance(start, Settled) else {})
+    for name, criterion in task.success.items():
+        if criterion.quantity != "self_distance":
+            continue
+        least = criterion.minimum if criterion.target is None else criterion.target - (criterion.tolerance or 0.0)
+        for what, posture in postures.items():
+            nearest, bodies = _nearest(robot, model, robot.posture(posture))
+            if least is not None and nearest < least:
+                key = "minimum" if criterion.target is None else "target"
+                raise LevadeError(
+                    f"success.{name}.{key}: asks for {1e3 * least:.3g} mm between the parts of {robot.name}, but"
+                    f" {' and '.join(bodies)} are {1e3 * nearest:.3g} mm apart in the {what} posture; ask for less"
+                )
+
+
+def _nearest(robot: Robot, model: Any, posture: Array) -> tuple[float, tuple[str, ...]]:
+    """Least distance [m] between parts of the robot in a posture, and the names of the two; infinite if none is near."""
+    data = mujoco.MjData(model)
+    for joint, angle in zip(robot.joint_names, posture, strict=True):
+        data.joint(joint).qpos[0] = angle
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    mujoco.mj_collision(model, data)
+    near = ((distance, (one, other)) for one, other, distance in self_contacts(model, data))
+    distance, pair = min(near, default=(np.inf, ()))
+    return distance, tuple(model.body(body).name for body in pair)
 
 
 def _reaches(robot: Robot, leg: Leg) -> tuple[float, float]:

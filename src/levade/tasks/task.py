@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from levade.costs import Criterion
+from levade.costs import Criterion, clearance_of
 from levade.engines import Physics, Settled
 from levade.scenes import Scene
 from levade.tasks.parts import Change, Cost, HorizonRange, PolicyChoice, RobotChoice, Search, Stage, StartChoice
@@ -68,6 +68,11 @@ class Task:
         before[change.generation] = Change(change.generation, {**factors, **change.factors})
         changes = tuple(before[generation] for generation in sorted(before))
         return replace(self, search=replace(self.search, changes=changes))
+
+    @property
+    def clearance(self) -> float | None:
+        """Distance [m] up to which parts of the robot count as near each other; None if no cost or criterion looks at it."""
+        return clearance_of([*(cost.term for cost in self.costs.values()), *self.success.values()])
 
     @property
     def horizon_steps(self) -> int:

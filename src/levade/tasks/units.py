@@ -49,7 +49,10 @@ PLURALS = {  # of units of the robot
 
 _KEYS: dict[str, str] = {
     **dict.fromkeys(("roll", "pitch", "yaw", "slope", "spread", "angle"), "an angle"),
-    **dict.fromkeys(("x", "y", "z", "height", "heights", "position", "size", "width", "depth", "midplane"), "a length"),
+    **dict.fromkeys(
+        ("x", "y", "z", "height", "heights", "position", "size", "width", "depth", "midplane", "self_distance"),
+        "a length",
+    ),
     **dict.fromkeys(("horizon", "hold", "timestep", "time"), "a duration"),
     # of perturbations
     **dict.fromkeys(("start_joint", "start_attitude", "ground_slope"), "an angle"),

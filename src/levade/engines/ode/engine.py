@@ -62,7 +62,7 @@ class OdeEngine(Engine):
         return self.layout.state(*simulation.state_after(record, 0), joint_reference=posture)
 
     def _simulate(self, trials: Trials, record: Sequence[str]) -> Trajectories:
-        commanded, bodies = trials.commanded.repeated(trials.n), [name for name in record if name != FOOT_CONTACT_FORCE]
+        commanded, bodies = trials.commanded.repeated(trials.n), [name for name in record if name in self.bodies]
         position, velocity = commanded.position[..., self._from], commanded.velocity[..., self._from]
         forces = {
             "geoms": [self.model.geom(foot).id for foot in self.embodiment.feet]

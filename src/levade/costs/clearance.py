@@ -1,0 +1,30 @@
+"""Distances between the robot's parts, for terms and criteria that look at them.
+
+What looks at them has a property ``clearance`` [m]: the distance from which on parts are far enough apart for it. An engine
+measures up to the largest clearance that a task asks for, and nothing where none does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from levade.arrays import Array
+from levade.errors import LevadeError
+from levade.trajectory import Trajectories
+
+
+def clearance_of(looking: Iterable[object]) -> float | None:
+    """The largest clearance [m] that terms and criteria ask for; None if none of them looks at distances."""
+    asked = [getattr(one, "clearance", None) for one in looking]
+    return max((clearance for clearance in asked if clearance is not None), default=None)
+
+
+def self_distance(trajectories: Trajectories, rows: slice) -> Array:
+    """Least distance between two parts of the robot [m], shape (n, rows).
+
+    Raises:
+        LevadeError: If it was not recorded.
+    """
+    if trajectories.self_distance is None:
+        raise LevadeError("self_distance: distances between the robot's parts were not recorded")
+    return trajectories.self_distance[:, rows]

@@ -1,0 +1,180 @@
+"""How far the robot's parts are from each other: against closed forms, and against a loop over pairs of shapes."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+
+import mujoco
+import numpy as np
+import pytest
+
+from levade.engines import SELF_DISTANCE, Engine, Perturbation, Physics, State, make_engine, perturbed_models
+from levade.engines.clearance import clearance_in, distances_at, forget_clearance, measure_clearance
+from levade.engines.ode.library import load
+from levade.engines.touching import may_touch
+from levade.errors import LevadeError
+from levade.robots import Robot
+from levade.scenes import Scene
+from levade.trajectory import JointReference, Trajectories
+
+CLEARANCE = 0.02
+Wave = Callable[..., JointReference]
+
+ARMS = """
+<mujoco>
+  <worldbody>
+    <geom name="floor" type="plane" size="1 1 1"/>
+    <body name="trunk" pos="0 0 2">
+      <freejoint/>
+      <inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>
+      <body name="one" pos="-0.2 0 0">
+        <joint name="one" axis="0 1 0"/>
+        <geom type="capsule" fromto="0 0 0 0 0 -0.5" size="0.03"/>
+      </body>
+      <body name="other" pos="0.2 0 0">
+        <joint name="other" axis="0 1 0"/>
+        <geom type="capsule" fromto="0 0 0 0 0 -0.5" size="0.03"/>
+      </body>
+    </body>
+  </worldbody>
+</mujoco>
+"""
+
+
+@pytest.fixture(scope="module")
+def measuring(robot: Robot) -> Engine:
+    return make_engine(robot, Scene(), Physics(), threads=1, clearance=CLEARANCE)
+
+
+def at_rows(engine: Engine, done: Trajectories) -> np.ndarray:
+    """Configurations of a robot without joints besides its own, shape (n * steps, nq)."""
+    at = engine.layout
+    qpos = np.tile(engine.model.qpos0, (done.n, done.steps, 1))
+    qpos[..., at.trunk_position], qpos[..., at.trunk_quaternion] = done.trunk_position, done.trunk_quaternion
+    qpos[..., at.joint_qpos] = done.joint_position
+    return qpos.reshape(-1, engine.model.nq)
+
+
+def test_two_capsules_swung_together_are_as_far_apart_as_their_tips() -> None:
+    """Tips at -+(0.2 - 0.5 sin(angle)), of radius 0.03; beyond the clearance everything counts as that far."""
+    spec = mujoco.MjSpec.from_string(ARMS)
+    measure_clearance(spec, "trunk", 0.05)
+    model = spec.compile()
+    centres = np.array([0.2, 0.109, 0.08, 0.061, 0.05, 0.02])
+    angle = np.arcsin((0.2 - centres / 2) / 0.5)
+    qpos = np.tile(model.qpos0, (len(angle), 1))
+    qpos[:, 7], qpos[:, 8] = -angle, angle
+    assert distances_at(model, qpos) == pytest.approx([0.05, 0.049, 0.02, 0.001, -0.01, -0.04], abs=1e-9)
+
+
+def test_the_least_distance_is_that_of_a_loop_over_all_pairs_that_may_touch(
+    measuring: Engine, state: State, wave: Wave
+) -> None:
+    done = measuring.rollout(state, wave(state.joint_reference[0], n=3, steps=150, scale=0.5), record=[SELF_DISTANCE])
+    assert done.self_distance is not None
+    found, model = done.self_distance.ravel(), measuring.model
+    rows = np.argsort(found, kind="stable")[::11]  # of all depths and distances
+    own = [
+        g for g in range(model.ngeom) if model.geom_bodyid[g] and (model.geom_contype[g] or model.geom_conaffinity[g])
+    ]
+    pairs = [(a, b) for i, a in enumerate(own) for b in own[:i] if may_touch(model, a, b)]
+    data, expected = mujoco.MjData(model), []
+    for qpos in at_rows(measuring, done)[rows]:
+        data.qpos[:] = qpos
+        mujoco.mj_kinematics(model, data)
+        apart = [mujoco.mj_geomDistance(model, data, a, b, CLEARANCE, np.zeros(6)) for a, b in pairs]
+        expected.append(min(apart))
+    assert min(expected) < 0 < max(expected)
+    np.testing.assert_allclose(found[rows], expected, atol=2e-6)
+
+
+def test_the_sensor_of_a_batch_finds_what_single_configurations_have(
+    measuring: Engine, state: State, wave: Wave
+) -> None:
+    """To the last row, whatever the horizons, and on models that differ."""
+    reference = wave(state.joint_reference[0], n=4, steps=100, scale=1.2)
+    own = dataclasses.replace(reference, horizons=np.array([100, 31, 45, 31]))
+    sample = Perturbation().draw(measuring.model, measuring.embodiment.joints, n=4, seed=0)
+    starts, models = perturbed_models(measuring.model, measuring.layout, sample, state)
+    for start, asked, versions in ((state, reference, None), (state, own, None), (starts, reference, models)):
+        done = measuring.rollout(start, asked, models=versions, record=[SELF_DISTANCE])
+        assert done.self_distance is not None
+        assert done.self_distance.min() < CLEARANCE
+        assert np.array_equal(done.self_distance.ravel(), distances_at(measuring.model, at_rows(measuring, done)))
+
+
+def test_a_motion_has_the_same_bits_measured_or_not(
+    measuring: Engine, engine: Engine, state: State, wave: Wave
+) -> None:
+    reference = wave(state.joint_reference[0], n=3, steps=150, scale=0.5)
+    with_it = measuring.rollout(state, reference, record=[SELF_DISTANCE])
+    without = engine.rollout(state, reference)
+    assert with_it.self_distance is not None
+    assert with_it.self_distance.min() < 0
+    for name in ("joint_position", "joint_torque", "trunk_position", "trunk_quaternion"):
+        assert np.array_equal(getattr(with_it, name), getattr(without, name))
+    assert without.self_distance is None
+
+
+def test_what_adjoins_or_overlaps_by_construction_does_not_count(measuring: Engine, state: State) -> None:
+    """A hip is inside the trunk, and the upper legs are, too: nothing of the robot at rest is near anything else."""
+    model, data = measuring.model, mujoco.MjData(measuring.model)
+    data.qpos[:] = state.qpos[0]
+    mujoco.mj_kinematics(model, data)
+    trunk, hip = model.geom("trunk").id, model.geom("lf_hip").id
+    assert mujoco.mj_geomDistance(model, data, trunk, hip, CLEARANCE, np.zeros(6)) < -0.01
+    assert distances_at(model, state.qpos) == pytest.approx([CLEARANCE])
+
+
+def test_the_scene_is_met_from_no_farther(measuring: Engine, engine: Engine) -> None:
+    model = measuring.model
+    collide = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
+    scene = model.geom_bodyid == 0
+    assert set(np.add.outer(model.geom_gap[scene & collide], model.geom_gap[~scene & collide]).ravel()) == {0.0}
+    assert set(model.geom_gap[~scene & collide]) == {CLEARANCE / 2}
+    assert not engine.model.geom_gap.any()
+
+
+def test_what_is_added_to_a_model_can_be_taken_away() -> None:
+    spec = mujoco.MjSpec.from_string(ARMS)
+    before = spec.to_xml()
+    measure_clearance(spec, "trunk", 0.0123456789)
+    text = spec.to_xml()
+    read = clearance_in(mujoco.MjModel.from_xml_string(text))
+    assert read is not None
+    assert 0.0123456789 <= read < 0.012347  # a minimum of as much can be met
+    again = mujoco.MjSpec.from_string(text)
+    forget_clearance(again)
+    assert again.to_xml() == before
+
+
+def test_a_clearance_of_nothing_measures_depths_alone(
+    robot: Robot, measuring: Engine, state: State, wave: Wave
+) -> None:
+    reference = wave(state.joint_reference[0], n=3, steps=150, scale=0.5)
+    depths = make_engine(robot, Scene(), Physics(), threads=1, clearance=0.0).rollout(
+        state, reference, record=[SELF_DISTANCE]
+    )
+    distances = measuring.rollout(state, reference, record=[SELF_DISTANCE])
+    assert depths.self_distance is not None
+    assert distances.self_distance is not None
+    assert depths.self_distance.min() < 0
+    assert np.array_equal(depths.self_distance, np.minimum(distances.self_distance, 0.0))
+
+
+def test_other_engines_measure_as_much(robot: Robot, state: State, wave: Wave) -> None:
+    try:
+        load()
+    except LevadeError as error:
+        pytest.skip(str(error))
+    engine = make_engine(robot, Scene(), Physics(engine="ode"), threads=1, clearance=CLEARANCE)
+    done = engine.rollout(state, wave(state.joint_reference[0], n=2, steps=60, scale=1.0), record=[SELF_DISTANCE])
+    assert done.self_distance is not None
+    assert done.self_distance.min() < 0
+    assert np.array_equal(done.self_distance.ravel(), distances_at(engine.model, at_rows(engine, done)))
+
+
+def test_a_model_that_measures_nothing_says_so(engine: Engine, state: State, wave: Wave) -> None:
+    with pytest.raises(LevadeError, match="record: the model measures no distances between the robot's parts"):
+        engine.rollout(state, wave(state.joint_reference[0], n=1, steps=2), record=[SELF_DISTANCE])
