@@ -70,6 +70,7 @@ def states(engine: Engine, out: Trajectories, trial: int = 0) -> Iterator[mujoco
         yield data
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("actuation", ["hydraulic", "ideal"])
 def test_drives_deliver_what_mujoco_s_deliver(actuation: str) -> None:
     """At random angles, speeds, references and states of the lag, to rounding."""
@@ -150,6 +151,7 @@ def test_standing_takes_the_same_torques_and_forces(
     assert np.abs(share[:, 2]).max() < 0.01 * weight
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("actuation", ["hydraulic", "ideal"])
 def test_a_step_of_a_hanging_leg(actuation: str) -> None:
     """A knee told to bend by 0.2 rad, and a hip by 0.1, with the robot in the air: both engines go the same way, within
@@ -255,6 +257,7 @@ def unstable(tmp_path: Path) -> Robot:
     return load_robot(folder / "robot.yaml")
 
 
+@pytest.mark.slow
 def test_simulations_that_break_down_are_marked_and_leave_the_others_alone(
     unstable: Robot, wave: Callable[..., JointReference], capfd: pytest.CaptureFixture[str]
 ) -> None:

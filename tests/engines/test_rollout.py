@@ -59,6 +59,7 @@ def plain_loop(engine: Engine, state: State, reference: JointReference) -> dict[
     return out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("actuation", ["hydraulic", "ideal"])
 def test_a_batch_equals_a_plain_loop_to_the_bit(actuation: str, wave: Callable[..., JointReference]) -> None:
     robot = load_robot("hyq2max", actuation=actuation)

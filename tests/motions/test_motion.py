@@ -110,6 +110,7 @@ def replay(path: Path, folder: Path) -> dict[str, float]:
     return json.loads(done.stdout)
 
 
+@pytest.mark.slow
 def test_a_replay_without_levade_is_the_same_to_the_bit(motion: Motion, file: Path, tmp_path: Path) -> None:
     end = replay(file, tmp_path)
     assert end["steps"] == 175
@@ -239,6 +240,7 @@ def test_the_same_seed_gives_the_same_bytes(objective: Objective, motion: Motion
     assert different["weights"].tobytes() != motion["weights"].tobytes()
 
 
+@pytest.mark.slow
 def test_the_resolved_task_in_the_file_gives_the_motion_again(motion: Motion, tmp_path: Path) -> None:
     from levade.tasks import task_from_dict
 
@@ -618,6 +620,7 @@ def test_arrays_of_other_floats_are_of_64_bits(file: Path) -> None:
     assert (motion["weights"].dtype, motion["ctrl"].flags.c_contiguous) == (np.dtype("<f8"), True)
 
 
+@pytest.mark.slow
 def test_a_damaged_file_is_refused_or_harmless(file: Path) -> None:
     """Cut off anywhere, or with any few bytes changed: one clear error, or a motion that reads as it was."""
     whole, random = file.read_bytes(), np.random.default_rng(0)

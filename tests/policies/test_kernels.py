@@ -86,6 +86,7 @@ def test_wrong_kernels_are_named(config, message):
         GaussianKernels(**config)
 
 
+@pytest.mark.slow
 @given(st.integers(1, 64), st.floats(0.0, 1e6))
 def test_smoothness_is_a_correlation_and_positive_definite(kernels, length):
     correlation = smoothness(GaussianKernels(kernels), length)

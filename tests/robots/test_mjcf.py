@@ -203,6 +203,7 @@ def test_nameless_parts_get_names_that_are_free(tmp_path: Path, quadruped: type)
     assert robot.legs[0].foot.startswith("lf_shank")
 
 
+@pytest.mark.slow
 def test_meshes_travel_with_the_robot(tmp_path: Path, quadruped: type) -> None:
     triangles = 0.1 * np.array([[[0, 0, 0], [0, 1, 0], [1, 0, 0]], [[0, 0, 0], [1, 0, 0], [0, 0, 1]],
                                 [[1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 0, 0], [0, 0, 1], [0, 1, 0]]])  # fmt: skip

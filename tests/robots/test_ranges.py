@@ -32,6 +32,7 @@ def in_degrees(text: str) -> str:
     return re.sub(rf"(lower=){number}", turn, text)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", ["urdf", "mjcf"])
 def test_ranges_in_degrees_are_taken_for_degrees(tmp_path: Path, quadruped: type, form: str) -> None:
     text = getattr(quadruped(), form)()

@@ -108,6 +108,7 @@ def test_keyframes_count_with_furniture_in_the_scene() -> None:
     assert load_robot(CASES / "scene-ball" / "door.xml").origins["neutral"] == "keyframe home of the model"
 
 
+@pytest.mark.slow
 def test_of_two_robots_the_description_names_one(tmp_path: Path, quadruped: type) -> None:
     text = quadruped().mjcf()
     inside = text[text.index(TRUNK) : text.index("</worldbody>")]

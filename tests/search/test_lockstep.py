@@ -127,6 +127,7 @@ def test_each_has_the_same_bits_as_alone_and_batches_are_shared(
     assert together[3].trials == 12 < min(together[i].trials for i in range(3))
 
 
+@pytest.mark.slow
 def test_one_that_an_observer_ends_leaves_the_others_as_they_are(objectives: list[Objective]) -> None:
     three = objectives[:3]
     stopped = solve_many(
