@@ -126,6 +126,7 @@ def test_a_motion_suggests_the_nearest_array(found: levade.Result) -> None:
         _ = found.motion["joint_positions"]
 
 
+@pytest.mark.slow
 def test_a_run_in_a_directory_finds_the_same(task: levade.Task, found: levade.Result, tmp_path: Path) -> None:
     kept = levade.solve(task, seed=2, out=tmp_path / "run")
     np.testing.assert_array_equal(kept.motion["ctrl"], found.motion["ctrl"])
@@ -212,6 +213,7 @@ def test_a_spec_with_other_joints_is_refused_in_one_line() -> None:
 # optimizers, policies, engines
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ready", [False, True])
 def test_an_optimizer_may_be_a_class_or_an_object(task: levade.Task, found: levade.Result, ready: bool) -> None:
     optimizer = Climber(found.objective.space, seed=0) if ready else Climber

@@ -96,6 +96,7 @@ def test_a_cost_is_evaluated_by_its_name(example) -> None:
     assert motion.task.costs["work"].weight == 0.01
 
 
+@pytest.mark.slow
 def test_a_criterion_of_ones_own_is_judged(example) -> None:
     motion = example("own_criterion").result.motion
     assert motion.result.errors["gentle"] == pytest.approx(max(0.0, abs(motion["joint_torque"]).max() - 100.0))

@@ -21,6 +21,7 @@ QUICK = ["--set", "search.optimizer=cma", "--set", "search.population=8", "--tri
 LOOSE = ["--set", "success.pitch.tolerance=9", "--set", "success.height.tolerance=9"]
 
 
+@pytest.mark.slow
 def test_help_and_version(levade) -> None:
     status, out, err = levade("--version")
     assert (status, out, err) == (0, f"levade {__version__}\n", "")
@@ -250,6 +251,7 @@ def test_listings(levade) -> None:
     assert robots == [*builtin_robots(), *packaged]
 
 
+@pytest.mark.slow
 def test_a_task_to_start_from(levade, tmp_path: Path) -> None:
     from levade.tasks import builtin_tasks, load_task
 

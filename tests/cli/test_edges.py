@@ -40,6 +40,7 @@ def places(tmp_path: Path, unmet: Path) -> Path:
     return tmp_path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("place", ["/dev/null", "/dev/full", "/dev/stdout", "pipe", "link", "dangling", LONG])
 @pytest.mark.parametrize(
     "command",

@@ -74,6 +74,7 @@ def test_inspect_as_json_is_one_object_with_the_same_numbers(levade, urdf: Path)
             "remedy": "robot.yaml, limits: {velocity: ...} gives the real one"} in said["findings"]  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("change", "message"),
     [

@@ -38,6 +38,7 @@ def test_a_motion_is_shown_as_its_report(levade) -> None:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

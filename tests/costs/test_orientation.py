@@ -118,6 +118,7 @@ def test_the_cost_is_the_paper_s_difference_to_first_order_near_the_goal(standin
             assert term(standing(quaternion))[0] == pytest.approx(cost, rel=1e-3)
 
 
+@pytest.mark.slow
 @given(st.floats(-math.pi / 2, math.pi / 2), st.floats(-math.pi / 2, math.pi / 2), st.floats(-3, 3))
 def test_pitch_alone_is_the_z_y_x_pitch_while_the_top_looks_up(standing, roll, pitch, yaw):
     cost = Orientation(pitch=REAR)(standing(rpy(roll, pitch, yaw)))[0]

@@ -140,6 +140,7 @@ def test_every_parameter_changes_the_motion(
     assert (apart[np.abs(corners.values[name] - nominal(boxed).values[name]).max(axis=1) > 0] > 1e-7).all()
 
 
+@pytest.mark.slow
 def test_a_run_depends_on_nothing_but_its_own_values(
     robot: Robot, boxed: Engine, state: State, wave: Callable[..., JointReference]
 ) -> None:

@@ -219,6 +219,7 @@ def test_processes_order_and_company_do_not_matter(
     np.testing.assert_array_equal(expected.body_contact_force["trunk"], 0)
 
 
+@pytest.mark.slow
 def test_every_pair_that_touches_is_found(robot: Robot) -> None:
     """ODE asked about every pair, in contorted postures among obstacles, against those that the quick test passes on."""
     scene = Scene(boxes=(Box((0.2, 0.2, 0.2), (0.5, 0.3, 0.3), roll=0.3, yaw=0.5),), slope=0.1)
@@ -308,6 +309,7 @@ def test_a_run_that_was_interrupted_leaves_nothing_behind(
     np.testing.assert_array_equal(engine.rollout(standing, reference).joint_position, expected.joint_position)
 
 
+@pytest.mark.slow
 def test_settings_reach_the_solver(robot: Robot, ode: Engine, standing: State) -> None:
     reference = hold(ode, standing, 30)
     for changed in (Ode(iterations=10), Ode(solver="exact"), Ode(erp=0.5), Ode(relaxation=1.0), Ode(surface_layer=0.0)):
@@ -317,6 +319,7 @@ def test_settings_reach_the_solver(robot: Robot, ode: Engine, standing: State) -
         np.testing.assert_allclose(out.joint_position, reference.joint_position, rtol=0, atol=0.01)
 
 
+@pytest.mark.slow
 def test_the_library_of_the_wheel_agrees_with_the_system_s(
     robot: Robot, ode: Engine, standing: State, wave: Callable[..., JointReference], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -119,6 +119,7 @@ def test_a_replay_without_levade_is_the_same_to_the_bit(motion: Motion, file: Pa
     np.testing.assert_allclose(end["recorded"], end["com"], atol=1e-9)
 
 
+@pytest.mark.slow
 def test_what_it_says_of_itself_is_of_a_fresh_simulation(objective: Objective, solution: Solution) -> None:
     """Whatever the search believed: nothing that it took for its own speed is passed on."""
     best = solution.best
@@ -206,6 +207,7 @@ def test_the_feet_push_the_robot_as_newton_says(motion: Motion) -> None:
     assert impulse[2] > 0.04 * weight
 
 
+@pytest.mark.slow
 def test_angular_velocity_is_in_trunk_axes() -> None:
     """As the rate of the rotation matrix, R' = R [w]x, of a robot that falls, turned by 2 rad about two axes."""
     fall = "start={fall: {roll: 1.2, pitch: 0.3, yaw: 2.0, height: 1.5, time: 0.25}}"

@@ -163,6 +163,7 @@ def test_a_policy_is_itself_again_from_its_tables() -> None:
         assert (policy.ends is not None) == (task == "self-righting")
 
 
+@pytest.mark.slow
 def test_the_page_names_policies_with_ends_after_their_joints() -> None:
     early = Motion.load(Path(__file__).parent / "data" / "side-recovery-1.npz")
     assert policy_names(early, 6) == [

@@ -20,6 +20,7 @@ kernel_configs = st.builds(
 )
 
 
+@pytest.mark.slow
 @given(kernel_configs, st.floats(0.01, 100.0), st.integers(1, 300))
 def test_kernels_sum_to_one_however_narrow_or_wide(kernels, horizon, rows):
     time = np.linspace(0.0, horizon, rows)

@@ -32,6 +32,7 @@ def examine(tmp_path: Path, quadruped: type):
     return load
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", ["urdf", "mjcf"])
 @pytest.mark.parametrize("options", [{}, {"knees": "back"}, {"joints": 2}])
 def test_a_sound_robot_has_no_warnings(examine, form: str, options: dict) -> None:

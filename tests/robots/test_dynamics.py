@@ -28,6 +28,7 @@ def free_robot(*, gravity: bool, timestep: float = 1e-3) -> tuple[mujoco.MjModel
     return model, data
 
 
+@pytest.mark.slow
 def test_the_centre_of_mass_falls_as_galileo_says() -> None:
     model, data = free_robot(gravity=True)
     mujoco.mj_subtreeVel(model, data)

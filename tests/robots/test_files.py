@@ -155,6 +155,7 @@ def test_a_skin_stops_nothing(tmp_path: Path, quadruped: type) -> None:
     assert load_robot(tmp_path / "toy.xml").model.nskin == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["bare", "package"])
 def test_a_urdf_may_say_where_mujoco_finds_its_meshes(name: str) -> None:
     robot = load_robot(CASES / "urdf-meshdir" / "urdf" / f"{name}.urdf")
@@ -166,6 +167,7 @@ def test_a_urdf_may_say_where_mujoco_finds_its_meshes(name: str) -> None:
     assert sum(bool(robot.model.geom_contype[g]) for g in geoms) == 4
 
 
+@pytest.mark.slow
 def test_a_mesh_that_is_nowhere_is_missing() -> None:
     robot = load_robot(CASES / "urdf-meshdir" / "urdf" / "deep.urdf")
     assert "collides as primitives only: thigh.stl is missing" in findings(robot, "warning")[0]

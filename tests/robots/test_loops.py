@@ -48,6 +48,7 @@ def constraint(text: str, kind: str, **names: str) -> str:
     return text.replace("</mujoco>", f"<equality>{rows}</equality></mujoco>")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("description", ["pup.xml", "held.yaml"])
 def test_a_loose_rod_pulls_on_no_leg(description: str) -> None:
     """Neither where levade holds it, nor where the description does."""

@@ -48,6 +48,7 @@ def findings(robot: Robot, kind: str) -> list[str]:
     return [finding for finding in of_kind if "no speed limit; " not in finding]
 
 
+@pytest.mark.slow
 def test_a_pd_step_is_that_of_the_models_own_servos(tmp_path: Path, quadruped: type) -> None:
     """From one state, with one target, MuJoCo's ``position`` actuators and levade's give the same, saturated or not."""
     text = quadruped().mjcf().replace(FLOOR, "")

@@ -78,6 +78,7 @@ def depth_at_rest(z: float, solref: Array, solimp: Array, weight: float, mass: f
     return (1 - d) * weight / mass / (d * k)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stiff", [False, True])
 @pytest.mark.parametrize("name", ["hyq2max", "toy"])
 def test_feet_rest_as_deep_as_a_quarter_of_the_weight_presses_them(

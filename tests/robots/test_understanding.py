@@ -261,6 +261,7 @@ def test_a_yaml_with_only_the_model_is_the_model(build, tmp_path: Path) -> None:
     assert described.findings == plain.findings
 
 
+@pytest.mark.slow
 def test_a_yaml_can_name_four_legs_of_six_and_fix_the_others(build, tmp_path: Path, quadruped: type) -> None:
     (tmp_path / "toy.urdf").write_text(quadruped(legs=FRONT + MIDDLE + HIND).urdf())
     ends = {"lf": ("left", "front"), "rf": ("right", "front"), "lh": ("left", "hind"), "rh": ("right", "hind")}

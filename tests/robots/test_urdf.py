@@ -165,6 +165,7 @@ def test_a_mesh_that_is_no_mesh_is_said(file: Path, tmp_path: Path, quadruped: t
     assert "part.dae: not a mesh that can be read" in findings(robot, "warning")[0]
 
 
+@pytest.mark.slow
 def test_a_collada_mesh_without_the_extra_says_what_to_install(
     file: Path, tmp_path: Path, quadruped: type, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -174,6 +175,7 @@ def test_a_collada_mesh_without_the_extra_says_what_to_install(
     assert "part.dae: MuJoCo does not read .dae; install levade[meshes]" in findings(robot, "warning")[0]
 
 
+@pytest.mark.slow
 def test_flat_meshes_and_repeated_names_are_taken(
     file: Path, tmp_path: Path, quadruped: type, capfd: pytest.CaptureFixture[str]
 ) -> None:
@@ -206,6 +208,7 @@ def test_inertias_that_no_body_has_become_those_of_a_sphere(
     assert robot.mass == pytest.approx(quadruped().mass)
 
 
+@pytest.mark.slow
 def test_joints_without_a_range_turn_without_end(file: Path, quadruped: type) -> None:
     text = re.sub(r'lower="\S+" upper="\S+"', "", quadruped().urdf())
     robot = load(file, text)

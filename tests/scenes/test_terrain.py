@@ -99,6 +99,7 @@ def test_heights_from_files(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.slow
 def test_files_that_hold_no_heights(tmp_path: Path) -> None:
     (tmp_path / "words.npy").write_text("words")
     (tmp_path / "words.png").write_text("words")

@@ -112,6 +112,7 @@ def damaged(text: str, chance: random.Random) -> bytes:
     return bytes(data)
 
 
+@pytest.mark.slow
 def test_whatever_is_damaged_what_is_read_was_written(tmp_path: Path) -> None:
     text, path = written(tmp_path, finished=True), tmp_path / CHECKPOINT
     known, counts = plain(RECORDS), set()

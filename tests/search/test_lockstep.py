@@ -199,6 +199,7 @@ def test_none_at_all_is_none_found() -> None:
     assert solve_many([]) == []
 
 
+@pytest.mark.slow
 def test_ctrl_c_in_an_observer_ends_all_with_the_best_so_far(simulation: Simulation) -> None:
     objectives = [Objective(simulation, task) for task in (tasks()["nominal"], tasks()["short"])]
 

@@ -379,6 +379,7 @@ def test_an_interrupted_search_keeps_the_start_that_holds_best(answered: Answere
     assert kept.share[0] == max(starts)
 
 
+@pytest.mark.slow
 def test_few_samples_cover_every_range_evenly() -> None:
     sample = Perturbation(friction=(0.0 + 0.1, 1.1)).spread(objective().engine.model, 12, n=10, seed=1)
     assert sorted(np.floor((sample.values["friction"][:, 0] - 0.1) * 10).tolist()) == list(range(10))
@@ -386,6 +387,7 @@ def test_few_samples_cover_every_range_evenly() -> None:
         assert len(np.unique(values[:, 0])) == 10 if values.shape[1] else True
 
 
+@pytest.mark.slow
 def test_success_takes_the_nominal_model_and_enough_of_the_others(answered: Answered) -> None:
     made = objective(REDRAWN)
     evaluation = answered(Judge(made.task, 0).evaluate(made.space.mean[None], full_level(made.task)), made)

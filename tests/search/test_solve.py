@@ -171,6 +171,7 @@ def test_the_first_mean_is_to_keep_standing() -> None:
     assert np.abs(out.joint_velocity).max() < 0.05
 
 
+@pytest.mark.slow
 def test_interpolation_leads_to_the_goal_posture() -> None:
     plain = ["policy.variance=0.01", "policy.time=normalised", "policy.kernels=16", "policy.goal=neutral"]
     objective = make_objective(load_task("posture-recovery", changes=plain), threads=1)
@@ -321,6 +322,7 @@ def test_costs_of_a_stage_are_by_its_own_weights(staged: Objective) -> None:
         np.testing.assert_allclose(g.cost, expected, rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_a_step_factor_multiplies_the_step_at_the_start_of_its_stage(monkeypatch: pytest.MonkeyPatch) -> None:
     from levade.optimizers import CMAES
 

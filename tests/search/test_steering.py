@@ -105,6 +105,7 @@ def test_the_optimizer_is_told_what_the_changed_weights_give(objective: Objectiv
     assert {g.stage for g in generations} == {0, 1, 2}
 
 
+@pytest.mark.slow
 def test_changed_weights_change_the_motion(objective: Objective, steered: Outcome) -> None:
     plain = solve(objective, seed=1)
     assert not np.array_equal(plain.best.weights, steered.solution.best.weights)

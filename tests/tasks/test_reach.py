@@ -51,6 +51,7 @@ def test_a_height_above_the_stretched_leg_and_the_trunk_is_refused(task: Task, c
         make_objective(asking(task, criterion))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "criterion",
     [
@@ -69,6 +70,7 @@ IDLE = {"z": Cost(Position(z=HIGHEST + 0.1), 0.0), "low": Cost(Position(z=0.3), 
 """A cost that asks for a height out of reach, with a weight and without."""
 
 
+@pytest.mark.slow
 def test_a_cost_that_pulls_out_of_reach_is_refused(task: Task) -> None:
     with pytest.raises(LevadeError, match=r"^costs\.z\.z: asks for 0\.79 m, but"):
         make_objective(replace(task, costs=HIGH))

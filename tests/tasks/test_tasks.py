@@ -394,6 +394,7 @@ def test_tasks_that_are_not_there(name: str, message: str) -> None:
     assert str(caught.value).startswith(message), str(caught.value)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
@@ -510,6 +511,7 @@ def test_units_of_the_robot_that_do_not_fit(changes: dict[str, object], message:
     assert message in str(caught.value)
 
 
+@pytest.mark.slow
 def test_a_terrain_from_a_file_is_part_of_the_task(tmp_path: Path) -> None:
     np.save(tmp_path / "hills.npy", np.linspace(0, 0.1, 12).reshape(3, 4))
     content = minimal(scene={"terrain": {"file": "hills.npy", "size": ["2 trunks", 1]}})

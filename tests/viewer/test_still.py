@@ -152,6 +152,7 @@ def test_a_task_shows_its_start_and_its_goal(name: str, tab: Any, tmp_path: Path
     assert tab.complaints == []
 
 
+@pytest.mark.slow
 def test_a_task_that_says_nothing_about_the_trunk_has_no_ghost() -> None:
     objective = make_objective(load_task("rearing", changes=["success={}", "stages.0.promote={}"]), threads=1)
     moving = task_data(objective)["scene"]["motion"]

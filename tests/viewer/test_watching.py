@@ -226,6 +226,7 @@ def test_the_first_message_says_all_and_the_last_how_it_ended(objective: Objecti
     assert (late[0]["verdict"], len(late[0]["rows"]), late[0]["scene"]["model"]) == (verdict, 15, "shapes")
 
 
+@pytest.mark.slow
 def test_shapes_are_told_once_and_motions_when_there_is_a_better_one(objective: Objective, tmp_path: Path) -> None:
     watched = Watched(objective, tmp_path)
     page = Page(watched.watch)
