@@ -35,6 +35,14 @@ def pytest_cmdline_main(config: pytest.Config) -> None:
         option.dist = "worksteal"
 
 
+@pytest.hookimpl(tryfirst=True)  # before -m is applied
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark every test in a browser as slow: a page takes seconds to draw."""
+    for item in items:
+        if "browser" in getattr(item, "fixturenames", ()):
+            item.add_marker(pytest.mark.slow)
+
+
 def _debugging(option: Any) -> bool:
     """Whether a debugger is asked for or there already: Python's own, or that of an editor."""
     traced = isinstance(getattr(sys.gettrace(), "__self__", None), bdb.Bdb)

@@ -85,6 +85,7 @@ def python(program: str) -> str:
 # the face
 
 
+@pytest.mark.slow
 def test_import_levade_loads_nothing_that_takes_long() -> None:
     heavy = "import levade, sys; print({'numpy', 'mujoco', 'cma', 'pydantic'} & set(sys.modules))"
     assert python(heavy) == "set()"
@@ -125,6 +126,7 @@ def test_a_motion_suggests_the_nearest_array(found: levade.Result) -> None:
         _ = found.motion["joint_positions"]
 
 
+@pytest.mark.slow
 def test_a_run_in_a_directory_finds_the_same(task: levade.Task, found: levade.Result, tmp_path: Path) -> None:
     kept = levade.solve(task, seed=2, out=tmp_path / "run")
     np.testing.assert_array_equal(kept.motion["ctrl"], found.motion["ctrl"])
@@ -144,6 +146,7 @@ def test_a_motion_or_its_file_may_be_given(found: levade.Result, tmp_path: Path)
 # many at once
 
 
+@pytest.mark.slow
 def test_many_are_what_each_is_alone(task: levade.Task, found: levade.Result) -> None:
     first, second, third = levade.solve_many([task, task, task], seeds=[1, 2, 2], trials=12)
     np.testing.assert_array_equal(second.motion["ctrl"], found.motion["ctrl"])
@@ -155,6 +158,7 @@ def test_many_are_what_each_is_alone(task: levade.Task, found: levade.Result) ->
 # robots
 
 
+@pytest.mark.slow
 def test_a_robot_may_be_an_object_a_file_or_a_spec(task: levade.Task, quadruped: Any, tmp_path: Path) -> None:
     text = quadruped().mjcf()
     (tmp_path / "toy.xml").write_text(text, encoding="utf-8")
@@ -167,6 +171,7 @@ def test_a_robot_may_be_an_object_a_file_or_a_spec(task: levade.Task, quadruped:
     assert [motion.robot for motion in motions] == ["toy"] * 4
 
 
+@pytest.mark.slow
 def test_a_spec_that_was_a_robots_keeps_what_is_known_of_it(task: levade.Task, found: levade.Result) -> None:
     robot = levade.load_robot("hyq2max")
     same = levade.load_robot(robot.spec(), like="hyq2max")
@@ -184,6 +189,7 @@ def test_a_spec_that_was_a_robots_keeps_what_is_known_of_it(task: levade.Task, f
     assert len(list(spec.actuators)) == 12  # what was given is not changed
 
 
+@pytest.mark.slow
 def test_a_spec_with_actuators_of_two_controls_is_understood_on_its_own() -> None:
     robot = levade.load_robot(levade.load_robot("hyq2max").spec())
     assert robot.joint_names == levade.load_robot("hyq2max").joint_names
@@ -207,6 +213,7 @@ def test_a_spec_with_other_joints_is_refused_in_one_line() -> None:
 # optimizers, policies, engines
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ready", [False, True])
 def test_an_optimizer_may_be_a_class_or_an_object(task: levade.Task, found: levade.Result, ready: bool) -> None:
     optimizer = Climber(found.objective.space, seed=0) if ready else Climber
@@ -217,6 +224,7 @@ def test_an_optimizer_may_be_a_class_or_an_object(task: levade.Task, found: leva
     assert "Climber" in str(result.motion.meta["task"]["search"]["optimizer"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("policy", [Bend(), lambda task, robot: Bend()], ids=["object", "function"])
 def test_a_policy_may_be_ones_own(task: levade.Task, policy: Any) -> None:
     result = levade.solve(task, policy=policy)
@@ -246,6 +254,7 @@ def test_an_engine_may_be_a_name_or_a_row(task: levade.Task, found: levade.Resul
 # where to begin
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "initial",
     [
@@ -281,12 +290,14 @@ def test_costs_and_measures_in_python_are_searched_with(coded: levade.Result) ->
     assert coded.success
 
 
+@pytest.mark.slow
 def test_a_motion_that_was_just_found_is_checked_with_its_code(coded: levade.Result) -> None:
     assert coded.motion.task.costs["fastest"].term is fastest
     certificate = levade.check(coded.motion, runs=2)
     assert all("knee" in numeric.errors for numeric in certificate.numerics.values())
 
 
+@pytest.mark.slow
 def test_the_code_is_not_in_the_file_which_says_so(coded: levade.Result, tmp_path: Path) -> None:
     coded.motion.save(tmp_path / "motion.npz")
     motion = levade.Motion.load(tmp_path / "motion.npz")

@@ -86,6 +86,7 @@ def _exists(name: str) -> bool:
     return False
 
 
+@pytest.mark.slow
 def test_a_cost_is_evaluated_by_its_name(example) -> None:
     result = example("own_cost").result
     motion = result.motion
@@ -95,11 +96,13 @@ def test_a_cost_is_evaluated_by_its_name(example) -> None:
     assert motion.task.costs["work"].weight == 0.01
 
 
+@pytest.mark.slow
 def test_a_criterion_of_ones_own_is_judged(example) -> None:
     motion = example("own_criterion").result.motion
     assert motion.result.errors["gentle"] == pytest.approx(max(0.0, abs(motion["joint_torque"]).max() - 100.0))
 
 
+@pytest.mark.slow
 def test_an_optimizer_gets_a_name(example) -> None:
     made = example("own_optimizer").result
     assert made.motion.task.search.optimizer == "climb"
@@ -107,6 +110,7 @@ def test_an_optimizer_gets_a_name(example) -> None:
     assert made.solution.best.cost < first.cost(made.solution.cost_weights)[0]
 
 
+@pytest.mark.slow
 def test_the_velocity_of_the_policy_is_the_derivative_of_its_position(example) -> None:
     made = example("own_policy").result
     reference = made.objective.policy.reference(made.solution.best.weights[None])
@@ -116,12 +120,14 @@ def test_the_velocity_of_the_policy_is_the_derivative_of_its_position(example) -
     np.testing.assert_array_equal(made.motion["joint_position_reference"], position)
 
 
+@pytest.mark.slow
 def test_the_plain_engine_gives_the_bits_of_the_batch(example) -> None:
     module = example("own_engine")
     assert module.one.motion.provenance.engine == "plain"
     np.testing.assert_array_equal(module.one.motion["joint_position"], module.other.motion["joint_position"])
 
 
+@pytest.mark.slow
 def test_a_format_writes_its_file(example) -> None:
     exported = example("own_format").exported
     angles = np.load(exported.directory / "angles.npy")

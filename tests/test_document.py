@@ -184,6 +184,7 @@ def test_a_date_is_a_text_and_a_huge_whole_number_a_number() -> None:
     assert parse_yaml(text, where="x") == ["2026-02-30", "2026-02-28 10:00:00", 2**63 - 1, 2.0**63, -1e300]
 
 
+@pytest.mark.slow
 def test_a_table_of_many_numbers_is_no_attack() -> None:
     row = f"[{', '.join(['0.125'] * 200)}]"
     assert len(parse_yaml("heights:\n" + f"- {row}\n" * 200, where="x")["heights"]) == 200

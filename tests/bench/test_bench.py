@@ -158,6 +158,7 @@ def test_what_is_simulated_twice_is_counted_twice() -> None:
     assert result.steps == every_trial + all_again + best_at_the_end
 
 
+@pytest.mark.slow
 def test_the_engine_counts_steps() -> None:
     objective = make_objective(cases(PLAN)[0].task, threads=1)
     before = objective.engine.steps

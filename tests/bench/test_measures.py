@@ -49,6 +49,7 @@ def test_without_success_it_is_infinite() -> None:
     assert ert.high == math.inf  # (2/3)^3 of the samples have no success
 
 
+@pytest.mark.slow
 def test_the_interval_is_the_same_each_time_and_covers_what_it_should() -> None:
     """Of 200 benches of 20 runs from one distribution, about 95 % of the intervals hold its mean."""
     random = np.random.default_rng(1)

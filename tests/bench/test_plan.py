@@ -22,6 +22,7 @@ changes: {horizon: 0.25}
 """
 
 
+@pytest.mark.slow
 def test_a_plan_is_the_product_of_its_lists(tmp_path: Path) -> None:
     (tmp_path / "plan.yaml").write_text(PLAN)
     plan = read_plan(tmp_path / "plan.yaml")
@@ -40,6 +41,7 @@ def test_a_plan_is_the_product_of_its_lists(tmp_path: Path) -> None:
     assert [case.checksum for case in cases(again)] == [case.checksum for case in found]
 
 
+@pytest.mark.slow
 def test_left_out_the_task_decides() -> None:
     (only,) = cases(Plan(tasks=("rearing",), seeds=1))
     assert only.key == ("rearing", "hyq2max", "cma-aimed", 0)
@@ -50,6 +52,7 @@ def test_left_out_the_task_decides() -> None:
     assert Plan(tasks=("rearing",)).seed_list == (0, 1, 2, 3, 4)
 
 
+@pytest.mark.slow
 def test_an_alias_is_kept_as_a_label_and_finds_the_same_results() -> None:
     (by_name,) = cases(Plan(tasks=("rearing",), optimizers=("cma-aimed",), seeds=1))
     (by_alias,) = cases(Plan(tasks=("rearing",), optimizers=("levade",), seeds=1))
@@ -104,6 +107,7 @@ def test_what_is_refused(tmp_path: Path, content: str, message: str) -> None:
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.slow
 def test_two_tasks_of_one_name(tmp_path: Path) -> None:
     text = "{name: mine, horizon: 0.06, costs: {effort: {weight: 1}}, success: {}}"
     for name in ("a.yaml", "b.yaml"):

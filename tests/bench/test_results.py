@@ -76,6 +76,7 @@ def test_a_file_that_cannot_be_written(make, tmp_path: Path) -> None:
             do(tmp_path / "results.csv")
 
 
+@pytest.mark.slow
 def test_parquet_has_the_same_rows_with_their_types(make, tmp_path: Path) -> None:
     parquet = pytest.importorskip("pyarrow.parquet", reason="needs the extra bench")
     rows = [make(200), make(None, seed=1)]

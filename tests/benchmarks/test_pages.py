@@ -13,6 +13,7 @@ ROOT = Path(__file__).parents[2]
 Script = Callable[[str], ModuleType]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["duration", "gallery", "paper", "skills"])
 def test_a_page_is_what_its_script_writes(script: Script, name: str) -> None:
     """Not so after a change to a template, to results or to what a task asks: python benchmarks/NAME.py --write."""

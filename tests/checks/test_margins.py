@@ -43,6 +43,7 @@ def test_a_joint_pushed_one_percent_over_its_torque_limit_fails_and_is_named(
     assert found == {"torque": (str(standing["joint_names"][joint]),)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sign", [-1, 1])
 def test_a_joint_one_percent_over_its_speed_limit_fails_and_is_named(
     sign: int, standing: Motion, changed: Change
@@ -55,6 +56,7 @@ def test_a_joint_one_percent_over_its_speed_limit_fails_and_is_named(
     assert failed(changed(standing, joint_velocity=speed, joint_torque=torque)) == {"speed": ("lf_kfe",)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("end", ["lower", "upper"])
 def test_a_joint_one_percent_over_its_range_fails_and_is_named(end: str, standing: Motion, changed: Change) -> None:
     angle = standing["joint_position"].copy()
@@ -67,6 +69,7 @@ def test_a_joint_one_percent_over_its_range_fails_and_is_named(end: str, standin
     assert failed(changed(standing, joint_position=angle))["position"] == ("lf_haa",)
 
 
+@pytest.mark.slow
 def test_a_joint_beyond_its_torque_speed_line_fails_only_while_it_drives(standing: Motion, changed: Change) -> None:
     """HyQ2Max's knees: 400 Nm at standstill, nothing at 17 rad/s, so 164.7 Nm at 10 rad/s."""
     torque, speed = (standing[f"joint_{name}"].copy() for name in ("torque", "velocity"))
@@ -82,6 +85,7 @@ def test_a_joint_beyond_its_torque_speed_line_fails_only_while_it_drives(standin
     assert failed(changed(standing, joint_torque=torque, joint_velocity=speed)) == {}
 
 
+@pytest.mark.slow
 def test_the_linkage_is_judged_where_the_task_has_it(standing: Motion, changed: Change) -> None:
     """The knee's linkage transmits half of its best, 125 Nm, at its stops."""
     angle, torque = (standing[f"joint_{name}"].copy() for name in ("position", "torque"))
@@ -176,6 +180,7 @@ def test_where_the_robot_gives_no_limit_nothing_is_judged(standing: Motion, chan
     assert found["torque"].reason == "the robot gives no limit of lf_haa"
 
 
+@pytest.mark.slow
 def test_an_assumed_limit_is_neither_met_nor_missed(standing: Motion, changed: Change) -> None:
     """Joint 2 is beyond its limit, which is assumed; joint 3 too, and the file gives that one."""
     limits = {**standing.meta["limits"], "assumed_velocity": [1, 2]}

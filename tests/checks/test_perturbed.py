@@ -86,6 +86,7 @@ def test_a_joint_is_named_where_it_alone_matters(standing: Motion) -> None:
     assert 0.2 < found.sensitivity[0].explains <= 1.0
 
 
+@pytest.mark.slow
 def test_the_worst_run_is_one_that_fails(standing: Motion) -> None:
     """Runs fail by 1 cm of a bound at the height, and succeed with up to 0.05 rad of a tolerance of 0.1."""
     bound = standing["trunk_com_position"][-1, 2] - 0.002
@@ -115,6 +116,7 @@ def test_the_line_of_the_actuators_is_a_criterion_in_a_check_too(standing: Motio
     assert found.successes == 0
 
 
+@pytest.mark.slow
 def test_a_broken_simulation_is_a_failure_not_a_crash(standing: Motion) -> None:
     simulation = RecordedSimulation(standing)
     sample = Perturbation().draw(simulation.model, simulation.joints, n=3, seed=0)

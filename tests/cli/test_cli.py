@@ -21,6 +21,7 @@ QUICK = ["--set", "search.optimizer=cma", "--set", "search.population=8", "--tri
 LOOSE = ["--set", "success.pitch.tolerance=9", "--set", "success.height.tolerance=9"]
 
 
+@pytest.mark.slow
 def test_help_and_version(levade) -> None:
     status, out, err = levade("--version")
     assert (status, out, err) == (0, f"levade {__version__}\n", "")
@@ -126,6 +127,7 @@ def test_a_task_file_with_a_mistake(levade, tmp_path: Path) -> None:
     assert [path.name for path in tmp_path.iterdir()] == ["mine.yaml"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("extra", "status"), [(LOOSE, 0), ([], 1)])
 def test_solve_says_by_its_status_whether_it_succeeded(levade, tmp_path: Path, extra: list[str], status: int) -> None:
     code, out, err = levade("solve", "rearing", *QUICK, *extra)
@@ -140,6 +142,7 @@ def test_solve_says_by_its_status_whether_it_succeeded(levade, tmp_path: Path, e
     assert Motion.load(tmp_path / "rearing" / "motion.npz").meta["success"] is (status == 0)
 
 
+@pytest.mark.slow
 def test_a_robust_search_without_success_says_that_the_model_alone_does_it(levade) -> None:
     """A quarter turn at the start is nothing that standing still makes up for."""
     turned = "robust={samples: 2, perturb: {start_attitude: [1.5, 1.6]}}"
@@ -180,6 +183,7 @@ def test_json_is_one_object_and_nothing_else(levade, extra: list[str], status: i
     assert motion.meta["cost"] == content["cost"]
 
 
+@pytest.mark.slow
 def test_the_same_seed_and_the_file_that_is_left_give_the_same_motion(levade) -> None:
     levade("solve", "rearing", "--seed", "4", "--out", "one", *QUICK)
     levade("solve", "one/task.yaml", "--seed", "4", "--out", "two", "--threads", "2")
@@ -203,6 +207,7 @@ def test_files_of_ones_own_are_kept_unless_forced(levade, tmp_path: Path) -> Non
     assert levade("solve", "rearing/task.yaml")[0] == 1  # a finished run is replaced by itself
 
 
+@pytest.mark.slow
 def test_odd_names_are_printed_as_they_are(levade) -> None:
     status, out, _ = levade("solve", "rearing", "--out", "out[bold]", *QUICK)
     assert status == 1
@@ -246,6 +251,7 @@ def test_listings(levade) -> None:
     assert robots == [*builtin_robots(), *packaged]
 
 
+@pytest.mark.slow
 def test_a_task_to_start_from(levade, tmp_path: Path) -> None:
     from levade.tasks import builtin_tasks, load_task
 

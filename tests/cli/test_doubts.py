@@ -32,6 +32,7 @@ def limits():
     return load_robot("hyq2max").limits
 
 
+@pytest.mark.slow
 def test_a_success_is_tried_in_other_numbers_and_a_failure_is_not(levade) -> None:
     code, out, _ = levade("solve", "rearing", "--json", *STAND, *SHORT)
     assert code == 0
@@ -46,6 +47,7 @@ def test_a_success_is_tried_in_other_numbers_and_a_failure_is_not(levade) -> Non
     assert in_other_numbers(failing) == {}
 
 
+@pytest.mark.slow
 def test_a_success_says_that_it_holds_in_other_numbers(levade) -> None:
     code, out, _ = levade("solve", "rearing", *STAND, *SHORT)
     assert code == 0
@@ -96,6 +98,7 @@ def test_tasks_within_limits_promise_none_that_no_file_gives(
     )
 
 
+@pytest.mark.slow
 def test_a_solve_names_the_limits_that_are_assumed(levade, tmp_path: Path, quadruped: type) -> None:
     (tmp_path / "toy.xml").write_text(quadruped().mjcf())
     words = ("self-righting-within-limits", "--robot", "toy.xml", "--trials", "4", "--set", "search.population=4")

@@ -40,6 +40,7 @@ def places(tmp_path: Path, unmet: Path) -> Path:
     return tmp_path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("place", ["/dev/null", "/dev/full", "/dev/stdout", "pipe", "link", "dangling", LONG])
 @pytest.mark.parametrize(
     "command",
@@ -63,6 +64,7 @@ def test_out_is_never_what_is_no_file_or_directory(levade, places: Path, command
     assert (places / "precious").read_text() == "precious"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "words", ["--strip link.png", "--figures link", "--figures pipe", f"--strip {LONG}.png", "--strip pipe/a.png"]
 )
@@ -82,6 +84,7 @@ def test_a_report_is_not_written_through_a_link(levade, places: Path) -> None:
     assert (places / "precious").read_text() == "precious"
 
 
+@pytest.mark.slow
 def test_a_link_to_a_directory_is_a_directory(levade, places: Path) -> None:
     assert levade("export", "motion.npz", "--to", "json", "--out", "directory")[0] == 0
     assert (places / "directory").is_symlink()
@@ -90,6 +93,7 @@ def test_a_link_to_a_directory_is_a_directory(levade, places: Path) -> None:
     Motion.load(places / "real" / "motion.npz")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["task.yaml", "checkpoint.jsonl", "progress.csv", "motion.npz"])
 def test_a_run_replaces_no_link(levade, places: Path, name: str) -> None:
     (places / "real" / name).symlink_to("../precious")
@@ -126,6 +130,7 @@ def test_a_name_that_is_too_long_is_one_line(levade, words: str) -> None:
     assert _one_line(err), err
 
 
+@pytest.mark.slow
 def test_a_run_in_progress_is_said_to_run(levade, tmp_path: Path, unmet: Path) -> None:
     shutil.copytree(unmet, tmp_path / "run")
     with locked(tmp_path / "run", "run"):
@@ -169,6 +174,7 @@ def test_a_command_does_its_work_whatever_becomes_of_its_output(
         ]
 
 
+@pytest.mark.slow
 def test_a_generation_that_does_not_fit_is_announced_and_split(
     levade, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -43,6 +43,7 @@ def test_remedies_come_with_what_to_type() -> None:
     assert in_flags(one, app, ["solve"]) == "my run: there; replace it: --force"
 
 
+@pytest.mark.slow
 def test_every_remedy_of_the_library_can_be_typed() -> None:
     used = set()
     for path in SOURCE.rglob("*.py"):

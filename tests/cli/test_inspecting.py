@@ -21,6 +21,7 @@ def urdf(tmp_path: Path, quadruped: type) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_inspect_says_what_was_understood(levade, urdf: Path) -> None:
     status, out, err = levade("robots", "inspect", "toy.urdf")
     assert (status, err) == (0, "")
@@ -41,6 +42,7 @@ def test_inspect_says_what_was_understood(levade, urdf: Path) -> None:
     assert row == ["lf_kfe", "knee", "-1.445", "-2.5", "to", "-0.2", "20", "19%", "15", "59.84", "1.8"]
 
 
+@pytest.mark.slow
 def test_warnings_come_first_each_with_its_remedy(levade, urdf: Path) -> None:
     urdf.write_text(urdf.read_text().replace('effort="20.0"', 'effort="2"'))
     status, out, _ = levade("robots", "inspect", "toy.urdf")
@@ -52,6 +54,7 @@ def test_warnings_come_first_each_with_its_remedy(levade, urdf: Path) -> None:
     )
 
 
+@pytest.mark.slow
 def test_inspect_as_json_is_one_object_with_the_same_numbers(levade, urdf: Path) -> None:
     urdf.write_text(urdf.read_text().replace('velocity="15.0"', ""))
     status, out, err = levade("robots", "inspect", "toy.urdf", "--json")
@@ -71,6 +74,7 @@ def test_inspect_as_json_is_one_object_with_the_same_numbers(levade, urdf: Path)
             "remedy": "robot.yaml, limits: {velocity: ...} gives the real one"} in said["findings"]  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("change", "message"),
     [
@@ -133,6 +137,7 @@ def test_solve_says_in_one_line_that_there_are_warnings(levade, urdf: Path) -> N
     assert err == "robot: 1 warning; levade robots inspect toy.urdf says more\n"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("changes", "message"),
     [

@@ -13,6 +13,7 @@ from levade.search.run import run as run_task
 from levade.tasks import load_task
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["hyq2max", "rearing"])
 def test_a_page_is_written(name: str, levade) -> None:
     assert levade(*f"view {name} --out pages/page.html".split()) == (0, "To open in a browser: pages/page.html\n", "")
@@ -37,6 +38,7 @@ def test_a_motion_is_shown_as_its_report(levade) -> None:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

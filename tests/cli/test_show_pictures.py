@@ -21,6 +21,7 @@ def test_figures_have_the_cost_of_the_run_beside_them(unmet: Path, tmp_path: Pat
     assert all(Path(path).stat().st_size > 1000 for path in written)
 
 
+@pytest.mark.slow
 def test_several_motions_are_compared_column_by_column(unmet: Path, levade) -> None:
     motion = Motion.load(unmet / "motion.npz")
     status, out, _ = levade("show", unmet / "motion.npz", unmet / "other.npz")
@@ -82,6 +83,7 @@ def test_progress_of_another_search_is_not_taken(unmet: Path, tmp_path: Path) ->
     assert progress_beside(tmp_path / "motion.npz", motion) is None
 
 
+@pytest.mark.slow
 def test_a_page_is_written_beside_each_motion(unmet: Path, tmp_path: Path, levade) -> None:
     for name in ("motion.npz", "other.npz", "progress.csv"):
         (tmp_path / name).write_bytes((unmet / name).read_bytes())

@@ -48,7 +48,7 @@ def test_it_writes_a_motion_that_a_check_knows_as_stabilised(motion: Path, levad
 def test_a_search_that_is_stopped_keeps_its_best(motion: Path, tmp_path: Path, process, number: signal.Signals) -> None:
     """The real thing: a signal while the second design is tried."""
     written = tmp_path / "kept.npz"
-    stabilising = process("stabilise", motion, "--threads=1", f"--out={written}")
+    stabilising = process("stabilise", motion, "--threads=1", "--runs=32", f"--out={written}")
     assert stabilising.stdout is not None
     told = [stabilising.stdout.readline() for _ in range(2)]
     assert told[0].strip().startswith("no feedback:")
@@ -60,7 +60,7 @@ def test_a_search_that_is_stopped_keeps_its_best(motion: Path, tmp_path: Path, p
     assert count < 6
     kept = Motion.load(written)
     assert kept.feedback is not None
-    assert kept.meta["feedback"]["runs"] == 96
+    assert kept.meta["feedback"]["runs"] == 32
 
 
 @pytest.mark.slow

@@ -90,6 +90,7 @@ def test_feet_keep_to_their_side(make):
     assert Margins(midplane=wanted)(standing) == pytest.approx(sum(((wanted - a) / wanted) ** 2 for a in aside))
 
 
+@pytest.mark.slow
 def test_limits_come_with_the_robots_line():
     limits = load_robot("hyq2max").limits
     assert limits.stall_torque is not None

@@ -46,11 +46,13 @@ def rpy(roll=0.0, pitch=0.0, yaw=0.0):
     return quaternion_from_roll_pitch_yaw(roll, pitch, yaw)
 
 
+@pytest.mark.slow
 @given(st.floats(-3.1, 3.1), st.floats(-1.5, 1.5), st.floats(-3.1, 3.1))
 def test_quaternions_are_those_of_the_angles(roll, pitch, yaw):
     np.testing.assert_allclose(roll_pitch_yaw(rpy(roll, pitch, yaw)), [roll, pitch, yaw], atol=1e-8)
 
 
+@pytest.mark.slow
 @given(quaternions, unit_vectors, st.floats(0, math.pi))
 def test_the_geodesic_is_the_angle_of_the_turn_between(base, axis, angle):
     """Exact to rounding at 0 and at pi too, where arccos of a trace loses half the digits."""
@@ -79,6 +81,7 @@ CHOICES = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("term", CHOICES)
 @given(base=quaternions, axis=unit_vectors)
 def test_a_small_turn_changes_the_cost_little_from_any_attitude(standing, term, base, axis):
@@ -115,6 +118,7 @@ def test_the_cost_is_the_paper_s_difference_to_first_order_near_the_goal(standin
             assert term(standing(quaternion))[0] == pytest.approx(cost, rel=1e-3)
 
 
+@pytest.mark.slow
 @given(st.floats(-math.pi / 2, math.pi / 2), st.floats(-math.pi / 2, math.pi / 2), st.floats(-3, 3))
 def test_pitch_alone_is_the_z_y_x_pitch_while_the_top_looks_up(standing, roll, pitch, yaw):
     cost = Orientation(pitch=REAR)(standing(rpy(roll, pitch, yaw)))[0]
@@ -137,6 +141,7 @@ def test_rearing_on_past_the_vertical_costs_more_and_more(standing):
     np.testing.assert_allclose(np.sqrt(costs), np.radians(np.arange(180)), atol=1e-7)
 
 
+@pytest.mark.slow
 @given(quaternions, st.floats(-3, 3), st.floats(-math.pi, math.pi))
 def test_roll_and_pitch_do_not_feel_yaw(standing, base, yaw, goal_pitch):
     trial = standing([base, product(turn([0, 0, 1], yaw), base)])

@@ -33,6 +33,7 @@ def test_what_is_not_known_does_not_count() -> None:
     assert risk(costs, known, measure="cvar", tail=0.5).tolist() == [3.0, 2.0, 9.0]
 
 
+@pytest.mark.slow
 @given(st.lists(st.floats(0, 1e12), min_size=1, max_size=9), st.floats(0.05, 1.0))
 def test_measures_are_in_order(costs: list[float], tail: float) -> None:
     row = np.array([costs])
@@ -43,6 +44,7 @@ def test_measures_are_in_order(costs: list[float], tail: float) -> None:
     assert cvar <= worst * (1 + 1e-12)
 
 
+@pytest.mark.slow
 @given(
     st.lists(st.tuples(st.floats(-1e12, 1e12), st.booleans()), min_size=1, max_size=12),
 )

@@ -31,6 +31,7 @@ def test_a_robot_that_went_over_backwards_has_not_reared(standing):
     assert criterion.error(over)[0] == pytest.approx(-60 * DEGREE, abs=1e-4)
 
 
+@pytest.mark.slow
 @given(st.floats(1.6, 4.6), st.floats(-math.pi, math.pi), st.floats(-0.5, 0.5))
 def test_upside_down_is_never_level(standing, roll, yaw, pitch):
     trial = standing([rpy(roll, pitch, yaw), rpy(0, pitch + math.pi, yaw)])
@@ -49,6 +50,7 @@ def test_angles_wrap(standing):
     np.testing.assert_allclose(Criterion("yaw", target=-math.pi, tolerance=1).error(trial), -DEGREE)
 
 
+@pytest.mark.slow
 @given(st.floats(0, math.pi), st.floats(0, 2 * math.pi))
 def test_tilt_is_the_angle_from_upright_whichever_way(standing, angle, heading):
     axis = np.array([math.cos(heading), math.sin(heading), 0.0])

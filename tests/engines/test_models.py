@@ -133,6 +133,7 @@ def nominal_of(name: str) -> float:
     return PARAMETERS[name].nominal
 
 
+@pytest.mark.slow
 def test_the_robot_starts_on_the_ground_whatever_is_perturbed(robot: Robot, boxed: Engine, start: State) -> None:
     sample = Perturbation(obstacle=None).draw(boxed.model, 12, n=40, seed=5)
     starts, models = perturbed_models(boxed.model, boxed.layout, sample, start)

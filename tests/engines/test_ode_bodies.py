@@ -160,6 +160,7 @@ def test_dry_friction_of_a_joint_slows_it_at_a_constant_rate() -> None:
     np.testing.assert_allclose(out.speed[0, :, 0], expected, rtol=0, atol=1e-3)
 
 
+@pytest.mark.slow
 def test_stops_hold_and_may_be_beyond_half_a_turn() -> None:
     model = pendulum('range="10 250" limited="true"')
     model.jnt_range[1] = np.radians([10, 250])
@@ -173,6 +174,7 @@ def test_stops_hold_and_may_be_beyond_half_a_turn() -> None:
         assert out.angle[0].min() > np.radians(10) - 25 * H
 
 
+@pytest.mark.slow
 def test_springs_pull_towards_their_rest() -> None:
     model = pendulum('stiffness="20" springref="30" damping="2"')
     out = simulate(model, 1500)

@@ -81,6 +81,7 @@ def test_the_nominal_version_is_the_engines_own(
     assert np.allclose(ours.foot_contact_force, theirs.foot_contact_force, atol=1e-1, rtol=0)  # type: ignore[arg-type]
 
 
+@pytest.mark.slow
 def test_a_version_is_a_model_compiled_with_its_values(
     robot: Robot, boxed: Engine, state: State, wave: Callable[..., JointReference], compile_in: Callable[..., None]
 ) -> None:
@@ -102,6 +103,7 @@ def test_a_version_is_a_model_compiled_with_its_values(
         assert (theirs.foot_contact_force != 0).any()  # type: ignore[union-attr]
 
 
+@pytest.mark.slow
 def test_the_feet_carry_the_mass(boxed: Engine, state: State) -> None:
     """At rest, weight is all that there is to carry."""
     for factor in (0.9, 1.1):
@@ -138,6 +140,7 @@ def test_every_parameter_changes_the_motion(
     assert (apart[np.abs(corners.values[name] - nominal(boxed).values[name]).max(axis=1) > 0] > 1e-7).all()
 
 
+@pytest.mark.slow
 def test_a_run_depends_on_nothing_but_its_own_values(
     robot: Robot, boxed: Engine, state: State, wave: Callable[..., JointReference]
 ) -> None:

@@ -70,6 +70,7 @@ def states(engine: Engine, out: Trajectories, trial: int = 0) -> Iterator[mujoco
         yield data
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("actuation", ["hydraulic", "ideal"])
 def test_drives_deliver_what_mujoco_s_deliver(actuation: str) -> None:
     """At random angles, speeds, references and states of the lag, to rounding."""
@@ -150,6 +151,7 @@ def test_standing_takes_the_same_torques_and_forces(
     assert np.abs(share[:, 2]).max() < 0.01 * weight
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("actuation", ["hydraulic", "ideal"])
 def test_a_step_of_a_hanging_leg(actuation: str) -> None:
     """A knee told to bend by 0.2 rad, and a hip by 0.1, with the robot in the air: both engines go the same way, within
@@ -217,6 +219,7 @@ def test_processes_order_and_company_do_not_matter(
     np.testing.assert_array_equal(expected.body_contact_force["trunk"], 0)
 
 
+@pytest.mark.slow
 def test_every_pair_that_touches_is_found(robot: Robot) -> None:
     """ODE asked about every pair, in contorted postures among obstacles, against those that the quick test passes on."""
     scene = Scene(boxes=(Box((0.2, 0.2, 0.2), (0.5, 0.3, 0.3), roll=0.3, yaw=0.5),), slope=0.1)
@@ -255,6 +258,7 @@ def unstable(tmp_path: Path) -> Robot:
     return load_robot(folder / "robot.yaml")
 
 
+@pytest.mark.slow
 def test_simulations_that_break_down_are_marked_and_leave_the_others_alone(
     unstable: Robot, wave: Callable[..., JointReference], capfd: pytest.CaptureFixture[str]
 ) -> None:
@@ -305,6 +309,7 @@ def test_a_run_that_was_interrupted_leaves_nothing_behind(
     np.testing.assert_array_equal(engine.rollout(standing, reference).joint_position, expected.joint_position)
 
 
+@pytest.mark.slow
 def test_settings_reach_the_solver(robot: Robot, ode: Engine, standing: State) -> None:
     reference = hold(ode, standing, 30)
     for changed in (Ode(iterations=10), Ode(solver="exact"), Ode(erp=0.5), Ode(relaxation=1.0), Ode(surface_layer=0.0)):
@@ -314,6 +319,7 @@ def test_settings_reach_the_solver(robot: Robot, ode: Engine, standing: State) -
         np.testing.assert_allclose(out.joint_position, reference.joint_position, rtol=0, atol=0.01)
 
 
+@pytest.mark.slow
 def test_the_library_of_the_wheel_agrees_with_the_system_s(
     robot: Robot, ode: Engine, standing: State, wave: Callable[..., JointReference], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -59,6 +59,7 @@ def plain_loop(engine: Engine, state: State, reference: JointReference) -> dict[
     return out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("actuation", ["hydraulic", "ideal"])
 def test_a_batch_equals_a_plain_loop_to_the_bit(actuation: str, wave: Callable[..., JointReference]) -> None:
     robot = load_robot("hyq2max", actuation=actuation)
@@ -222,6 +223,7 @@ def test_a_robot_on_its_belly_rests_on_its_trunk(robot: Robot, engine: Engine) -
     assert np.linalg.norm(first.foot_contact_force[0, 0], axis=-1).max() < first.body_contact_force["trunk"][0, 0]  # type: ignore[index]
 
 
+@pytest.mark.slow
 def test_trials_that_break_down_are_marked_and_leave_the_others_alone(
     engine: Engine, state: State, wave: Callable[..., JointReference], capfd: pytest.CaptureFixture[str]
 ) -> None:

@@ -134,6 +134,7 @@ def test_a_fall_begins_clear_of_the_ground(robot: Robot, scene: Scene, roll: flo
     assert abs(nearest) < (0.003 if scene.slope else 1e-9)
 
 
+@pytest.mark.slow
 def test_a_mast_is_put_down_on_its_tip_and_rolls_over() -> None:
     """Upside down, what reaches highest above the trunk is what the start has to clear."""
     robot = load_robot(MAST)

@@ -94,6 +94,7 @@ def test_one_model_for_all_trials_is_that_model_for_each(
     same(alone, four, [2])
 
 
+@pytest.mark.slow
 def test_steps_are_counted_in_every_roll_out(
     any_engine: Engine, starts: State, wave: Callable[..., JointReference]
 ) -> None:

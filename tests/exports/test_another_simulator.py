@@ -38,6 +38,7 @@ def followed(
     return scope, printed.splitlines()
 
 
+@pytest.mark.slow
 def test_the_page_plays_the_motion_in_bullet(followed: tuple[dict[str, Any], list[str]]) -> None:
     scope, printed = followed
     assert [line.split(":")[0] for line in printed] == ["ideal drives", "goal", "simulated drives"]

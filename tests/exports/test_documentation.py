@@ -51,6 +51,7 @@ def test_the_commands_at_the_top(here: Path, capsys: pytest.CaptureFixture[str])
     assert (done.returncode, done.stderr) == (0, "")
 
 
+@pytest.mark.slow
 def test_csv_is_read_and_played_in_simulation(
     here: Path, rearing: Motion, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -76,6 +77,7 @@ def test_mjlab(here: Path, rearing: Motion, capsys: pytest.CaptureFixture[str]) 
     assert capsys.readouterr().out == f"50 (16, 12) {place}\n"
 
 
+@pytest.mark.slow
 def test_the_bag(here: Path, rearing: Motion, capsys: pytest.CaptureFixture[str]) -> None:
     reason = "bags are written by mcap and read by rosbags: pip install levade[dev]"
     pytest.importorskip("mcap", reason=reason)

@@ -228,6 +228,7 @@ class _Torchlike(np.ndarray):
         return self if isinstance(kind, str) else self.astype(kind).view(_Torchlike)  # type: ignore[call-overload]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FORMATS)
 def test_the_same_motion_gives_the_same_bytes(rearing: Motion, tmp_path: Path, name: str) -> None:
     if name == "ros2":
@@ -324,6 +325,7 @@ def test_joints_that_are_held_are_named(arm_and_wheels: Motion, tmp_path: Path, 
     assert not set(played.joints) & set(HELD)
 
 
+@pytest.mark.slow
 def test_mjlabs_reference_has_a_column_for_every_joint_of_its_mjcf(arm_and_wheels: Motion, tmp_path: Path) -> None:
     export(arm_and_wheels, "mjlab", tmp_path)
     theirs = mujoco.MjModel.from_xml_path(str(Path(__file__).parents[1] / "robots/cases/armwheel/pup.xml"))

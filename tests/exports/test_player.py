@@ -314,6 +314,7 @@ class Careless(Simulated):
             values *= 0.9
 
 
+@pytest.mark.slow
 def test_robots_may_keep_using_their_own_arrays(rearing: Motion, tmp_path: Path) -> None:
     motion, states = played(rearing, tmp_path), []
     for kind in (Simulated, Careless):

@@ -92,6 +92,7 @@ def test_joint_states_and_trajectory_are_the_motion(rearing: Motion, exported: P
     np.testing.assert_allclose(instants[1:], rearing["time"], atol=1e-9)
 
 
+@pytest.mark.slow
 def test_transforms_lead_from_the_world_to_every_body(
     rearing: Motion, rearing_model: mujoco.MjModel, exported: Path
 ) -> None:
@@ -159,6 +160,7 @@ def test_the_trajectory_in_yaml(rearing: Motion, exported: Path, tmp_path: Path)
     assert all(len(point.effort) == 0 for point in trajectory.points)
 
 
+@pytest.mark.slow
 def test_a_command_of_several_lines_stays_a_comment(rearing: Motion, tmp_path: Path) -> None:
     export(rearing, "ros2", tmp_path, command="levade export 'a\nb.npz' --to ros2")
     text = (tmp_path / "joint_trajectory.yaml").read_text()

@@ -91,6 +91,7 @@ def touching(large: mujoco.MjModel) -> set[frozenset[str]]:
     return {frozenset(large.body(int(body)).name for body in pair) for pair in bodies if (pair > 0).all()}
 
 
+@pytest.mark.slow
 def test_links_never_touch_that_mujoco_lets_pass_through_each_other(tmp_path: Path, quadruped: type) -> None:
     text = (
         quadruped()

@@ -29,6 +29,7 @@ def top(time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return quaternion, precession + spin[2] * body
 
 
+@pytest.mark.slow
 @given(st.floats(1.0, 120.0), st.floats(10.0, 3000.0))
 def test_cubics_and_lines_keep_their_bounds_and_the_recorded_values(omega: float, rate: float) -> None:
     recorded, time = np.arange(41) * H, np.arange(int(0.4 * rate) + 1) / rate
@@ -74,6 +75,7 @@ def test_rotation_about_a_fixed_axis_is_exact_whatever_the_sign_of_the_quaternio
     np.testing.assert_allclose(np.abs(np.sum(found * np.array(exact), axis=1)), 1.0, atol=1e-14)
 
 
+@pytest.mark.slow
 @given(st.lists(st.floats(-1.8, 1.8), min_size=3, max_size=3))
 def test_exponential_and_log_are_those_of_mujoco(vector: list[float]) -> None:
     rotation = np.array(vector)
@@ -87,6 +89,7 @@ def test_exponential_and_log_are_those_of_mujoco(vector: list[float]) -> None:
     np.testing.assert_allclose(log(-exponential(rotation)), rotation, atol=1e-12)
 
 
+@pytest.mark.slow
 @given(st.integers(1, 60), st.floats(5.0, 2000.0))
 def test_the_mean_of_steps_keeps_every_impulse(steps: int, rate: float) -> None:
     values = np.random.default_rng(steps).normal(size=(steps, 2))

@@ -110,6 +110,7 @@ def replay(path: Path, folder: Path) -> dict[str, float]:
     return json.loads(done.stdout)
 
 
+@pytest.mark.slow
 def test_a_replay_without_levade_is_the_same_to_the_bit(motion: Motion, file: Path, tmp_path: Path) -> None:
     end = replay(file, tmp_path)
     assert end["steps"] == 175
@@ -118,6 +119,7 @@ def test_a_replay_without_levade_is_the_same_to_the_bit(motion: Motion, file: Pa
     np.testing.assert_allclose(end["recorded"], end["com"], atol=1e-9)
 
 
+@pytest.mark.slow
 def test_what_it_says_of_itself_is_of_a_fresh_simulation(objective: Objective, solution: Solution) -> None:
     """Whatever the search believed: nothing that it took for its own speed is passed on."""
     best = solution.best
@@ -205,6 +207,7 @@ def test_the_feet_push_the_robot_as_newton_says(motion: Motion) -> None:
     assert impulse[2] > 0.04 * weight
 
 
+@pytest.mark.slow
 def test_angular_velocity_is_in_trunk_axes() -> None:
     """As the rate of the rotation matrix, R' = R [w]x, of a robot that falls, turned by 2 rad about two axes."""
     fall = "start={fall: {roll: 1.2, pitch: 0.3, yaw: 2.0, height: 1.5, time: 0.25}}"
@@ -239,6 +242,7 @@ def test_the_same_seed_gives_the_same_bytes(objective: Objective, motion: Motion
     assert different["weights"].tobytes() != motion["weights"].tobytes()
 
 
+@pytest.mark.slow
 def test_the_resolved_task_in_the_file_gives_the_motion_again(motion: Motion, tmp_path: Path) -> None:
     from levade.tasks import task_from_dict
 
@@ -618,6 +622,7 @@ def test_arrays_of_other_floats_are_of_64_bits(file: Path) -> None:
     assert (motion["weights"].dtype, motion["ctrl"].flags.c_contiguous) == (np.dtype("<f8"), True)
 
 
+@pytest.mark.slow
 def test_a_damaged_file_is_refused_or_harmless(file: Path) -> None:
     """Cut off anywhere, or with any few bytes changed: one clear error, or a motion that reads as it was."""
     whole, random = file.read_bytes(), np.random.default_rng(0)

@@ -35,6 +35,7 @@ def test_references_at_half_the_step_are_the_policys_own(moving: Motion) -> None
     assert np.allclose(fine.position[0, :300, 1], expected, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_a_horizon_of_no_whole_number_of_steps_stays_as_long_as_the_file() -> None:
     """300.9 ms are 150 steps of 2 ms, and would be 301 of 1 ms."""
     changes = ["search.population=4", "search.trials=4", "search.step=0.1", "horizon=0.3009", "hold=0.0509"]
@@ -148,6 +149,7 @@ def test_the_cubics_velocity_is_their_derivative(moving: Motion) -> None:
     np.testing.assert_allclose(cubic.at(time)[1], (near[1] - near[0]) / 2e-7, rtol=0, atol=1e-6)
 
 
+@pytest.mark.slow
 def test_a_policy_is_itself_again_from_its_tables() -> None:
     for task in ("rearing", "self-righting"):
         chosen = load_task(task)
@@ -161,6 +163,7 @@ def test_a_policy_is_itself_again_from_its_tables() -> None:
         assert (policy.ends is not None) == (task == "self-righting")
 
 
+@pytest.mark.slow
 def test_the_page_names_policies_with_ends_after_their_joints() -> None:
     early = Motion.load(Path(__file__).parent / "data" / "side-recovery-1.npz")
     assert policy_names(early, 6) == [

@@ -68,6 +68,7 @@ def test_in_the_other_engine_it_is_much_the_same_at_first(
     assert replay.trajectories.horizon_steps == found.horizon_steps
 
 
+@pytest.mark.slow
 def test_settings_of_ode_may_be_given(motion: Callable[[str], Motion]) -> None:
     found = motion("ode")
     exact = replay_in("ode", found, ode=Ode(solver="exact")).trajectories

@@ -46,6 +46,7 @@ def trials_until_right(
     return most
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(3))
 def test_tight_tolerances_take_a_fraction_of_the_trials_of_cma_es(seed: int) -> None:
     generator = np.random.default_rng(seed)

@@ -89,6 +89,7 @@ def test_a_narrow_factor_searches_in_its_own_subspace() -> None:
     np.testing.assert_allclose(missed, 0, atol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("adaptation", ["csa", "tpa"])
 @pytest.mark.parametrize("condition", [1.0, 1e4])
 def test_it_finds_the_minimum_of_an_ellipsoid(adaptation: Literal["csa", "tpa"], condition: float) -> None:
@@ -162,6 +163,7 @@ def test_it_never_asks_for_what_is_not_finite(adaptation: Literal["csa", "tpa"],
         optimizer.tell(-x[:, 0] if kind == "falls without end" else np.zeros(6))
 
 
+@pytest.mark.slow
 def test_a_search_that_begins_again_has_the_step_of_its_stage() -> None:
     optimizer = CMAES(SearchSpace(np.zeros(3), step=0.1), seed=0)
     optimizer.scale_step(0.5)

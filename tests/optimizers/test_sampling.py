@@ -136,6 +136,7 @@ def test_flat_landscapes_do_not_stop_it(name: str) -> None:
     assert optimizer.step > 0
 
 
+@pytest.mark.slow
 @given(
     cost=st.lists(st.floats(0, 1e3), min_size=2, max_size=30),
     offset=st.floats(-100, 100),

@@ -20,6 +20,7 @@ kernel_configs = st.builds(
 )
 
 
+@pytest.mark.slow
 @given(kernel_configs, st.floats(0.01, 100.0), st.integers(1, 300))
 def test_kernels_sum_to_one_however_narrow_or_wide(kernels, horizon, rows):
     time = np.linspace(0.0, horizon, rows)
@@ -86,6 +87,7 @@ def test_wrong_kernels_are_named(config, message):
         GaussianKernels(**config)
 
 
+@pytest.mark.slow
 @given(st.integers(1, 64), st.floats(0.0, 1e6))
 def test_smoothness_is_a_correlation_and_positive_definite(kernels, length):
     correlation = smoothness(GaussianKernels(kernels), length)

@@ -67,6 +67,7 @@ def test_velocity_is_the_finite_difference_of_position(policy):
     assert (reference.position[:, rows:] == reference.position[:, rows - 1 : rows]).all()
 
 
+@pytest.mark.slow
 @given(
     st.lists(st.floats(-3, 3), min_size=12, max_size=12),
     st.sampled_from([GaussianKernels(), GaussianKernels(1), GaussianKernels(16, 1e-9), GaussianKernels(20, 1e3)]),

@@ -58,6 +58,7 @@ def test_png_has_the_width_of_a_column_or_of_two_at_300_dpi(solved: tuple[Motion
         assert height > 300
 
 
+@pytest.mark.slow
 def test_units_names_and_goals_are_in_the_trunk_figure(solved: tuple[Motion, Path]) -> None:
     figure = module._trunk({"": solved[0]})
     position, orientation = figure.axes

@@ -54,6 +54,7 @@ def test_it_is_a_picture_with_every_name(robot: Robot, tmp_path: Path, monkeypat
     assert [file.name for file in path.parent.iterdir()] == ["toy.png"]
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("gl")
 def test_a_name_points_at_what_it_names(robot: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
     """Against the renderer: pixels that change when one foot's colour does are around the place that `_Eye` computes."""
@@ -85,6 +86,7 @@ def test_two_legs_are_named_on_each_side(robot: Robot) -> None:
     assert {label.name[:2] for label in labels if label.left} == {"lh", "rh"}
 
 
+@pytest.mark.slow
 @given(st.lists(st.floats(-200.0, 1200.0), max_size=16))
 def test_names_never_touch_and_stay_in_the_picture(heights: list[float]) -> None:
     labels = [Label("", "", "", 0.0, y) for y in sorted(heights)]

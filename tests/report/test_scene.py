@@ -58,6 +58,7 @@ def kinematics(motion: Motion, model: Any, row: int, joints: str) -> Any:
     return data
 
 
+@pytest.mark.slow
 def test_every_pose_is_what_forward_kinematics_says(rearing: Motion, scene: dict[str, Any]) -> None:
     model, moving = rearing.compiled(), scene["motion"]
     rows = [round(time / rearing.meta["timestep"]) for time in unpack(moving["time"])]

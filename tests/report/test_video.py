@@ -62,6 +62,7 @@ def test_camera_takes_in_the_whole_motion_and_no_more(motion: Motion, camera: Ca
     assert max(across.max(), high.max()) == pytest.approx(1 / rendering._MARGIN)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("gl")
 def test_the_robot_is_in_the_picture_and_nothing_touches_its_edge(motion: Motion) -> None:
     poses = replay(motion)

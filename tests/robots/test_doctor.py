@@ -32,6 +32,7 @@ def examine(tmp_path: Path, quadruped: type):
     return load
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", ["urdf", "mjcf"])
 @pytest.mark.parametrize("options", [{}, {"knees": "back"}, {"joints": 2}])
 def test_a_sound_robot_has_no_warnings(examine, form: str, options: dict) -> None:
@@ -83,6 +84,7 @@ def test_it_finds_what_was_made_wrong(examine, form: str, changes: list[tuple[st
     assert any(message in line for line in said), said
 
 
+@pytest.mark.slow
 def test_a_frame_that_does_not_point_forward_is_suspected(examine) -> None:
     """Legs whose names and places contradict each other, and a robot that is wider than long."""
     backward = (("lf", -1, -1), ("rf", -1, 1), ("lh", 1, -1), ("rh", 1, 1))
@@ -99,6 +101,7 @@ def test_a_frame_that_does_not_point_forward_is_suspected(examine) -> None:
     assert falls.startswith("robot: does not stand in its neutral posture: ")
 
 
+@pytest.mark.slow
 def test_legs_that_overlap_are_warned_of(examine) -> None:
     old, new = HIGH
     said = examine("urdf", (old, new.format("0.1")))
@@ -106,6 +109,7 @@ def test_legs_that_overlap_are_warned_of(examine) -> None:
     assert examine("urdf", (old, new.format("0.02"))) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("what", "at"), [("damping", "kd"), ("stiffness", "kp")])
 def test_gains_are_called_unstable_where_the_simulation_is(tmp_path: Path, quadruped: type, what: str, at: str) -> None:
     """On both sides of the bound that the doctor names: explicit damping, and stiffness beside implicit damping, of small
@@ -144,6 +148,7 @@ def test_gains_are_called_unstable_where_the_simulation_is(tmp_path: Path, quadr
     assert growth[1] > 1e4
 
 
+@pytest.mark.slow
 def test_a_back_that_no_foot_gets_beyond_is_said(quadruped: type, tmp_path: Path) -> None:
     """Thigh as far up as it goes and shank upright, turned by the abduction so that its arm helps."""
     robot, path = quadruped(), tmp_path / "toy.xml"

@@ -28,6 +28,7 @@ def free_robot(*, gravity: bool, timestep: float = 1e-3) -> tuple[mujoco.MjModel
     return model, data
 
 
+@pytest.mark.slow
 def test_the_centre_of_mass_falls_as_galileo_says() -> None:
     model, data = free_robot(gravity=True)
     mujoco.mj_subtreeVel(model, data)
@@ -39,6 +40,7 @@ def test_the_centre_of_mass_falls_as_galileo_says() -> None:
     np.testing.assert_allclose(data.subtree_com[0], com + velocity * t - [0, 0, 9.81 * t**2 / 2], atol=1e-6)
 
 
+@pytest.mark.slow
 def test_energy_stays() -> None:
     model, data = free_robot(gravity=True)
     before, kinetic = data.energy.sum(), data.energy[1]
@@ -48,6 +50,7 @@ def test_energy_stays() -> None:
     assert abs(data.energy.sum() - before) < 1e-5 * kinetic
 
 
+@pytest.mark.slow
 def test_momentum_stays_without_gravity() -> None:
     model, data = free_robot(gravity=False)
     mujoco.mj_subtreeVel(model, data)
@@ -107,6 +110,7 @@ def test_left_and_right_accelerate_alike() -> None:
     assert mirror_error(symmetric_masses=True) < 1e-9
 
 
+@pytest.mark.slow
 def test_the_published_masses_break_the_symmetry_only_slightly() -> None:
     assert 1e-6 < mirror_error(symmetric_masses=False) < 0.05
 

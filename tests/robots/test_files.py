@@ -83,6 +83,7 @@ def test_a_model_is_told_by_its_root_element(tmp_path: Path, quadruped: type, fo
     assert len(load_robot(tmp_path / name).joint_names) == 12
 
 
+@pytest.mark.slow
 def test_an_mjcf_of_another_name_keeps_its_includes_and_meshes(tmp_path: Path, quadruped: type) -> None:
     """Also where a part that it includes has another encoding."""
     shell = tetrahedron(tmp_path / "parts" / "shell.stl", 0.1)
@@ -154,6 +155,7 @@ def test_a_skin_stops_nothing(tmp_path: Path, quadruped: type) -> None:
     assert load_robot(tmp_path / "toy.xml").model.nskin == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["bare", "package"])
 def test_a_urdf_may_say_where_mujoco_finds_its_meshes(name: str) -> None:
     robot = load_robot(CASES / "urdf-meshdir" / "urdf" / f"{name}.urdf")
@@ -165,11 +167,13 @@ def test_a_urdf_may_say_where_mujoco_finds_its_meshes(name: str) -> None:
     assert sum(bool(robot.model.geom_contype[g]) for g in geoms) == 4
 
 
+@pytest.mark.slow
 def test_a_mesh_that_is_nowhere_is_missing() -> None:
     robot = load_robot(CASES / "urdf-meshdir" / "urdf" / "deep.urdf")
     assert "collides as primitives only: thigh.stl is missing" in findings(robot, "warning")[0]
 
 
+@pytest.mark.slow
 def test_an_attached_model_keeps_its_folder_of_meshes(tmp_path: Path) -> None:
     """Two parts of one name in two folders; also where the model lies in a folder of its own."""
     shutil.copytree(CASES / "mjcf" / "att", tmp_path / "same")

@@ -56,6 +56,7 @@ def test_several_joints_of_one_body_are_held_together(tmp_path: Path, quadruped:
     assert robot.held == {"pan": 0.7, "lift": 0.05, "tilt": -0.4, "gaze": 0.0}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("held", ["pan", "lift", "tilt"])
 def test_joints_of_a_body_are_held_one_after_the_other(tmp_path: Path, quadruped: type, held: str) -> None:
     """First one that the description names, then the others, which are in no leg: the order does not matter."""
@@ -86,6 +87,7 @@ def test_a_head_on_two_hinges_is_held() -> None:
     assert robot.mass == pytest.approx(12.9)
 
 
+@pytest.mark.slow
 def test_a_spine_is_held_and_the_legs_beyond_it_count() -> None:
     robot = load_robot(CASES / "spine" / "pup.xml")
     assert [leg.joints[0] for leg in robot.legs] == ["FL_hip", "FR_hip", "RL_hip", "RR_hip"]
@@ -93,6 +95,7 @@ def test_a_spine_is_held_and_the_legs_beyond_it_count() -> None:
     assert any(str(finding).startswith("spine: in no leg: held fixed") for finding in robot.findings)
 
 
+@pytest.mark.slow
 def test_an_arm_and_wheels_are_held_where_the_description_says() -> None:
     robot = load_robot(CASES / "armwheel" / "robot.yaml")
     wheels = dict.fromkeys(("RR_wheelj", "FL_wheelj", "RL_wheelj", "FR_wheelj"), 0.0)

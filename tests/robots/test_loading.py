@@ -111,6 +111,7 @@ def test_to_xml_keeps_names_materials_and_masses() -> None:
     assert twice.nu == model.nu == 24
 
 
+@pytest.mark.slow
 def test_linkage_lowers_the_knees_limits_and_nothing_else() -> None:
     plain, linked = load_robot("hyq2max"), load_robot("hyq2max", linkage=True)
     assert not plain.limits.torque_curves

@@ -48,6 +48,7 @@ def constraint(text: str, kind: str, **names: str) -> str:
     return text.replace("</mujoco>", f"<equality>{rows}</equality></mujoco>")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("description", ["pup.xml", "held.yaml"])
 def test_a_loose_rod_pulls_on_no_leg(description: str) -> None:
     """Neither where levade holds it, nor where the description does."""
@@ -84,6 +85,7 @@ def test_a_loop_through_legs_alone_is_refused(tmp_path: Path, quadruped: type) -
         load(tmp_path, quadruped().mjcf().replace("</mujoco>", bar))
 
 
+@pytest.mark.slow
 def test_a_loop_of_what_is_held_and_one_that_is_off_cost_nothing(tmp_path: Path, quadruped: type) -> None:
     text = with_parts(quadruped().mjcf(), ROD)
     off = text.replace(
@@ -106,6 +108,7 @@ def test_loops_by_sites_are_loops(tmp_path: Path, quadruped: type) -> None:
     assert warnings(robot)[0].startswith("<connect> between lf_rod and lf_shank, ")
 
 
+@pytest.mark.slow
 def test_a_rotor_that_a_joint_turns_follows_it(tmp_path: Path, quadruped: type) -> None:
     """Whichever of the two the file names first: the one that carries nothing is the follower."""
     text = with_parts(quadruped().mjcf(), ROTOR)
@@ -137,6 +140,7 @@ def test_a_tendon_of_fixed_length_over_a_leg_is_refused(tmp_path: Path, quadrupe
         load(tmp_path, quadruped().mjcf().replace("</mujoco>", belt))
 
 
+@pytest.mark.slow
 def test_an_ankle_that_mimics_the_knee_is_held_where_its_relation_puts_it() -> None:
     robot = load_robot(CASES / "mimic-ankle" / "pup.urdf")
     knees = robot.postures["neutral"][2::3]
@@ -194,6 +198,7 @@ def test_relations_that_say_nothing_are_refused(tmp_path: Path, mimic: str, mess
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.slow
 def test_a_leader_that_is_not_there_leaves_its_follower_fixed(tmp_path: Path) -> None:
     text = (CASES / "mimic-ankle" / "pup.urdf").read_text().replace('<mimic joint="FL_knee"', '<mimic joint="FL_kneee"')
     (tmp_path / "pup.urdf").write_text(text)

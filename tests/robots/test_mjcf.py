@@ -48,6 +48,7 @@ def findings(robot: Robot, kind: str) -> list[str]:
     return [finding for finding in of_kind if "no speed limit; " not in finding]
 
 
+@pytest.mark.slow
 def test_a_pd_step_is_that_of_the_models_own_servos(tmp_path: Path, quadruped: type) -> None:
     """From one state, with one target, MuJoCo's ``position`` actuators and levade's give the same, saturated or not."""
     text = quadruped().mjcf().replace(FLOOR, "")
@@ -203,6 +204,7 @@ def test_nameless_parts_get_names_that_are_free(tmp_path: Path, quadruped: type)
     assert robot.legs[0].foot.startswith("lf_shank")
 
 
+@pytest.mark.slow
 def test_meshes_travel_with_the_robot(tmp_path: Path, quadruped: type) -> None:
     triangles = 0.1 * np.array([[[0, 0, 0], [0, 1, 0], [1, 0, 0]], [[0, 0, 0], [1, 0, 0], [0, 0, 1]],
                                 [[1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 0, 0], [0, 0, 1], [0, 1, 0]]])  # fmt: skip

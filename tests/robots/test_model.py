@@ -243,6 +243,7 @@ def test_looks_weigh_nothing_and_touch_nothing(robot: Robot) -> None:
     assert np.all(model.geom_group[~looks] == 3)
 
 
+@pytest.mark.slow
 def test_raw_inertia_variant_has_the_tensors_as_published() -> None:
     raw = load_robot("hyq2max", variant="raw-inertia")
     assert raw.mass == pytest.approx(80.51, abs=1e-9)

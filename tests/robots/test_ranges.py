@@ -32,6 +32,7 @@ def in_degrees(text: str) -> str:
     return re.sub(rf"(lower=){number}", turn, text)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", ["urdf", "mjcf"])
 def test_ranges_in_degrees_are_taken_for_degrees(tmp_path: Path, quadruped: type, form: str) -> None:
     text = getattr(quadruped(), form)()
@@ -95,6 +96,7 @@ def test_a_range_that_is_no_number_is_refused(tmp_path: Path, quadruped: type) -
         load_robot(tmp_path / "toy.xml")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("speed", ["1000", "1e12", "101", "1e300", "inf"])
 def test_speeds_that_no_joint_has_are_none(tmp_path: Path, quadruped: type, speed: str) -> None:
     (tmp_path / "toy.urdf").write_text(quadruped().urdf().replace('velocity="15.0"', f'velocity="{speed}"'))
@@ -108,6 +110,7 @@ def test_speeds_that_no_joint_has_are_none(tmp_path: Path, quadruped: type, spee
     robot.spec().compile()
 
 
+@pytest.mark.slow
 def test_the_example_of_a_huge_speed() -> None:
     robot = load_robot(CASES / "velocity-huge" / "v1e12.urdf")
     assert warnings(robot)[0].startswith("all joints: speed limits of up to 1e+12 rad/s are not believed; 19.8")

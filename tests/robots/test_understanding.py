@@ -197,6 +197,7 @@ def test_derived_gains_are_those_of_the_formula(build, quadruped: type) -> None:
     np.testing.assert_allclose(robot.actuation.kd, 2 * 0.7 * math.sqrt(kp * max(abduction, flexion)), rtol=1e-5)
 
 
+@pytest.mark.slow
 def test_bodies_that_overlap_at_rest_pass_through_each_other(build) -> None:
     wide = ('<box size="0.4 0.08 0.1"/>', '<box size="0.5 0.3 0.3"/>')
     tall = ("<collision><geometry><sphere", '<collision><origin xyz="0 0 0.2"/><geometry><cylinder radius="0.02" length="0.1"/>'
@@ -215,6 +216,7 @@ def test_bodies_that_overlap_at_rest_pass_through_each_other(build) -> None:
     assert data.ncon == 0
 
 
+@pytest.mark.slow
 def test_feet_are_the_tips_whatever_their_shape(build) -> None:
     box = build("urdf", ('<sphere radius="0.02"/>', '<box size="0.02 0.02 0.04"/>'))
     assert box.model.geom(box.legs[0].foot).type[0] == mujoco.mjtGeom.mjGEOM_BOX
@@ -224,6 +226,7 @@ def test_feet_are_the_tips_whatever_their_shape(build) -> None:
     assert robot.model.geom(robot.legs[0].foot).type[0] == mujoco.mjtGeom.mjGEOM_SPHERE
 
 
+@pytest.mark.slow
 def test_a_yaml_beside_the_model_overrides_what_was_found(build, tmp_path: Path) -> None:
     build("urdf")
     (tmp_path / "robot.yaml").write_text(
@@ -248,6 +251,7 @@ def test_a_yaml_beside_the_model_overrides_what_was_found(build, tmp_path: Path)
     assert load_robot(tmp_path / "toy.urdf").name == "toy"
 
 
+@pytest.mark.slow
 def test_a_yaml_with_only_the_model_is_the_model(build, tmp_path: Path) -> None:
     plain = build("urdf")
     (tmp_path / "robot.yaml").write_text("model: toy.urdf\n")
@@ -257,6 +261,7 @@ def test_a_yaml_with_only_the_model_is_the_model(build, tmp_path: Path) -> None:
     assert described.findings == plain.findings
 
 
+@pytest.mark.slow
 def test_a_yaml_can_name_four_legs_of_six_and_fix_the_others(build, tmp_path: Path, quadruped: type) -> None:
     (tmp_path / "toy.urdf").write_text(quadruped(legs=FRONT + MIDDLE + HIND).urdf())
     ends = {"lf": ("left", "front"), "rf": ("right", "front"), "lh": ("left", "hind"), "rh": ("right", "hind")}
@@ -283,6 +288,7 @@ def test_a_yaml_can_fix_the_fourth_joint_of_a_leg(tmp_path: Path, quadruped: typ
         load_robot(tmp_path)
 
 
+@pytest.mark.slow
 def test_the_same_robot_in_both_forms_is_the_same(build, quadruped: type) -> None:
     """But for the feet's mass, which the MJCF leaves out."""
     urdf = build("urdf", ('<mass value="0.05"/>', '<mass value="1e-5"/>'))
@@ -293,6 +299,7 @@ def test_the_same_robot_in_both_forms_is_the_same(build, quadruped: type) -> Non
         assert leg.joints == other.joints
 
 
+@pytest.mark.slow
 def test_a_torque_limit_of_the_description_is_what_a_joint_gets(quadruped: type, tmp_path: Path) -> None:
     """The file's own limit, which MuJoCo keeps at the joint, would cut it off again."""
     path = tmp_path / "toy.urdf"

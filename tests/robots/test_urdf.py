@@ -157,6 +157,7 @@ def test_a_foot_whose_shape_is_missing_is_an_error(file: Path, quadruped: type) 
         load(file, quadruped().urdf(), ('<sphere radius="0.02"/>', MESH.format("gone.stl")))
 
 
+@pytest.mark.slow
 def test_a_mesh_that_is_no_mesh_is_said(file: Path, tmp_path: Path, quadruped: type) -> None:
     (tmp_path / "toy_description" / "urdf" / "part.dae").write_text("<collada/>")
     pytest.importorskip("trimesh", reason="reads .dae: pip install levade[meshes]")
@@ -164,6 +165,7 @@ def test_a_mesh_that_is_no_mesh_is_said(file: Path, tmp_path: Path, quadruped: t
     assert "part.dae: not a mesh that can be read" in findings(robot, "warning")[0]
 
 
+@pytest.mark.slow
 def test_a_collada_mesh_without_the_extra_says_what_to_install(
     file: Path, tmp_path: Path, quadruped: type, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -173,6 +175,7 @@ def test_a_collada_mesh_without_the_extra_says_what_to_install(
     assert "part.dae: MuJoCo does not read .dae; install levade[meshes]" in findings(robot, "warning")[0]
 
 
+@pytest.mark.slow
 def test_flat_meshes_and_repeated_names_are_taken(
     file: Path, tmp_path: Path, quadruped: type, capfd: pytest.CaptureFixture[str]
 ) -> None:
@@ -205,6 +208,7 @@ def test_inertias_that_no_body_has_become_those_of_a_sphere(
     assert robot.mass == pytest.approx(quadruped().mass)
 
 
+@pytest.mark.slow
 def test_joints_without_a_range_turn_without_end(file: Path, quadruped: type) -> None:
     text = re.sub(r'lower="\S+" upper="\S+"', "", quadruped().urdf())
     robot = load(file, text)
@@ -238,6 +242,7 @@ def test_what_cannot_be_simulated_is_refused(file: Path, quadruped: type, old: s
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.slow
 def test_joints_without_effort_get_an_assumed_torque(file: Path, quadruped: type) -> None:
     """Enough for two legs to bear the robot: m g l / 2, and warned of; likewise where the number says "no limit"."""
     assumed = quadruped().mass * 9.81 * 0.2
@@ -263,6 +268,7 @@ def test_joints_that_mimic_others_and_a_world_link_are_no_trouble(file: Path, qu
     assert any("joint wag: follows other joints (wag = 1 lf_haa)" in said for said in findings(robot, "warning"))
 
 
+@pytest.mark.slow
 def test_light_links_get_armature_for_stable_servos(file: Path, quadruped: type) -> None:
     """Saturated servos damp explicitly: kd dt must stay below the inertia that the joint moves."""
     text = quadruped().urdf().replace("0.002", "0.00002").replace('<mass value="0.2"/>', '<mass value="0.02"/>')
@@ -283,6 +289,7 @@ CAMERA = (
 )
 
 
+@pytest.mark.slow
 def test_a_world_with_a_camera_is_no_robot(file: Path, quadruped: type) -> None:
     robot = load_robot(CASES / "world" / "world-camera.urdf")
     assert (robot.trunk, robot.mass) == ("base", pytest.approx(12.4))

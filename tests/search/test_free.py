@@ -39,6 +39,7 @@ def decisions(free: Objective) -> np.ndarray:
     return space.mean + 3 * space.step * random.standard_normal((7, space.factor.shape[1])) @ space.factor.T
 
 
+@pytest.mark.slow
 def test_a_trial_achieves_what_it_does_in_a_task_of_its_horizon(free: Objective, decisions: np.ndarray) -> None:
     assert isinstance(free.policy, FreePolicy)
     found = free.evaluate(decisions)
@@ -97,6 +98,7 @@ def test_a_trial_that_breaks_down_takes_nobody_with_it(free: Objective, decision
     np.testing.assert_array_equal(found.terms["effort"][kept], before.terms["effort"][kept])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("changes", [[RANGE], GOAL, [RANGE, *GOAL]], ids=["duration", "posture", "both"])
 def test_the_motion_that_is_kept_has_its_own(changes: list[str], tmp_path: Path) -> None:
     objective = make_objective(load_task("rearing", changes=[*SMALL, *changes]), threads=1)
@@ -124,6 +126,7 @@ def test_the_motion_that_is_kept_has_its_own(changes: list[str], tmp_path: Path)
         np.testing.assert_array_equal(near[0, :-1], motion["weights"])
 
 
+@pytest.mark.slow
 def test_a_search_resumes_to_the_same_motion(tmp_path: Path) -> None:
     objective = make_objective(load_task("rearing", changes=[*SMALL, RANGE, *GOAL]), threads=1)
     whole = run(objective, seed=1, directory=tmp_path / "whole").motion

@@ -127,6 +127,7 @@ def test_each_has_the_same_bits_as_alone_and_batches_are_shared(
     assert together[3].trials == 12 < min(together[i].trials for i in range(3))
 
 
+@pytest.mark.slow
 def test_one_that_an_observer_ends_leaves_the_others_as_they_are(objectives: list[Objective]) -> None:
     three = objectives[:3]
     stopped = solve_many(
@@ -198,6 +199,7 @@ def test_none_at_all_is_none_found() -> None:
     assert solve_many([]) == []
 
 
+@pytest.mark.slow
 def test_ctrl_c_in_an_observer_ends_all_with_the_best_so_far(simulation: Simulation) -> None:
     objectives = [Objective(simulation, task) for task in (tasks()["nominal"], tasks()["short"])]
 

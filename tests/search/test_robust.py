@@ -114,6 +114,7 @@ def test_a_generation_takes_as_many_trials_as_racing_leaves(fixed: list[Generati
     assert more[1:] == [0] * (len(more) - 1)
 
 
+@pytest.mark.slow
 def test_a_candidates_cost_is_the_measure_of_its_whole_rollouts(fixed: list[Generation]) -> None:
     made = objective()
     weights = {name: cost.weight for name, cost in made.task.costs.items()}
@@ -130,6 +131,7 @@ def test_a_candidates_cost_is_the_measure_of_its_whole_rollouts(fixed: list[Gene
     assert generation.cost[~samples.complete].min() >= generation.cost[samples.complete].max()
 
 
+@pytest.mark.slow
 def test_samples_are_rollouts_of_the_perturbed_models_themselves(answered: Answered) -> None:
     made = objective()
     starts, models = made._models(2, 0)
@@ -232,6 +234,7 @@ def test_models_are_redrawn_when_asked_and_never_those_of_a_check() -> None:
         assert not np.isclose(kept.delay[:, None], checked.delay).any()
 
 
+@pytest.mark.slow
 def test_the_best_of_a_generation_is_compared_on_a_sample_of_its_own_size() -> None:
     made = objective(VALIDATED)
     assert [len(made._models(0, draw)[1]) for draw in (0, 1, 2)] == [5, 2, 2]
@@ -352,6 +355,7 @@ def test_where_the_best_start_leads_nowhere_as_many_are_looked_for_again() -> No
     assert solution.best.share == max(share for share in shares if share is not None)
 
 
+@pytest.mark.slow
 def test_a_motion_to_start_from_that_holds_on_all_is_a_success() -> None:
     seen = generations(objective(STARTS, "search.polish=0"))
     assert len(seen) == 2
@@ -359,6 +363,7 @@ def test_a_motion_to_start_from_that_holds_on_all_is_a_success() -> None:
     assert seen[-1].trials_to_success == seen[-1].trials == 12 + 21
 
 
+@pytest.mark.slow
 def test_an_interrupted_search_keeps_the_start_that_holds_best(answered: Answered) -> None:
     made, at = objective(STARTS, *BARELY), []
 
@@ -374,6 +379,7 @@ def test_an_interrupted_search_keeps_the_start_that_holds_best(answered: Answere
     assert kept.share[0] == max(starts)
 
 
+@pytest.mark.slow
 def test_few_samples_cover_every_range_evenly() -> None:
     sample = Perturbation(friction=(0.0 + 0.1, 1.1)).spread(objective().engine.model, 12, n=10, seed=1)
     assert sorted(np.floor((sample.values["friction"][:, 0] - 0.1) * 10).tolist()) == list(range(10))
@@ -381,6 +387,7 @@ def test_few_samples_cover_every_range_evenly() -> None:
         assert len(np.unique(values[:, 0])) == 10 if values.shape[1] else True
 
 
+@pytest.mark.slow
 def test_success_takes_the_nominal_model_and_enough_of_the_others(answered: Answered) -> None:
     made = objective(REDRAWN)
     evaluation = answered(Judge(made.task, 0).evaluate(made.space.mean[None], full_level(made.task)), made)
@@ -477,6 +484,7 @@ def test_weights_that_hardly_change_leave_the_best_what_it_cost_on_all_models(ro
         assert other.best.share == one.best.share
 
 
+@pytest.mark.slow
 def test_a_success_that_only_the_end_brings_to_light_is_one_after_all_trials() -> None:
     """The nominal stage never ends: its best is tried on the models when the budget is spent."""
     never = "stages=[{name: nominal, robust: false, hold: false, promote: {pitch: 0}}, {name: robust}]"
@@ -485,6 +493,7 @@ def test_a_success_that_only_the_end_brings_to_light_is_one_after_all_trials() -
     assert solution.trials_to_success == solution.trials <= BUDGET[REDRAWN]
 
 
+@pytest.mark.slow
 def test_a_check_of_the_models_of_a_search_finds_what_the_search_did(answered: Answered) -> None:
     """Latency included: until the first reference comes, the joints have what they were told before."""
     made = objective(FIXED, "success={height: {target: 0.57, tolerance: 0.5 cm}}")

@@ -100,11 +100,13 @@ def test_what_a_run_leaves(whole: Outcome, objective: Objective) -> None:
         assert low <= middle <= high
 
 
+@pytest.mark.slow
 def test_the_task_that_is_left_gives_the_run_again(whole: Outcome, tmp_path: Path, assert_same_end: SameEnd) -> None:
     run(load_task(whole.directory / TASK), seed=3, threads=2, directory=tmp_path / "again")
     assert_same_end(tmp_path / "again", whole)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("generations", [1, 4, 9, 10])
 def test_an_interrupted_run_goes_on_to_the_same_end(
     objective: Objective, whole: Outcome, tmp_path: Path, generations: int, assert_same_end: SameEnd
@@ -117,6 +119,7 @@ def test_an_interrupted_run_goes_on_to_the_same_end(
     assert_same_end(tmp_path, whole)
 
 
+@pytest.mark.slow
 def test_an_observer_ends_a_run_as_ctrl_c_does(
     objective: Objective, whole: Outcome, tmp_path: Path, assert_same_end: SameEnd
 ) -> None:
@@ -133,6 +136,7 @@ def test_an_observer_ends_a_run_as_ctrl_c_does(
     assert_same_end(tmp_path / "asked", whole)
 
 
+@pytest.mark.slow
 def test_ctrl_c_in_a_simulation_loses_that_generation_alone(
     objective: Objective, whole: Outcome, tmp_path: Path, assert_same_end: SameEnd
 ) -> None:
@@ -319,6 +323,7 @@ def test_a_task_that_was_changed_in_between_is_refused(objective: Objective, tmp
         resume(tmp_path)
 
 
+@pytest.mark.slow
 def test_records_of_another_seed_are_refused(objective: Objective, tmp_path: Path) -> None:
     run(objective, seed=3, directory=tmp_path, observe=stop_after(3))
     checkpoint = read_run(tmp_path)[1]
@@ -373,6 +378,7 @@ def test_files_of_ones_own_are_not_replaced_unasked(tmp_path: Path, name: str) -
         check_replaceable(tmp_path)
 
 
+@pytest.mark.slow
 def test_a_run_replaces_a_run(objective: Objective, whole: Outcome, tmp_path: Path, assert_same_end: SameEnd) -> None:
     run(objective, seed=9, directory=tmp_path, observe=stop_after(3))
     run(objective, seed=3, directory=tmp_path)
@@ -444,6 +450,7 @@ class FullDisk:
             file.write(text)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("room", [0, 500, 3000])
 def test_a_disk_that_is_full_at_the_start(
     objective: Objective, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, room: int
@@ -492,6 +499,7 @@ def test_a_disk_that_fills_up_on_the_way(
     assert_same_end(tmp_path, whole)
 
 
+@pytest.mark.slow
 def test_a_motion_that_does_not_fit_at_the_end(
     objective: Objective, whole: Outcome, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, assert_same_end: SameEnd
 ) -> None:
@@ -515,6 +523,7 @@ def test_a_progress_file_that_cannot_be_written(objective: Objective, tmp_path: 
         run(objective, directory=tmp_path)
 
 
+@pytest.mark.slow
 def test_the_best_so_far_is_written_on_the_way(
     objective: Objective, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

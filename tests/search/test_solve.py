@@ -143,6 +143,7 @@ def by_hand(objective: Objective, weights: np.ndarray) -> tuple[float, dict[str,
     return cost, terms, {"pitch": pitch + 1.0472, "height": height - 0.9}
 
 
+@pytest.mark.slow
 def test_the_objective_is_the_papers_formula() -> None:
     objective = rearing()
     random = np.random.default_rng(4)
@@ -170,6 +171,7 @@ def test_the_first_mean_is_to_keep_standing() -> None:
     assert np.abs(out.joint_velocity).max() < 0.05
 
 
+@pytest.mark.slow
 def test_interpolation_leads_to_the_goal_posture() -> None:
     plain = ["policy.variance=0.01", "policy.time=normalised", "policy.kernels=16", "policy.goal=neutral"]
     objective = make_objective(load_task("posture-recovery", changes=plain), threads=1)
@@ -207,6 +209,7 @@ def test_trials_that_break_down_cost_most_and_are_counted() -> None:
     assert (solution.success, solution.trials) == (False, 40)
 
 
+@pytest.mark.slow
 def test_the_budget_is_kept_and_the_best_only_gets_better() -> None:
     """A tolerance that no trial meets: as many whole generations as fit, and not one more."""
     base = rearing()
@@ -276,6 +279,7 @@ def test_success_beats_a_lower_cost(monkeypatch: pytest.MonkeyPatch) -> None:
         assert (outcome.trials, outcome.stopped, outcome.trials_to_success) == (spent, "success", 16)
 
 
+@pytest.mark.slow
 def test_stages_end_by_their_budget_or_their_criteria(staged: Objective) -> None:
     solution, generations = collect(staged)
     names = [g.stage_name for g in generations]
@@ -299,6 +303,7 @@ def test_stages_end_by_their_budget_or_their_criteria(staged: Objective) -> None
     assert np.isfinite([*solution.best.terms.values(), *solution.best.errors.values()]).all()
 
 
+@pytest.mark.slow
 def test_the_best_never_gets_worse_within_a_stage(staged: Objective) -> None:
     _, generations = collect(staged, seed=5)
     for stage in range(3):
@@ -306,6 +311,7 @@ def test_the_best_never_gets_worse_within_a_stage(staged: Objective) -> None:
         assert ranks == sorted(ranks, reverse=True)
 
 
+@pytest.mark.slow
 def test_costs_of_a_stage_are_by_its_own_weights(staged: Objective) -> None:
     _, generations = collect(staged)
     full = {"orientation": 1000.0, "position": 100.0, "effort": 0.1, "after": 50.0}
@@ -316,6 +322,7 @@ def test_costs_of_a_stage_are_by_its_own_weights(staged: Objective) -> None:
         np.testing.assert_allclose(g.cost, expected, rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_a_step_factor_multiplies_the_step_at_the_start_of_its_stage(monkeypatch: pytest.MonkeyPatch) -> None:
     from levade.optimizers import CMAES
 
@@ -337,6 +344,7 @@ def test_a_step_factor_multiplies_the_step_at_the_start_of_its_stage(monkeypatch
     assert scaled == [(generations[1].step, 0.25 * generations[1].step)]
 
 
+@pytest.mark.slow
 def test_without_success_a_search_starts_anew_from_its_first_stage(staged: Objective) -> None:
     never = {"pitch": dataclasses.replace(staged.task.success["pitch"], tolerance=0.0)}
     stages = tuple(dataclasses.replace(stage, promote={}) for stage in staged.task.stages)
@@ -371,6 +379,7 @@ def test_only_a_whole_hold_counts_as_success(staged: Objective) -> None:
         np.testing.assert_array_equal(answered(judging, objective).success, whole.success)
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_for_any_number_of_threads(staged: Objective) -> None:
     two = make_objective(staged.task, threads=2)
     one, first = collect(staged, seed=2)
@@ -429,6 +438,7 @@ def test_an_interruption_before_the_first_generation_leaves_the_first_mean(stage
     np.testing.assert_array_equal(solution.best.weights, staged.space.mean)
 
 
+@pytest.mark.slow
 def test_an_interruption_while_the_best_is_simulated_again_keeps_it(staged: Objective) -> None:
     """The change of stage after generation 3 simulates the best trial through its hold."""
     _, generations = collect(staged)
@@ -449,6 +459,7 @@ def test_an_interruption_while_the_best_is_simulated_again_keeps_it(staged: Obje
     np.testing.assert_array_equal(solution.best.weights, generations[2].best.weights)
 
 
+@pytest.mark.slow
 def test_records_of_another_search_are_refused(staged: Objective) -> None:
     records = recorded(staged, seed=1)[2][3]
     with pytest.raises(LevadeError, match="record 1 is of another search: the task, the seed or"):

@@ -75,6 +75,7 @@ def assert_same(one: Solution, other: Solution) -> None:
             assert getattr(one, field.name) == getattr(other, field.name), field.name
 
 
+@pytest.mark.slow
 def test_a_hand_that_is_not_moved_changes_no_bit(objective: Objective) -> None:
     """Asked before every generation, also when the answer is that everything stays as it is."""
     plain = solve(objective, seed=1)
@@ -86,6 +87,7 @@ def test_a_hand_that_is_not_moved_changes_no_bit(objective: Objective) -> None:
     assert ones.best.cost == plain.best.cost
 
 
+@pytest.mark.slow
 def test_the_optimizer_is_told_what_the_changed_weights_give(objective: Objective, task: Task) -> None:
     """By hand: the stage's own weight or the task's, times the latest factor."""
     generations: list[Generation] = []
@@ -103,12 +105,14 @@ def test_the_optimizer_is_told_what_the_changed_weights_give(objective: Objectiv
     assert {g.stage for g in generations} == {0, 1, 2}
 
 
+@pytest.mark.slow
 def test_changed_weights_change_the_motion(objective: Objective, steered: Outcome) -> None:
     plain = solve(objective, seed=1)
     assert not np.array_equal(plain.best.weights, steered.solution.best.weights)
     assert steered.solution.changes == tuple(Change(number, factors) for number, factors in SLIDERS.items())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("threads", [1, 2])
 def test_the_task_that_is_left_gives_the_steered_run_again(
     steered: Outcome, tmp_path: Path, threads: int, assert_same_files: SameFiles

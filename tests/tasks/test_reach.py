@@ -51,6 +51,7 @@ def test_a_height_above_the_stretched_leg_and_the_trunk_is_refused(task: Task, c
         make_objective(asking(task, criterion))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "criterion",
     [
@@ -69,11 +70,13 @@ IDLE = {"z": Cost(Position(z=HIGHEST + 0.1), 0.0), "low": Cost(Position(z=0.3), 
 """A cost that asks for a height out of reach, with a weight and without."""
 
 
+@pytest.mark.slow
 def test_a_cost_that_pulls_out_of_reach_is_refused(task: Task) -> None:
     with pytest.raises(LevadeError, match=r"^costs\.z\.z: asks for 0\.79 m, but"):
         make_objective(replace(task, costs=HIGH))
 
 
+@pytest.mark.slow
 def test_a_cost_without_weight_pulls_only_in_a_stage_that_gives_it_one(task: Task) -> None:
     make_objective(replace(task, costs=IDLE))  # does not raise
     with pytest.raises(LevadeError, match=r"^costs\.z\.z: "):
@@ -84,6 +87,7 @@ def test_a_cost_may_pull_out_of_reach_where_the_task_is_a_jump(task: Task) -> No
     make_objective(asking(task, Criterion("height", minimum=1.0, at="max"), costs=HIGH))  # does not raise
 
 
+@pytest.mark.slow
 def test_the_height_of_the_scene_adds_to_the_reach(task: Task) -> None:
     """A step of 0.3 m raises what can be reached; a slope has no highest place."""
     high = asking(task, Criterion("height", minimum=HIGHEST + 0.25))

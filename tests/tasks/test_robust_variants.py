@@ -23,6 +23,7 @@ def test_every_variant_is_there() -> None:
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", VARIANTS)
 def test_a_variant_has_the_robot_scene_start_and_five_times_the_budget_of_its_nominal_task(name: str) -> None:
     variant, nominal = load_task(name), load_task(name.removesuffix("-robust"))
@@ -37,6 +38,7 @@ def test_a_variant_has_the_robot_scene_start_and_five_times_the_budget_of_its_no
     assert [stage.robust for stage in variant.stages] == [False, True]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(set(VARIANTS) - OWN_CRITERIA))
 def test_a_variant_asks_for_the_same_motion(name: str) -> None:
     variant, nominal = load_task(name), load_task(name.removesuffix("-robust"))
@@ -79,6 +81,7 @@ def test_within_the_limits_is_the_robust_rearing_with_margins() -> None:
     assert variant.robust.perturb == Perturbation()
 
 
+@pytest.mark.slow
 def test_self_righting_within_the_limits_is_the_robust_one_that_keeps_them() -> None:
     variant, robust = load_task("self-righting-within-limits"), load_task("self-righting-robust")
     for key in ("robot", "scene", "physics", "start", "hold", "policy"):

@@ -42,6 +42,7 @@ search: {trials: 3000, population: null}
 """)
 
 
+@pytest.mark.slow
 def test_it_is_a_schema() -> None:
     jsonschema.Draft202012Validator.check_schema(task_schema())
     json.dumps(task_schema())

@@ -61,6 +61,7 @@ def papers_population(name: str) -> int:
     return make_attempt(objective.task, objective.space, seed=0).population
 
 
+@pytest.mark.slow
 def test_rearing_has_the_papers_numbers() -> None:
     """Section IV.A: pitch -60 degrees, height 90 cm, Q = (1000, 100, 0.1, 1), 6 x 16 weights, sigma^2 = 0.01, 3009."""
     task = load_task("rearing")
@@ -86,6 +87,7 @@ def test_rearing_has_the_papers_numbers() -> None:
     assert papers_population("rearing") == 17
 
 
+@pytest.mark.slow
 def test_recovery_has_the_papers_numbers() -> None:
     """Section IV.B: level at 61 cm, Q = (1000, 1000, 0.1, 1), 12 x 16 weights, 2 s of holding the final posture."""
     task = load_task("posture-recovery")
@@ -408,6 +410,7 @@ def test_tasks_that_are_not_there(name: str, message: str) -> None:
     assert str(caught.value).startswith(message), str(caught.value)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
@@ -524,6 +527,7 @@ def test_units_of_the_robot_that_do_not_fit(changes: dict[str, object], message:
     assert message in str(caught.value)
 
 
+@pytest.mark.slow
 def test_a_terrain_from_a_file_is_part_of_the_task(tmp_path: Path) -> None:
     np.save(tmp_path / "hills.npy", np.linspace(0, 0.1, 12).reshape(3, 4))
     content = minimal(scene={"terrain": {"file": "hills.npy", "size": ["2 trunks", 1]}})

@@ -71,6 +71,7 @@ def test_ways_to_move_legs_together_are_the_mirror_images(hyq: Robot) -> None:
     assert len({group for group, _ in ways["left and right"]}) == 6
 
 
+@pytest.mark.slow
 def test_the_page_poses_the_robot_as_mujoco_does(hyq: Robot, tab: Any, tmp_path: Path) -> None:
     open_page(tab, tmp_path / "robot.html", "hyq2max", robot_data(hyq))
     random = np.random.default_rng(2)
@@ -111,6 +112,7 @@ def test_sliders_move_joints_within_their_limits(hyq: Robot, tab: Any, tmp_path:
     assert tab.complaints == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["rearing", "posture-recovery"])
 def test_a_task_shows_its_start_and_its_goal(name: str, tab: Any, tmp_path: Path) -> None:
     objective = make_objective(load_task(name), threads=1)
@@ -150,12 +152,14 @@ def test_a_task_shows_its_start_and_its_goal(name: str, tab: Any, tmp_path: Path
     assert tab.complaints == []
 
 
+@pytest.mark.slow
 def test_a_task_that_says_nothing_about_the_trunk_has_no_ghost() -> None:
     objective = make_objective(load_task("rearing", changes=["success={}", "stages.0.promote={}"]), threads=1)
     moving = task_data(objective)["scene"]["motion"]
     assert (moving["reference"], moving["goal"]) == (None, None)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("width", [1280, 390])
 @pytest.mark.parametrize("what", ["robot", "task"])
 def test_nothing_overflows(hyq: Robot, tab: Any, tmp_path: Path, what: str, width: int) -> None:

@@ -46,6 +46,7 @@ def test_names_go_before_directories_and_paths_say_the_directory() -> None:
     assert find("rearing/").motion == Path("rearing/motion.npz")
 
 
+@pytest.mark.slow
 def test_files_are_known_by_what_is_in_them() -> None:
     assert find(str(task_file("mine/odd.yaml"))).task == load_task("rearing")
     robot = find(str(HYQ / "robot.yaml")).robot

@@ -100,6 +100,7 @@ def assert_same_files(one: Path, other: Path) -> None:
         assert (one / name).read_bytes() == (other / name).read_bytes(), name
 
 
+@pytest.mark.slow
 def test_a_page_that_nobody_opens_changes_no_bit(objective: Objective, plain: Outcome, tmp_path: Path) -> None:
     watched = Watched(objective, tmp_path)
     watched.run()
@@ -107,6 +108,7 @@ def test_a_page_that_nobody_opens_changes_no_bit(objective: Objective, plain: Ou
     assert len(watched.drawn) == 1  # at the end, where it costs the search nothing
 
 
+@pytest.mark.slow
 def test_a_page_that_is_looked_at_changes_no_bit(objective: Objective, plain: Outcome, tmp_path: Path) -> None:
     watched = Watched(objective, tmp_path)
     page = Page(watched.watch)
@@ -121,6 +123,7 @@ def test_a_page_that_is_looked_at_changes_no_bit(objective: Objective, plain: Ou
     assert sum(rows[-1][9]) == pytest.approx(plain.solution.best.cost, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_a_page_that_is_closed_does_not_stop_the_solve(objective: Objective, plain: Outcome, tmp_path: Path) -> None:
     watched = Watched(objective, tmp_path)
     events = watched.watch.events()
@@ -134,6 +137,7 @@ def test_a_page_that_is_closed_does_not_stop_the_solve(objective: Objective, pla
     assert_same_files(tmp_path, plain.directory)
 
 
+@pytest.mark.slow
 def test_a_motion_that_cannot_be_shown_does_not_stop_the_solve(
     objective: Objective, plain: Outcome, tmp_path: Path
 ) -> None:
@@ -151,6 +155,7 @@ def test_a_motion_that_cannot_be_shown_does_not_stop_the_solve(
     assert page.messages[-1]["verdict"]["outcome"] == "budget"
 
 
+@pytest.mark.slow
 def test_the_trial_that_found_the_best_is_told(objective: Objective, tmp_path: Path) -> None:
     """Also after its cost has changed with the weights."""
     watched = Watched(objective, tmp_path)
@@ -167,6 +172,7 @@ def test_the_trial_that_found_the_best_is_told(objective: Objective, tmp_path: P
     assert [row[11] for row in rows] == [8 * (bests.index(best) + 1) for best in bests]
 
 
+@pytest.mark.slow
 def test_motions_are_shown_for_a_small_part_of_the_time(objective: Objective, tmp_path: Path) -> None:
     """The longer it takes to show one, the longer until the next: the clock is made slow here."""
     now = [0.0]
@@ -197,6 +203,7 @@ def test_motions_are_shown_for_a_small_part_of_the_time(objective: Objective, tm
     assert 0.3 * len(draws) < 0.025 * now[0]
 
 
+@pytest.mark.slow
 def test_the_first_message_says_all_and_the_last_how_it_ended(objective: Objective, tmp_path: Path) -> None:
     watched = Watched(objective, tmp_path)
     page = Page(watched.watch)
@@ -219,6 +226,7 @@ def test_the_first_message_says_all_and_the_last_how_it_ended(objective: Objecti
     assert (late[0]["verdict"], len(late[0]["rows"]), late[0]["scene"]["model"]) == (verdict, 15, "shapes")
 
 
+@pytest.mark.slow
 def test_shapes_are_told_once_and_motions_when_there_is_a_better_one(objective: Objective, tmp_path: Path) -> None:
     watched = Watched(objective, tmp_path)
     page = Page(watched.watch)
@@ -259,6 +267,7 @@ def test_a_slider_acts_from_the_next_generation_on_and_is_recorded(
     assert (told["factors"], told["wanted"]) == ({"position": 4.0}, {})
 
 
+@pytest.mark.slow
 def test_a_slider_that_is_put_back_in_time_is_not_moved(objective: Objective, plain: Outcome, tmp_path: Path) -> None:
     watched = Watched(objective, tmp_path)
 
@@ -270,6 +279,7 @@ def test_a_slider_that_is_put_back_in_time_is_not_moved(objective: Objective, pl
     assert_same_files(tmp_path, plain.directory)
 
 
+@pytest.mark.slow
 def test_pause_holds_the_solve_until_it_goes_on(objective: Objective, plain: Outcome, tmp_path: Path) -> None:
     watched = Watched(objective, tmp_path)
     page = Page(watched.watch)
@@ -297,6 +307,7 @@ def test_pause_holds_the_solve_until_it_goes_on(objective: Objective, plain: Out
     assert_same_files(tmp_path, plain.directory)
 
 
+@pytest.mark.slow
 def test_stop_keeps_the_best_and_the_run_can_go_on(objective: Objective, plain: Outcome, tmp_path: Path) -> None:
     watched = Watched(objective, tmp_path)
     page = Page(watched.watch)
@@ -326,6 +337,7 @@ def test_a_paused_solve_can_be_stopped(objective: Objective, tmp_path: Path, way
     assert (outcomes[0].solution.stopped, outcomes[0].solution.trials) == ("interrupted", 24)
 
 
+@pytest.mark.slow
 def test_a_resumed_run_shows_what_was_before(objective: Objective, plain: Outcome, tmp_path: Path) -> None:
     run(objective, seed=3, directory=tmp_path, observe=at(6, lambda: (_ for _ in ()).throw(KeyboardInterrupt)))
     watched = Watched(objective, tmp_path)
@@ -368,6 +380,7 @@ def test_commands_that_are_wrong(objective: Objective, tmp_path: Path, message: 
     assert watch.steer(1) is None
 
 
+@pytest.mark.slow
 def test_numbers_that_json_has_not(objective: Objective, tmp_path: Path) -> None:
     """Terms of a hold that is not simulated yet are not a number."""
     changes = [*CHANGES, "search.trials=24", "hold=0.05", "stages.0.hold=false", "costs.orientation.at=end"]

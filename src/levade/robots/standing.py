@@ -85,11 +85,12 @@ class Bare:
         shank = self.tip(data, leg) - pivot
         flat = np.eye(3) - np.outer(axis, axis)
         wanted = extension * self.leg_length(leg)
+        sideways, along = np.cross(hinge, shank), hinge * (hinge @ shank)
 
         def across(bend: Array) -> Array:
             """(n, 3) [m], from hip to foot across the hip's axis, with the knee bent further by (n,) [rad]."""
             c, s = np.cos(bend)[:, None], np.sin(bend)[:, None]
-            turned = shank * c + np.cross(hinge, shank) * s + hinge * (hinge @ shank) * (1 - c)
+            turned = shank * c + sideways * s + along * (1 - c)
             return (pivot - anchor + turned) @ flat
 
         lower, upper = (limit - angles[knee] for limit in self.ranges[knee])

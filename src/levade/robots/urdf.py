@@ -37,6 +37,7 @@ class UrdfSource:
 
     text: for MuJoCo's reader; its meshes are named by bare, unique names. assets: name -> content.
     effort [Nm], velocity [rad/s]: joint -> limit, where the file has a positive one. couplings: joints that mimic others.
+    files: mesh files that were read -> what `read_mesh` made of them.
     """
 
     text: str
@@ -45,6 +46,7 @@ class UrdfSource:
     velocity: dict[str, float] = field(default_factory=dict)
     couplings: list[Coupling] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)
+    files: dict[Path, tuple[str, bytes]] = field(default_factory=dict)
 
 
 def read_urdf(path: Path, root: ET.Element) -> UrdfSource:
@@ -388,7 +390,9 @@ def _attach_mesh(path: Path, mesh: ET.Element, source: UrdfSource, folders: list
     if visual and place.stat().st_size > _HUGE_VISUAL:
         return f"{place.name} is large ({place.stat().st_size / 1e6:.1f} MB)"
     try:
-        suffix, content = read_mesh(place)
+        if place not in source.files:  # most files are named several times: to look at and to collide, and by every leg
+            source.files[place] = read_mesh(place)
+        suffix, content = source.files[place]
     except LevadeError as error:
         return str(error)
     except OSError as error:
