@@ -241,6 +241,7 @@ def row() -> Iterator[EngineKind]:
     ENGINES.pop("mine", None)
 
 
+@pytest.mark.slow
 def test_an_engine_may_be_a_name_or_a_row(task: levade.Task, found: levade.Result, row: EngineKind) -> None:
     named = levade.solve(task, seed=2, engine="mujoco").motion
     np.testing.assert_array_equal(named["ctrl"], found.motion["ctrl"])

@@ -47,6 +47,7 @@ def test_the_python_example_of_the_readme_runs(
     assert (tmp_path / "rearing.npz").is_file()
 
 
+@pytest.mark.slow
 def test_the_replay_of_the_documentation_gives_the_motion_in_the_file(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

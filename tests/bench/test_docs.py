@@ -26,6 +26,7 @@ def block(language: str) -> str:
     return next(iter(re.findall(rf"```{language}\n(.*?)```", TEXT, re.DOTALL)))
 
 
+@pytest.mark.slow
 def test_the_plan_is_one() -> None:
     plan = build(Plan, yaml.safe_load(block("yaml")), where="docs/bench.md")
     found = cases(dataclasses.replace(plan, tasks=("rearing",)))

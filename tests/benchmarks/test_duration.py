@@ -18,6 +18,7 @@ from levade.tasks import HorizonRange, load_task
 Script = Callable[[str], ModuleType]
 
 
+@pytest.mark.slow
 def test_shares_are_what_the_margins_of_the_check_leave(script: Script) -> None:
     duration = script("duration")
     objective = make_objective(load_task("rearing", changes=["search.trials=24"]), threads=1)

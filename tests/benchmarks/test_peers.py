@@ -120,6 +120,7 @@ def test_a_basis_of_its_own_is_what_the_joints_follow(case: ModuleType, job) -> 
     assert case.run_job(mine).trials == 20
 
 
+@pytest.mark.slow
 def test_a_peer_that_breaks_down_says_where_to_look(case: ModuleType, job, tmp_path: Path) -> None:
     with pytest.raises(Exception, match=r"stub.* the peer ended early; see .*rearing-stub-3.log"):
         case.run_job(job(breaks_at=2))

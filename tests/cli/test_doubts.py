@@ -63,6 +63,7 @@ def test_a_success_says_that_it_holds_in_other_numbers(levade) -> None:
         ("mine", "hyq2max", "levade check runs/motion.npz"),
     ],
 )
+@pytest.mark.slow
 def test_what_fails_at_half_the_step_is_said_with_the_next_command(
     unmet: Path, capsys: pytest.CaptureFixture[str], task: str, robot: str, command: str
 ) -> None:

@@ -84,6 +84,7 @@ def test_a_motion_that_nothing_disturbs_is_left_alone(motion: Path, tmp_path: Pa
     assert not out_file.exists()
 
 
+@pytest.mark.slow
 def test_mistakes_are_one_line(unmet: Path, levade) -> None:
     motion = unmet / "motion.npz"
     for words, message in (

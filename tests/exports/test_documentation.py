@@ -42,6 +42,7 @@ def levade(*arguments: str) -> None:
     assert stopped.value.code == 0
 
 
+@pytest.mark.slow
 def test_the_commands_at_the_top(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (commands,) = re.findall(r"```sh\n(.*?)```", TEXT, re.DOTALL)
     _, export_line, play_line = (shlex.split(line) for line in commands.splitlines())

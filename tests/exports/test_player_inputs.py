@@ -457,6 +457,7 @@ def test_names_of_the_robots_joints_are_compared(
     assert "player: the robot's joints are rh_kfe, rh_kfe" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_what_a_robot_raises_is_one_line(
     motion: Played, place: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

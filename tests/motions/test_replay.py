@@ -76,11 +76,13 @@ def test_settings_of_ode_may_be_given(motion: Callable[[str], Motion]) -> None:
     np.testing.assert_allclose(exact.trunk_position[0, :50], found["trunk_position"][:50], rtol=0, atol=0.02)
 
 
+@pytest.mark.slow
 def test_an_engine_that_is_none_is_named(motion: Callable[[str], Motion]) -> None:
     with pytest.raises(LevadeError, match=r"no engine 'odd'; did you mean ode\?"):
         replay_in("odd", motion("mujoco"))
 
 
+@pytest.mark.slow
 def test_pictures_show_a_motion_of_ode_as_it_was_recorded(motion: Callable[[str], Motion]) -> None:
     from levade.report.rendering import replay
 

@@ -71,6 +71,7 @@ def test_units_names_and_goals_are_in_the_trunk_figure(solved: tuple[Motion, Pat
     assert np.array_equal(np.stack([x, y, z], axis=1), com)
 
 
+@pytest.mark.slow
 def test_kernels_are_named_after_the_joints_they_move(solved: tuple[Motion, Path]) -> None:
     titles = [axes.get_title(loc="left") or axes.get_title() for axes in module._kernels(solved[0]).axes]
     assert titles[1:] == [f"{legs} {joint}" for legs in ("LF, RF", "LH, RH") for joint in ("HAA", "HFE", "KFE")]

@@ -40,6 +40,7 @@ def gl(motion: Motion) -> None:
         pytest.skip(f"no OpenGL on this machine: {error}")
 
 
+@pytest.mark.slow
 def test_replay_gives_the_trunk_that_the_file_has(motion: Motion) -> None:
     poses = replay(motion)
     assert np.array_equal(poses.qpos[1:, :3], motion["trunk_position"])
@@ -80,6 +81,7 @@ def test_the_robot_is_in_the_picture_and_nothing_touches_its_edge(motion: Motion
 
 
 @pytest.mark.usefixtures("gl")
+@pytest.mark.slow
 def test_only_what_is_for_looking_at_is_drawn(motion: Motion) -> None:
     model = replay(motion).model
     assert (rendering.drawn_geoms(model) == (model.geom_group <= 2)).all()
@@ -157,6 +159,7 @@ def test_poses_are_evenly_spaced_and_the_hold_has_its_end(motion: Motion) -> Non
 
 
 @pytest.mark.usefixtures("gl")
+@pytest.mark.slow
 def test_a_camera_that_tracks_keeps_the_trunk_where_it_was(motion: Motion) -> None:
     from levade.report.video import _follow
 

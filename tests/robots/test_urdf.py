@@ -130,6 +130,7 @@ def test_ros_paths_are_looked_through(
     assert load(file, quadruped().urdf(), (SHAPE, MESH.format("package://toy_meshes/part.stl"))).assets
 
 
+@pytest.mark.slow
 def test_a_mesh_that_is_missing_stops_nothing(file: Path, quadruped: type) -> None:
     text = quadruped().urdf()
     robot = load(file, text, (f"<geometry>{SHAPE}</geometry></collision>", f"<geometry>{SHAPE}</geometry></collision>"

@@ -184,6 +184,7 @@ def test_a_goal_like_another_tasks_start_is_its_posture(tmp_path: Path) -> None:
         load_task("rearing", changes=["policy.goal={like: sit-to-stnd}"])
 
 
+@pytest.mark.slow
 def test_a_goal_like_a_file_is_relative_to_the_task_file(
     free: Objective, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -156,6 +156,7 @@ def test_ctrl_c_ends_all_with_the_best_so_far(objectives: list[Objective], monke
     assert solutions[2].best.share is not None
 
 
+@pytest.mark.slow
 def test_each_may_begin_around_its_own_motion(objectives: list[Objective]) -> None:
     rng, two = np.random.default_rng(0), objectives[:2]
     guess = InitialGuess(two[1].space.mean + 0.05 * rng.normal(size=(2, two[1].space.mean.size)), step=0.5)

@@ -317,6 +317,27 @@ def test_gains_that_hold_the_best_motion_less_well_are_not_taken(better: bool) -
     assert len(set(seen)) > 3 if better else set(seen) == {asked[0]}
 
 
+def test_feedback_that_holds_less_than_none_is_not_taken() -> None:
+    """It is tried again later, along a better motion; all others are tried without."""
+    task = dataclasses.replace(
+        make_task(*NOMINAL_THEN_ROBUST, robust=REDRAWN, trials=500), feedback=Regulation(every=3)
+    )
+    search, seen, asked = Search(task, SPACE, seed=0), [], []
+    while (trials := search.ask()) is not None:
+        evaluation = answer(task, trials)
+        if trials.along is not None:
+            asked.append(trials)
+            terms = {"position": evaluation.terms["position"] + 1.0}
+            evaluation = dataclasses.replace(evaluation, terms=terms, success=np.zeros(trials.n, dtype=bool))
+        generation = search.tell(evaluation)
+        if generation is not None:
+            seen.append(generation)
+    assert len(asked) > 1
+    assert all(len(trials.weights) == 1 for trials in asked)
+    assert all(generation.best.along is None for generation in seen)
+    assert search.solution.best.along is None
+
+
 def test_feedback_is_asked_for_on_perturbed_models_only() -> None:
     """And not before there is a motion to make gains along."""
     task = dataclasses.replace(make_task(*NOMINAL_THEN_ROBUST, robust=REDRAWN), feedback=Regulation())

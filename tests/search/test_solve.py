@@ -495,6 +495,7 @@ def test_a_record_survives_json_to_the_bit() -> None:
         assert one.tobytes() == other.tobytes()
 
 
+@pytest.mark.slow
 def test_a_cost_of_ones_own_is_optimised() -> None:
     base = load_task(
         "rearing",

@@ -123,6 +123,7 @@ def test_the_task_that_is_left_gives_the_steered_run_again(
     assert_same_files(tmp_path / "again", steered.directory)
 
 
+@pytest.mark.slow
 def test_the_motion_says_by_which_weights_it_costs(steered: Outcome, task: Task) -> None:
     meta = steered.motion.meta
     last = {"orientation": 200.0, "position": 100.0, "effort": 4.0, "after": 500.0}
@@ -178,6 +179,7 @@ def test_stopping_by_hand_keeps_the_best_and_goes_on_later(
     assert_same_files(tmp_path, steered.directory)
 
 
+@pytest.mark.slow
 def test_a_change_is_on_disk_before_it_is_simulated(
     objective: Objective, steered: Outcome, tmp_path: Path, assert_same_files: SameFiles
 ) -> None:

@@ -99,6 +99,7 @@ def test_the_height_of_the_scene_adds_to_the_reach(task: Task) -> None:
         make_objective(replace(high, scene=Scene(boxes=(Box((1.5, 0.0, 0.05), (1.0, 1.0, 0.1)),))))
 
 
+@pytest.mark.slow
 def test_more_distance_between_parts_than_a_posture_leaves_is_refused(task: Task) -> None:
     """The thighs of the two sides are 0.24 m apart, less two radii."""
     near = Criterion("self_distance", minimum=0.9, at="min")

@@ -36,6 +36,7 @@ def test_names_of_what_is_built_in() -> None:
         assert find(name).task == load_task(name)
 
 
+@pytest.mark.slow
 def test_names_go_before_directories_and_paths_say_the_directory() -> None:
     """After a solve there is a directory of the task's name."""
     Path("rearing").mkdir()

@@ -79,7 +79,7 @@ class Search:
         self._starts: list[Trial] = []  # motions of the nominal model to start robust stages from
         self._trials = self._generations = self._diverged = 0
         self._trials_to_success: int | None = None
-        self._regulated = 0  # generation in which gains were last made
+        self._regulated: int | None = None  # generation in which gains were last made, in these robust stages
         self._stopped = Stopped.RUNNING
         self._asking: _Asking = self._run()
         self._event: Trials | Generation | None = None
@@ -162,7 +162,7 @@ class Search:
             yield from self._begin()
             while self._affordable():
                 yield from self._reweigh()
-                yield from self._regulate(self._generations - self._regulated)
+                yield from self._regulate()
                 report = yield from self._generation()
                 before = self._schedule.level
                 yield from self._follow(self._schedule.after(report), before)
@@ -215,17 +215,17 @@ class Search:
             yield from self._weigh_best_again()
             self._forget_costs()
 
-    def _regulate(self, since: int) -> _Asking:
-        """Make the gains of the task's feedback along the best motion, if they are due; those that hold it better stay.
+    def _regulate(self) -> _Asking:
+        """Make the gains of the task's feedback along the best motion, if they are due.
 
-        Args:
-            since: Generations since they were made.
+        They stay only if they hold it as well as those before, or, the first ones, as it holds without.
         """
         feedback, level, best = self._task.feedback, self._schedule.level, self._best
         if feedback is None or not level.robust or best is None:
             return
-        current = self._judge.along
-        if current is not None and (since < feedback.every or np.array_equal(current, best.weights)):
+        since = feedback.every if self._regulated is None else self._generations - self._regulated
+        along = self._judge.along
+        if since < feedback.every or (along is not None and np.array_equal(along, best.weights)):
             return
         self._regulated = self._generations
         judge = replace(self._judge, along=best.weights)
@@ -233,7 +233,7 @@ class Search:
         self._trials += evaluation.trials
         cost = float(evaluation.cost(self._weights, self._task.robust)[0])
         again = Trial.of(best.weights, cost, evaluation, 0, judge.along)
-        if current is None or again.rank <= best.rank:
+        if best.share is None or again.rank <= best.rank:
             self._judge, self._best = judge, again
             if self._trials_to_success is None and again.success:
                 self._trials_to_success = self._trials
@@ -315,11 +315,11 @@ class Search:
         self._scale_step()
         level = self._schedule.level
         if not level.robust:
-            self._judge = replace(self._judge, along=None)
+            self._judge, self._regulated = replace(self._judge, along=None), None
         self._forget_costs(hold=level.hold_steps != before.hold_steps)
         if level != before:
             self._trials += yield from self._judge_best_again(self._judge, level)
-        yield from self._regulate(0)
+        yield from self._regulate()
         if level.robust:
             assert self._best is not None
             self._best = better(self._kept, self._best)

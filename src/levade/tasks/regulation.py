@@ -18,7 +18,8 @@ class Regulation:
     rate: measurements a second [Hz]; the nearest that steps allow.
     motion, hold: correction that costs 1 up to the horizon, and after it [rad]: more lets it do more.
     bound: bound on each correction [rad].
-    every: generations after which the gains are made again, along the best motion; those that hold it better stay.
+    every: generations after which the gains are made again, along the best motion. Gains stay only if that motion holds no less
+        with them than before; the first ones, than without.
     runs: perturbed runs from which is learned what is to be expected of what is not sensed.
     """
 
