@@ -36,7 +36,7 @@ def search_space(task: Task, robot: Robot, policy: JointPolicy, start: State) ->
     one_sided = np.array([criterion.target is None for criterion in task.success.values()], dtype=bool)
     if isinstance(policy, FreePolicy):
         space = _of_weights(task, robot, policy.policy, start)
-        return _with_more(dataclasses.replace(space, one_sided=one_sided), policy)
+        return _with_more(dataclasses.replace(space, one_sided=one_sided), policy, task)
     if isinstance(policy, Policy):
         return dataclasses.replace(_of_weights(task, robot, policy, start), one_sided=one_sided)
     mean = policy.initial_weights(start.joint_reference[0])
@@ -56,11 +56,11 @@ def _of_weights(task: Task, robot: Robot, policy: Policy, start: State) -> Searc
     return SearchSpace(mean, smooth, step=search.step, population=search.population, ending=_ending(policy))
 
 
-def _with_more(space: SearchSpace, policy: FreePolicy) -> SearchSpace:
+def _with_more(space: SearchSpace, policy: FreePolicy, task: Task) -> SearchSpace:
     """The same with the policy's further decisions: a duration is as wide as `DURATION` says, angles as wide as weights.
 
     They are no part of what ends a motion. A duration is rough: it is rounded to time steps, in which errors change by more
-    than a tight tolerance.
+    than a tight tolerance. It is not where a criterion asks for a duration: that error follows it all the way.
     """
     d, m = space.factor.shape
     more = policy.size - d
@@ -69,7 +69,8 @@ def _with_more(space: SearchSpace, policy: FreePolicy) -> SearchSpace:
     rough = None
     if policy.horizon is not None:
         factor[d, m] = min(DURATION / space.step, DURATION_PER_STEP)
-        rough = np.arange(m + more) == m
+        asked = any(criterion.quantity == "duration" for criterion in task.success.values())
+        rough = None if asked else np.arange(m + more) == m
     ending = None if space.ending is None else np.pad(space.ending, ((0, 0), (0, more)))
     mean = policy.decision(space.mean[None])[0]
     return dataclasses.replace(space, mean=mean, factor=factor, ending=ending, rough=rough)
