@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import mujoco
 import numpy as np
 
@@ -78,7 +80,10 @@ def balls(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> Array:
     if kind == mujoco.mjtGeom.mjGEOM_CAPSULE:
         along = size[1] * data.geom_xmat[geom].reshape(3, 3)[:, 2]
         return np.array([[*(place + along), size[0]], [*(place - along), size[0]]])
-    points = np.unique([support(model, data, geom, direction).round(9) for direction in _DIRECTIONS], axis=0)
+    if kind == mujoco.mjtGeom.mjGEOM_BOX:
+        points = place + (_CORNERS * size) @ data.geom_xmat[geom].reshape(3, 3).T
+    else:
+        points = np.unique([support(model, data, geom, direction).round(9) for direction in _DIRECTIONS], axis=0)
     return np.column_stack([points, np.zeros(len(points))])
 
 
@@ -90,3 +95,4 @@ def _spiral(n: int) -> Array:
 
 
 _DIRECTIONS = _spiral(100)
+_CORNERS = np.array(list(itertools.product((-1.0, 1.0), repeat=3)))
