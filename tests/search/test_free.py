@@ -121,9 +121,8 @@ def test_the_motion_that_is_kept_has_its_own(changes: list[str], tmp_path: Path)
         assert np.abs(settled[6:] - objective.robot.posture("neutral")[6:]).max() > 0.01
     near = initial_guess(policy, motion).candidates
     again = policy.reference(near, hold_steps=20).position[0, : len(reference)]
-    np.testing.assert_allclose(again, reference, atol=0.02)
-    if policy.goal is None:
-        np.testing.assert_array_equal(near[0, :-1], motion["weights"])
+    np.testing.assert_allclose(again, reference, rtol=0, atol=1e-12)
+    np.testing.assert_array_equal(near[0, : policy.policy.size], motion["weights"])
 
 
 @pytest.mark.slow
