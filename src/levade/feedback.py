@@ -89,6 +89,11 @@ class Feedback:
         )
 
 
+def period_steps(rate: float, timestep: float) -> int:
+    """Physics steps from tick to tick at a rate [Hz]; the nearest number, one at least. timestep: [s]."""
+    return max(1, round(1.0 / (rate * timestep)))
+
+
 def sensed(quaternion: Array, rate: Array, joint_position: Array, joint_velocity: Array) -> Array:
     """What a robot senses, (..., 6 + 2 joints).
 

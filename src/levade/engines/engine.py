@@ -27,7 +27,7 @@ from levade.engines.layout import FOOT_CONTACT_FORCE, Layout
 from levade.engines.models import FIELDS, Models, delayed
 from levade.engines.physics import Physics
 from levade.engines.state import State
-from levade.engines.table import ENGINES
+from levade.engines.table import ENGINES, no_feedback
 from levade.errors import LevadeError, did_you_mean
 from levade.feedback import Correcting, Feedback
 from levade.trajectory import JointReference, Trajectories
@@ -248,8 +248,7 @@ class Engine(ABC):
         correcting = None
         if feedback is not None:
             if not ENGINES[self.name].feedback:
-                able = " or ".join(kind.name for kind in ENGINES.values() if kind.feedback)
-                raise LevadeError(f"feedback: the engine {self.name} does not simulate it yet; use the engine {able}")
+                raise no_feedback(self.name)
             correcting = Correcting(
                 feedback,
                 steps=reference.steps,

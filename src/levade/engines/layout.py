@@ -13,6 +13,7 @@ from levade.arrays import Array
 from levade.embodiment import Embodiment
 from levade.engines.clearance import SELF_DISTANCE, clearance_in, sensor_address
 from levade.engines.state import State
+from levade.feedback import sensed
 from levade.robots.addresses import Addresses, Index, compact
 from levade.trajectory import JointReference, Trajectories
 
@@ -86,6 +87,23 @@ class Layout(Addresses):
         joint_position = np.asarray(qpos)[..., self.joint_qpos]
         parts = (qpos, qvel, act, joint_position, joint_position if joint_reference is None else joint_reference)
         return State(*(np.array(np.atleast_2d(part), dtype=float) for part in parts))
+
+    def sensed(self, qpos: Array, qvel: Array) -> Array:
+        """Read what a robot senses: see `levade.feedback.sensed`.
+
+        Args:
+            qpos: MuJoCo's positions, shape (..., nq).
+            qvel: MuJoCo's velocities, shape (..., nv).
+
+        Returns:
+            Shape (..., 6 + 2 joints).
+        """
+        return sensed(
+            qpos[..., self.trunk_quaternion],
+            qvel[..., self.trunk_angular_velocity],
+            qpos[..., self.joint_qpos],
+            qvel[..., self.joint_qvel],
+        )
 
     def trajectories(
         self,

@@ -20,7 +20,7 @@ from levade.engines.clearance import SELF_DISTANCE, distances, distances_at
 from levade.engines.engine import Engine, Trials, broke_down
 from levade.engines.models import Models, with_free_frames
 from levade.engines.state import State
-from levade.feedback import Correcting, Feedback, sensed
+from levade.feedback import Correcting, Feedback
 from levade.trajectory import JointReference, Trajectories
 
 _RECORDED = ("qpos", "qvel", "actuator_force")
@@ -126,12 +126,7 @@ class MujocoEngine(Engine):
         n, layout = len(ctrl), self.layout
         qpos, qvel = batch.bind("qpos"), batch.bind("qvel")
         for tick, part in correcting:
-            seen = sensed(
-                qpos[:n, layout.trunk_quaternion],
-                qvel[:n, layout.trunk_angular_velocity],
-                qpos[:n, layout.joint_qpos],
-                qvel[:n, layout.joint_qvel],
-            )
+            seen = layout.sensed(qpos[:n], qvel[:n])
             commanded = ctrl[:, part, layout.ctrl_position]
             ctrl[:, part, layout.ctrl_position] = correcting.corrected(tick, part, seen, commanded)
             yield part, n

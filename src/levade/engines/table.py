@@ -93,3 +93,9 @@ def engine_kind(name: str) -> EngineKind:
     if name not in ENGINES:
         raise LevadeError(f"no engine {name!r}; {did_you_mean(name, ENGINES)}")
     return ENGINES[name]
+
+
+def no_feedback(name: str) -> LevadeError:
+    """The error of an engine that is asked for feedback and simulates none."""
+    able = " or ".join(kind.name for kind in ENGINES.values() if kind.feedback)
+    return LevadeError(f"feedback: the engine {name} does not simulate it yet; use the engine {able}")

@@ -10,7 +10,7 @@ import numpy as np
 from levade.arrays import Array
 from levade.embodiment import Embodiment
 from levade.engines import Models, MujocoEngine, State
-from levade.feedback import Feedback, SensorErrors
+from levade.feedback import Feedback, SensorErrors, period_steps
 from levade.regulators.design import Design
 from levade.regulators.linear import Linear, Scales, linearise, state_of
 from levade.regulators.quadratic import expectation, project, steady, sweep
@@ -93,7 +93,7 @@ def linearised(
         threads: Number of threads; 0 for one per core. Results do not depend on it.
     """
     timestep, size = reference.timestep, size_of(engine.embodiment)
-    period = max(1, round(1.0 / (rate * timestep)))
+    period = period_steps(rate, timestep)
     linear = linearise(engine.model, engine.layout, start, reference, period=period, size=size, threads=threads)
     expected = _expectations(engine, reference, linear, perturbed, period)
     holds = reference.steps > reference.horizon_steps

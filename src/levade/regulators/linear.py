@@ -16,7 +16,6 @@ from mujoco.batch import Batch
 from levade.arrays import Array
 from levade.engines import Layout, State
 from levade.engines.batches import RESET_OFF, SENSORS_OFF, STATE, quiet
-from levade.feedback import sensed
 from levade.rotations import conjugate, rotate
 from levade.trajectory import JointReference
 
@@ -144,10 +143,7 @@ def state_of(layout: Layout, qpos: Array, qvel: Array, act: Array | None = None)
     root, rate = layout.root_qpos, layout.root_qvel
     quaternion = qpos[..., root + 3 : root + 7]
     inverse = conjugate(quaternion)
-    seen = sensed(
-        quaternion, qvel[..., rate + 3 : rate + 6], qpos[..., layout.joint_qpos], qvel[..., layout.joint_qvel]
-    )
-    parts = [seen, qpos[..., root + 2 : root + 3], rotate(inverse, qvel[..., rate : rate + 3])]
+    parts = [layout.sensed(qpos, qvel), qpos[..., root + 2 : root + 3], rotate(inverse, qvel[..., rate : rate + 3])]
     return np.concatenate(parts if act is None else [*parts, act], axis=-1)
 
 

@@ -12,9 +12,9 @@ from __future__ import annotations
 import numpy as np
 
 from levade.arrays import Array
-from levade.engines import ENGINES, Engine, MujocoEngine, State, perturbed_models
-from levade.errors import LevadeError
-from levade.feedback import Feedback, SensorErrors, sensed
+from levade.engines import Engine, MujocoEngine, State, perturbed_models
+from levade.engines.table import no_feedback
+from levade.feedback import Feedback, SensorErrors, period_steps, sensed
 from levade.tasks import Regulation, Task
 from levade.trajectory import JointReference, Trajectories
 
@@ -40,11 +40,9 @@ class ClosedLoop:
 
     def __init__(self, regulation: Regulation, task: Task, engine: Engine, start: State) -> None:
         if not isinstance(engine, MujocoEngine):
-            able = " or ".join(kind.name for kind in ENGINES.values() if kind.feedback)
-            raise LevadeError(f"feedback: the engine {engine.name} does not simulate it yet; use the engine {able}")
+            raise no_feedback(engine.name)
         self._regulation, self._task, self._engine, self._start = regulation, task, engine, start
-        timestep = task.physics.timestep
-        self._period = max(1, round(1.0 / (regulation.rate * timestep)))
+        self._period = period_steps(regulation.rate, task.physics.timestep)
         self._ticks = -(-(task.horizon_steps + task.hold_steps) // self._period)
         self._made: dict[tuple[int, bytes], Feedback] = {}
         self._sensed: dict[bytes, Array] = {}
@@ -97,13 +95,7 @@ class ClosedLoop:
             trajectories.joint_position[:, rows],
             trajectories.joint_velocity[:, rows],
         )
-        layout, start = self._engine.layout, self._start
-        first = sensed(
-            start.qpos[:, layout.trunk_quaternion],
-            start.qvel[:, layout.trunk_angular_velocity],
-            start.qpos[:, layout.joint_qpos],
-            start.qvel[:, layout.joint_qvel],
-        )
+        first = self._engine.layout.sensed(self._start.qpos, self._start.qvel)
         whole = np.concatenate([np.broadcast_to(first[:, None], (trajectories.n, 1, first.shape[1])), later], axis=1)
         self._sensed.update(zip(_keys(trajectories.reference), whole, strict=True))
         if len(self._sensed) > _KEPT:
