@@ -22,6 +22,7 @@ from levade.costs import success
 from levade.engines import MujocoEngine, State
 from levade.feedback import Feedback
 from levade.motions import Motion, RecordedSimulation
+from levade.robots.shapes import support
 from levade.rotations import multiply, rotate
 from levade.trajectory import JointReference
 
@@ -37,6 +38,8 @@ def main() -> None:
     parser.add_argument("--out", type=Path, help="JSON with the map")
     options = parser.parse_args()
     motion = Motion.load(options.motion)
+    if motion.steps == motion.horizon_steps:
+        parser.error(f"{options.motion}: has no hold to be caught in; give a motion of a task with hold")
     pitch = np.linspace(-options.pitch, options.pitch, options.points)
     rate = np.linspace(-options.rate, options.rate, options.points)
     caught = {
@@ -118,25 +121,18 @@ def pushed(engine: MujocoEngine, at: dict[str, Array], turns: Array, rates: Arra
     qvel[:, velocity + 4] += rates  # the trunk's own y axis is the world's, as far as it is not rolled
     lifted(engine, data, qpos, root)
     act = np.repeat(at["act"][None], n, axis=0) if "act" in at else np.zeros((n, 0))
-    return layout.state(qpos, qvel, act, joint_reference=commanded)
+    return layout.state(qpos, qvel, act, joint_reference=np.repeat(commanded[None], n, axis=0))
 
 
 def lifted(engine: MujocoEngine, data: mujoco.MjData, qpos: Array, root: int) -> None:
-    """Move each up or down so that its deepest contact is as deep as before the turn."""
-    model = engine.model
+    """Move each up or down so that its lowest point is as deep in the ground as before the turn."""
+    model, down = engine.model, np.array([0.0, 0.0, -1.0])
+    parts = np.flatnonzero(((model.geom_contype | model.geom_conaffinity) != 0) & (model.geom_bodyid != 0))
     deep = data.contact.dist.min(initial=0.0)
     for row in qpos:
-        row[root + 2] += 0.3
-        for _ in range(2):  # down until it touches, from above
-            data.qpos[:] = row
-            mujoco.mj_kinematics(model, data)
-            mujoco.mj_comPos(model, data)
-            gap = min(
-                mujoco.mj_geomDistance(model, data, 0, geom, 2.0, None)
-                for geom in range(1, model.ngeom)
-                if (model.geom_contype[geom] | model.geom_conaffinity[geom]) and model.geom_bodyid[geom]
-            )
-            row[root + 2] -= gap - deep
+        data.qpos[:] = row
+        mujoco.mj_kinematics(model, data)
+        row[root + 2] += deep - min(support(model, data, int(geom), down)[2] for geom in parts)
 
 
 def span(values: Array, caught: Array) -> str:
