@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Sequence
+from functools import cache
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -45,9 +46,9 @@ def _run(arguments: Sequence[str] | None) -> int:
     _, usage_error, click_exception, *_ = typer.BadParameter.__mro__
     arguments = _spread(sys.argv[1:] if arguments is None else arguments)
     try:
-        status = app(args=arguments, standalone_mode=False)
+        status = _command()(args=arguments, standalone_mode=False)
     except LevadeError as error:
-        return _failed(in_flags(error, app, arguments))
+        return _failed(in_flags(error, _command(), arguments))
     except usage_error as error:  # type: ignore[misc]
         command = error.ctx.command_path if error.ctx else "levade"
         message = " ".join(error.format_message().split())
@@ -64,6 +65,12 @@ def _run(arguments: Sequence[str] | None) -> int:
     except (KeyboardInterrupt, typer.Abort):
         return 130
     return status if isinstance(status, int) else 0
+
+
+@cache
+def _command() -> Any:
+    """The tree of commands. typer reads every signature anew whenever it makes one."""
+    return typer.main.get_command(app)
 
 
 def _spread(arguments: Sequence[str]) -> list[str]:

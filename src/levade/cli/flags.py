@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Sequence
-
-import typer
+from typing import Any
 
 from levade.errors import LevadeError, Remedy
 
@@ -20,12 +19,12 @@ ACTIONS = {
 """`levade.errors.Remedy.action` -> what to type. ``{at}`` is the file or directory that it is done to."""
 
 
-def in_flags(error: LevadeError, app: typer.Typer, arguments: Sequence[str]) -> str:
+def in_flags(error: LevadeError, command: Any, arguments: Sequence[str]) -> str:
     """Say an error in the words of the command line.
 
     Args:
         error: The error. Its field becomes the option whose parameter has the same name; other fields stay as they are.
-        app: The command line.
+        command: The command line, a click group.
         arguments: Its arguments, which name the command.
 
     Returns:
@@ -33,13 +32,13 @@ def in_flags(error: LevadeError, app: typer.Typer, arguments: Sequence[str]) -> 
     """
     *most, last = [_typed(remedy) for remedy in error.remedies] or [""]
     what = f"{', '.join(most)}, or {last}" if most else last
-    return f"{_begin(error.field, app, arguments)}{error.message}{what and f'; {what}'}"
+    return f"{_begin(error.field, command, arguments)}{error.message}{what and f'; {what}'}"
 
 
-def _begin(field: str | None, app: typer.Typer, arguments: Sequence[str]) -> str:
+def _begin(field: str | None, command: Any, arguments: Sequence[str]) -> str:
     if field is None:
         return ""
-    for parameter in _command(app, arguments).params:
+    for parameter in _command(command, arguments).params:
         option = max(parameter.opts, key=len, default="")
         if parameter.name == field and option.startswith("--"):
             # one that can be repeated is followed by which of its values is wrong: --set horizon
@@ -47,13 +46,12 @@ def _begin(field: str | None, app: typer.Typer, arguments: Sequence[str]) -> str
     return f"{field}: "
 
 
-def _command(app: typer.Typer, arguments: Sequence[str]):
+def _command(command: Any, arguments: Sequence[str]) -> Any:
     """The command that the arguments name, such as ``tasks show``."""
-    command = typer.main.get_command(app)
     for word in arguments:
         if word not in getattr(command, "commands", {}):
             break
-        command = command.commands[word]  # type: ignore[attr-defined]
+        command = command.commands[word]
     return command
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import mujoco
 import numpy as np
@@ -38,7 +39,14 @@ class Bare:
 
     def data_at(self, angles: Mapping[str, float]) -> mujoco.MjData:
         """Kinematics with the trunk frame on the world frame; joints that are not named at zero."""
-        data = mujoco.MjData(self.model)
+        return self._set(mujoco.MjData(self.model), angles)
+
+    @cached_property
+    def _data(self) -> mujoco.MjData:
+        """For many postures in turn: to make one takes longer than the kinematics of a posture."""
+        return mujoco.MjData(self.model)
+
+    def _set(self, data: mujoco.MjData, angles: Mapping[str, float]) -> mujoco.MjData:
         data.qpos[:] = 0.0
         data.qpos[int(self.model.jnt_qposadr[self.model.body_jntadr[self.trunk]]) + 3] = 1.0
         for joint, angle in angles.items():
@@ -53,7 +61,7 @@ class Bare:
 
     def leg_length(self, leg: Leg) -> float:
         """[m], from hip flexion over the knee to the end of the foot, along the links; of other legs, along all of them."""
-        data = self.data_at(self._zero(leg))
+        data = self._set(self._data, self._zero(leg))
         if not {"hfe", "kfe"} <= set(leg.roles):
             points = [*(data.joint(joint).xanchor for joint in leg.joints), self.tip(data, leg)]
             return float(sum(np.linalg.norm(b - a) for a, b in itertools.pairwise(points)))
@@ -79,12 +87,12 @@ class Bare:
         """Knee angles at which hip and foot are so far apart, each with the hip angle that puts the foot below the hip."""
         angles = self._zero(leg)
         hip, knee = (leg.joints[leg.roles.index(role)] for role in ("hfe", "kfe"))
-        data = self.data_at(angles)
-        anchor, axis = data.joint(hip).xanchor, data.joint(hip).xaxis
-        pivot, hinge = data.joint(knee).xanchor, data.joint(knee).xaxis
+        wanted = extension * self.leg_length(leg)
+        data = self._set(self._data, angles)
+        anchor, axis = data.joint(hip).xanchor.copy(), data.joint(hip).xaxis.copy()
+        pivot, hinge = data.joint(knee).xanchor.copy(), data.joint(knee).xaxis.copy()
         shank = self.tip(data, leg) - pivot
         flat = np.eye(3) - np.outer(axis, axis)
-        wanted = extension * self.leg_length(leg)
         sideways, along = np.cross(hinge, shank), hinge * (hinge @ shank)
 
         def across(bend: Array) -> Array:
@@ -121,7 +129,7 @@ class Bare:
     def _outward(self, leg: Leg, angles: Mapping[str, float]) -> float:
         """How far the knee is from the line hip - foot, away from the middle of the robot [m]: where both ways are in range,
         knees bend inward, as HyQ's and ANYmal's."""
-        data = self.data_at(angles)
+        data = self._set(self._data, angles)
         hip, knee = (data.joint(leg.joints[leg.roles.index(role)]).xanchor for role in ("hfe", "kfe"))
         ahead = float(knee[0] - 0.5 * (hip[0] + self.tip(data, leg)[0]))
         return ahead if leg.end == "front" else -ahead
