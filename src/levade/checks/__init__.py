@@ -57,11 +57,13 @@ def check(
     """Check a motion against its model's uncertainty, its numbers, other engines and its hardware.
 
     divide: the time step of the perturbed runs by so much. perturbation, demands: the defaults if None. criteria: a task
-    whose success criteria are used instead of the motion's own. threads: results do not depend on it.
+    whose success criteria are used instead of the motion's own, which are what its task calls good enough on perturbed models
+    (`levade.tasks.Robust.success`). threads: results do not depend on it.
     stopping: asked on the way; once it says so, the certificate is of what was done by then, and says that it is interrupted.
     Raises LevadeError if there is nothing to judge by, or no runs.
     """
-    simulation = RecordedSimulation(motion, criteria=None if criteria is None else criteria.success, threads=threads)
+    judged = motion.task.good_enough if criteria is None else criteria.success
+    simulation = RecordedSimulation(motion, criteria=judged, threads=threads)
     if not simulation.criteria:
         raise LevadeError(
             f"the task {simulation.task.name} has no success criteria to judge by; give a task that has some",

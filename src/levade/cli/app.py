@@ -137,6 +137,14 @@ def solve(
     resume: Annotated[Path | None, typer.Option(metavar="DIR", help="Go on with the interrupted run in DIR.")] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace an interrupted run in the directory.")] = False,
     threads: Annotated[int, typer.Option(min=0, help="0 for one per core; no effect on the result.")] = 0,
+    hardware: Annotated[
+        bool, typer.Option("--hardware", help="Search on until a certificate passes: see levade check.")
+    ] = False,
+    minutes: Annotated[float | None, typer.Option(help="With --hardware: time for all searches.")] = None,
+    demand: Annotated[
+        list[str] | None,
+        typer.Option(metavar="FILE|NAME=VALUE", help="With --hardware: as check --demand. Repeatable."),
+    ] = None,
     watch: Annotated[
         bool, typer.Option("--watch", help="Show it on a page in the browser, with pause, stop and weights to move.")
     ] = False,
@@ -150,9 +158,9 @@ def solve(
 ) -> int:
     """Search for a motion that does TASK, and write it to a directory.
 
-    Exit status: 0 the success criteria hold, 1 they do not (everything is still written), 2 the input is wrong.
+    Exit status: 0 the success criteria hold, with --hardware the certificate passes; 1 they do not (everything is still
+    written); 2 the input is wrong.
     """
-    from levade.cli.solving import solve_and_report
     from levade.cli.watching import options
 
     watching = options(watch, watch_host, watch_port, open_page, keep_open)
@@ -173,6 +181,7 @@ def solve(
             "--from": begin or None,
             "--after": after,
             "--set, --trials, --optimizer or --engine": changed or None,
+            "--hardware": hardware or None,
         }
         extra = [name for name, value in given.items() if value is not None]
         if extra:
@@ -181,6 +190,29 @@ def solve(
         raise LevadeError(
             "solve: name a task, such as: levade solve rearing (levade tasks lists them), or --resume DIR"
         )
+    if hardware or (resume is not None and (resume / "hardware.json").is_file()):
+        from levade.cli.pursuing import pursue_and_report
+
+        beside = {"--watch": watch, "--from": begin, "--after": after, "--trials": trials, "--optimizer": optimizer}
+        if extra := [name for name, value in beside.items() if value]:
+            raise LevadeError(f"--hardware: makes searches of its own; leave out {' and '.join(extra)}")
+        return pursue_and_report(
+            task=task,
+            robot=robot,
+            seed=seed or 0,
+            changes=changed,
+            directory=out,
+            resume_from=resume,
+            force=force,
+            minutes=minutes,
+            demand=demand or [],
+            threads=threads,
+            as_json=as_json,
+        )
+    if minutes is not None or demand:
+        raise LevadeError(f"{'--minutes' if minutes is not None else '--demand'}: goes with --hardware only")
+    from levade.cli.solving import solve_and_report
+
     return solve_and_report(
         task=task,
         robot=robot,

@@ -110,7 +110,7 @@ def _tell(console: Console, path: Path, certificate: Certificate, runs: int) -> 
         f"[bold]{escape(certificate.task)}[/] on {escape(certificate.robot)}, {escape(str(path))}"
         + (f", by the criteria of {escape(certificate.criteria)}" if certificate.criteria != certificate.task else "")
     )
-    console.print(_verdicts(certificate))
+    console.print(verdict_table(certificate))
     console.print()
     console.print(_errors(certificate.perturbed))
     console.print()
@@ -138,7 +138,8 @@ def _table(*headings: str, right: Sequence[str] = ()) -> Table:
     return table
 
 
-def _verdicts(certificate: Certificate) -> Table:
+def verdict_table(certificate: Certificate) -> Table:
+    """A row per criterion of a certificate."""
     table = _table("criterion", "", "found", "required")
     for verdict in certificate.verdicts:
         mark = {True: Text("pass", style="green"), False: Text("fail", style="red"), None: Text("-", style="dim")}

@@ -43,7 +43,7 @@ from levade.motions.model import compile_text
 from levade.policies import Policy, policy_from_dict
 from levade.robots import Leg
 from levade.robots.addresses import Addresses
-from levade.tasks import Task, task_from_dict
+from levade.tasks import Task, task_from_dict, task_to_dict
 from levade.trajectory import JointReference
 
 
@@ -352,6 +352,11 @@ class Motion:
     def stabiliser(self) -> Mapping[str, Any] | None:
         """What the file says about the stabiliser, as JSON; None if there is none."""
         return self.meta.get("feedback")
+
+    def with_task(self, task: Task) -> Motion:
+        """The same motion, of which its file says that another task asked for it: one of the same robot, scene and costs."""
+        meta = {**self.meta, "task": task_to_dict(task, code=True)}
+        return Motion(meta, self.model_xml, self.arrays, self.assets, None if self.source_task is None else task)
 
     def stabilised(self, feedback: Feedback | None, **about: Any) -> Motion:
         """The same motion with a stabiliser, or without. about: what its meta says next to what it is."""

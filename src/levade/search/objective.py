@@ -237,13 +237,16 @@ class Objective:
         if self._closed is not None and trials.draw is None:
             self._closed.remember(trajectories)
 
-    def judge(self, trajectories: Trajectories, hold_steps: int) -> Evaluation:
+    def judge(self, trajectories: Trajectories, hold_steps: int, *, perturbed: bool = False) -> Evaluation:
         """Judge trajectories of which ``hold_steps`` of the hold were simulated.
+
+        On perturbed models, what is good enough there counts, and the errors of criteria that are not asked for are NaN.
 
         Without any of the hold, values that look at it are NaN. With part of it, they use that part, except speeds at the
         end, which are for the whole hold only: a robot comes to rest on the way there.
         """
-        terms, criteria, n = self.terms, self.task.success, trajectories.n
+        terms, n = self.terms, trajectories.n
+        criteria = self.task.good_enough if perturbed else self.task.success
         if 0 == hold_steps < self.task.hold_steps:
             terms = {name: term for name, term in terms.items() if not looks_at_hold(term)}
             criteria = {name: criterion for name, criterion in criteria.items() if not looks_at_hold(criterion)}
@@ -361,7 +364,7 @@ def _evaluate_together(asked: Sequence[tuple[Objective, Trials]]) -> Iterator[Ev
             own = np.flatnonzero(owner[rows] == i)
             judged = trajectories if len(own) == trajectories.n else trajectories[slice(own[0], own[-1] + 1)]
             objective.remember(trials, judged)
-            parts[i].append(objective.judge(judged, trials.hold_steps))
+            parts[i].append(objective.judge(judged, trials.hold_steps, perturbed=trials.draw is not None))
     return map(_joined, parts)
 
 

@@ -59,7 +59,7 @@ def stabilise(
     stopping: asked before each; once it says so, the best of those that were tried is the outcome.
     Raises LevadeError if the motion is not MuJoCo's, broke down, has no criteria, or a number makes no sense.
     """
-    simulation = RecordedSimulation(motion, threads=threads)
+    simulation = RecordedSimulation(motion, criteria=motion.task.good_enough, threads=threads)
     _check(simulation, rate, bound, runs)
     assert isinstance(simulation.engine, MujocoEngine)  # the one that a recorded motion is simulated in
     drawing = perturbation or Perturbation()

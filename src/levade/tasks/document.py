@@ -12,6 +12,7 @@ from typing import Any
 
 from levade.costs import (
     AngularVelocity,
+    Criterion,
     Duration,
     Effort,
     GroundContact,
@@ -162,6 +163,7 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
     content = dict(content)
     if isinstance(content.get("success"), Mapping):
         content["success"] = _with_quantities(content["success"], where)
+        content["robust"] = _good_enough(content.get("robust"), content["success"])
     costs = content.get("costs")
     if isinstance(costs, Mapping):
         content["costs"] = {
@@ -196,12 +198,10 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
     optimizer = None
     if code:
         optimizer = _missing_optimizer(content)
-        content["success"] = {
-            name: criterion_of_missing(value, where=f"{where}.success.{name}")
-            if isinstance(value, Mapping) and KEY in value
-            else value
-            for name, value in content.get("success", {}).items()
-        }
+        content["success"] = _without_code(content.get("success", {}), f"{where}.success")
+        if isinstance(content.get("robust"), Mapping) and isinstance(content["robust"].get("success"), Mapping):
+            criteria = _without_code(content["robust"]["success"], f"{where}.robust.success")
+            content["robust"] = {**content["robust"], "success": criteria}
     task = build(Task, content, where=where)
     if optimizer is not None:
         task = dataclasses.replace(task, search=dataclasses.replace(task.search, optimizer=optimizer))
@@ -221,6 +221,29 @@ def _with_quantities(success: Mapping[str, Any], where: str) -> dict[str, Any]:
                 f" {did_you_mean(str(name), QUANTITIES)}"
             )
     return named
+
+
+def _good_enough(robust: Any, success: Mapping[str, Any]) -> Any:
+    """What robust asks for, its criteria filled up from those of the task: ``{pitch: {tolerance: 0.1}}`` is enough."""
+    if not (isinstance(robust, Mapping) and isinstance(robust.get("success"), Mapping)):
+        return robust
+    filled = {
+        name: {**success[name], **value}
+        if isinstance(value, Mapping) and isinstance(success.get(name), Mapping)
+        else value
+        for name, value in robust["success"].items()
+    }
+    return {**robust, "success": filled}
+
+
+def _without_code(criteria: Mapping[str, Any], where: str) -> dict[str, Any]:
+    """Criteria whose measures may have been Python code."""
+    return {
+        name: criterion_of_missing(value, where=f"{where}.{name}")
+        if isinstance(value, Mapping) and KEY in value
+        else value
+        for name, value in criteria.items()
+    }
 
 
 def _check_horizon(horizon: Any, where: str) -> None:
@@ -277,10 +300,9 @@ def task_to_dict(task: Task, *, code: bool = False) -> dict[str, Any]:
     content = _plain(dataclasses.asdict(task))
     if not isinstance(optimizer, str):
         content["search"]["optimizer"] = {KEY: code_name(optimizer)}
-    for name, criterion in task.success.items():
-        if (of := measure_to_dict(criterion.quantity)) and not code:
-            raise LevadeError(f"success.{name}: a Python function cannot be written to a task file")
-        content["success"][name] |= {**of, "quantity": str(criterion.quantity)}
+    _name_measures(content["success"], task.success, code, "success")
+    if task.robust is not None and task.robust.success is not None:
+        _name_measures(content["robust"]["success"], task.robust.success, code, "robust.success")
     content["start"] = {key: value for key, value in content["start"].items() if value is not None}
     content["costs"] = {}
     names = {kind: name for name, kind in TERMS.items()}
@@ -297,6 +319,14 @@ def task_to_dict(task: Task, *, code: bool = False) -> dict[str, Any]:
             **_plain(dataclasses.asdict(term)),
         }
     return {key: content[key] for key in _ORDER}
+
+
+def _name_measures(content: dict[str, Any], criteria: Mapping[str, Criterion], code: bool, where: str) -> None:
+    """Write the quantities of criteria into their tables. LevadeError for one that is Python code, unless ``code`` is true."""
+    for name, criterion in criteria.items():
+        if (of := measure_to_dict(criterion.quantity)) and not code:
+            raise LevadeError(f"{where}.{name}: a Python function cannot be written to a task file")
+        content[name] |= {**of, "quantity": str(criterion.quantity)}
 
 
 def holds_code(task: Task) -> bool:

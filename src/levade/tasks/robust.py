@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
@@ -10,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from levade.arrays import Array
+from levade.costs import Criterion
 from levade.costs.risk import Measure
 from levade.engines import Perturbation
 from levade.errors import LevadeError
@@ -44,6 +46,8 @@ class Robust:
         to succeed on, beside the nominal model, to count as a success.
     starts: motions of the nominal model, each from a search of its own, of which that one goes on to the robust stages which
         succeeds on most of the models that stay the same. Motions that look alike on one model differ widely on others.
+    success: what is good enough on a perturbed model: criteria of the task's, by their names, with tolerances or bounds of
+        their own; what it does not name is asked of the nominal model alone. None asks for the task's criteria.
     racing: None runs every candidate on every sample. perturb: ranges.
 
     The samples of one generation cover every range evenly (`levade.engines.Perturbation.spread`); they follow from the seed of
@@ -58,6 +62,7 @@ class Robust:
     contender: Literal["best", "mean"] = "best"
     required: float = 1.0
     starts: int = 1
+    success: Mapping[str, Criterion] | None = None
     racing: Racing | None = None
     perturb: Perturbation = Perturbation()
 

@@ -15,6 +15,7 @@ from levade.tasks.validation import (
     check_costs,
     check_durations,
     check_feedback,
+    check_good_enough,
     check_name,
     check_policy,
     check_search,
@@ -59,6 +60,7 @@ class Task:
         check_search(self.search, self.costs)
         check_stages(self.stages, self.costs, self.success, hold=self.hold, hold_steps=self.hold_steps)
         check_starts(self.robust, self.stages)
+        check_good_enough(self.robust, self.success, self.hold)
         check_feedback(self.feedback, self.robust, self.horizon)
 
     def changed(self, change: Change) -> Task:
@@ -70,9 +72,15 @@ class Task:
         return replace(self, search=replace(self.search, changes=changes))
 
     @property
+    def good_enough(self) -> Mapping[str, Criterion]:
+        """Name -> criterion: what a perturbed model has to meet."""
+        return self.success if self.robust is None or self.robust.success is None else self.robust.success
+
+    @property
     def clearance(self) -> float | None:
         """Distance [m] up to which parts of the robot count as near each other; None if no cost or criterion looks at it."""
-        return clearance_of([*(cost.term for cost in self.costs.values()), *self.success.values()])
+        looking = [*(cost.term for cost in self.costs.values()), *self.success.values(), *self.good_enough.values()]
+        return clearance_of(looking)
 
     @property
     def horizon_steps(self) -> int:

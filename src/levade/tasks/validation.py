@@ -113,6 +113,15 @@ def check_starts(robust: Robust | None, stages: Sequence[Stage]) -> None:
         )
 
 
+def check_good_enough(robust: Robust | None, success: Mapping[str, Criterion], hold: float) -> None:
+    """What is good enough on perturbed models are criteria of the task."""
+    for name, criterion in ({} if robust is None else robust.success or {}).items():
+        if name not in success:
+            hint = did_you_mean(name, success) if success else "the task has none"
+            raise LevadeError(f"robust.success.{name}: is no criterion of the task; {hint}")
+        _check_hold(f"robust.success.{name}", criterion, hold)
+
+
 def check_feedback(feedback: Regulation | None, robust: Robust | None, horizon: float | HorizonRange) -> None:
     """Feedback needs something to correct."""
     if feedback is None:

@@ -1,0 +1,166 @@
+"""``levade solve --hardware``: search until a certificate passes, and say what stands in the way if none does."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+
+from levade.checks import Demands
+from levade.cli.checking import changed, verdict_table
+from levade.cli.display import Display
+from levade.cli.inspecting import tell_warnings
+from levade.cli.stopping import stop_between
+from levade.cli.tables import make_console, quantity_unit
+from levade.hardware import Part, Plan, Pursued, binding, discard, obstacles, pursue, read_pursuit
+from levade.robots import load_robot
+from levade.search import Generation, Stopped
+from levade.tasks import HorizonRange, Task, load_task
+
+
+def pursue_and_report(
+    *,
+    task: str | None,
+    robot: str | None,
+    seed: int,
+    changes: list[str],
+    directory: Path | None,
+    resume_from: Path | None,
+    force: bool,
+    minutes: float | None,
+    demand: list[str],
+    threads: int,
+    as_json: bool,
+) -> int:
+    """Exit status 0 if the certificate passes, else 1."""
+    console = make_console(stderr=as_json)
+    demands = changed(Demands(), demand, option="--demand")
+    if resume_from is not None:
+        chosen, seed = read_pursuit(resume_from)
+        place = resume_from
+    else:
+        assert task is not None
+        chosen = load_task(task, robot=robot, changes=changes)
+        place = directory or Path(chosen.name)
+        if force:
+            discard(place)
+    choice = dict(vars(chosen.robot))
+    loaded = load_robot(choice.pop("name"), **choice)
+    tell_warnings(console, loaded, chosen.robot.name)
+    _tell_goal(console, Plan.of(chosen, loaded))
+    with stop_between("generation") as stopping:
+        showing = _Showing(console, quiet=as_json and not console.is_terminal, stopping=stopping)
+        pursued = pursue(
+            chosen,
+            robot=loaded,
+            seed=seed,
+            threads=threads,
+            directory=place,
+            minutes=minutes,
+            demands=demands,
+            observe=showing.observe,
+            begin=showing.begin,
+            tell=showing.tell,
+        )
+    if as_json:
+        print(json.dumps(summary(pursued), ensure_ascii=False), flush=True)
+    else:
+        _tell(console, pursued)
+    return 0 if pursued.passed else 1
+
+
+def summary(pursued: Pursued) -> dict[str, object]:
+    """The object that ``solve --hardware --json`` prints."""
+    motion, certificate = pursued.motion, pursued.certificate
+    return {
+        "task": motion.task_name,
+        "robot": motion.robot,
+        "seed": pursued.seed,
+        "horizon": motion.horizon,
+        "certificate": certificate.to_json(),
+        "obstacles": obstacles(pursued),
+        "trials": pursued.trials,
+        "wall_s": round(sum(part.seconds for part in pursued.parts), 3),
+        "feedback": motion.stabiliser is not None,
+        "searches": [
+            {
+                "name": part.name,
+                "trials": part.trials,
+                "seconds": round(part.seconds, 3),
+                "success": part.motion.result.success,
+                "horizon": part.motion.horizon,
+                "share": part.certificate.perturbed.share,
+                "failed": part.certificate.to_json()["failed"],
+            }
+            for part in pursued.parts
+        ],
+        "stopped": pursued.stopped,
+        "out": str(pursued.directory),
+    }
+
+
+class _Showing:
+    """A display for each search in turn, and a line for each certificate."""
+
+    def __init__(self, console: Console, *, quiet: bool, stopping: Callable[[], bool]) -> None:
+        self._console, self._quiet, self._stopping = console, quiet, stopping
+        self._display: Display | None = None
+
+    def begin(self, name: str, task: Task) -> None:
+        self._display = Display(self._console, task, quiet=self._quiet)
+        self._display.__enter__()
+
+    def observe(self, name: str, generation: Generation) -> Stopped | None:
+        if self._display is not None:
+            self._display.update(generation)
+        return Stopped.INTERRUPTED if self._stopping() else None
+
+    def tell(self, part: Part) -> None:
+        if self._display is not None:
+            self._display.__exit__(None, None, None)
+            self._display = None
+        if self._quiet:
+            return
+        failed = ", ".join(part.certificate.to_json()["failed"])
+        found = f"[green]passes[/]: {part.certificate.perturbed.share:.1%} of perturbed robots" if not failed else ""
+        self._console.print(
+            f"{part.name}: {part.trials} trials, {part.seconds:.0f} s, T = {part.motion.horizon:.3g} s; the certificate "
+            + (found or f"fails {escape(failed)}")
+        )
+
+
+def _tell_goal(console: Console, plan: Plan) -> None:
+    """What is asked for that the task does not say itself."""
+    task = plan.task
+    if not isinstance(task.horizon, HorizonRange):
+        horizon = plan.within_limits().horizon
+        console.print(f"On hardware: T may be {horizon}, within every limit that {escape(plan.robot.name)} has.")
+    for name, (asked, enough) in plan.loosened.items():
+        unit = quantity_unit(asked.quantity)
+        within = f"{enough.tolerance:.3g} {unit}; the task says {asked.tolerance:.3g} {unit}"
+        console.print(f"On hardware {escape(name)} is good enough within {within}.")
+
+
+def _tell(console: Console, pursued: Pursued) -> None:
+    console.print(verdict_table(pursued.certificate))
+    console.print()
+    spent = f"{pursued.trials} trials in {sum(part.seconds for part in pursued.parts):.0f} s"
+    place = escape(str(pursued.directory))
+    if binds := binding(pursued.certificate):
+        console.print(f"{escape(binds)}.")
+    if pursued.motion.stabiliser is not None:
+        console.print(f"A regulator at {pursued.motion.stabiliser['rate']:g} Hz holds the robot to it.")
+    if pursued.passed:
+        unknown = ", ".join(pursued.certificate.unknown)
+        console.print(f"[green]The certificate passes[/]; {spent}.{escape(unknown and f' Unknown: {unknown}.')}")
+    else:
+        console.print(f"[red]The certificate fails[/] after {spent}. In the way:")
+        for text in obstacles(pursued):
+            console.print(f"- {escape(text)}")
+    if pursued.stopped:
+        why = "Interrupted" if pursued.stopped == "interrupted" else "Out of time"
+        console.print(f"[yellow]{why}[/]. To go on: levade solve --resume {place}")
+    console.print(f"Written: {place}/motion.npz, certificate.json, task.yaml, and a run for each search")

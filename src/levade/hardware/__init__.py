@@ -1,0 +1,13 @@
+"""Motions that hardware can do: within every limit, on robots that differ from the model, with a certificate at the end.
+
+pursued = pursue(load_task("rearing"), seed=0, directory=Path("rearing"))
+pursued.passed                  # what the certificate says
+pursued.motion                  # the motion with the best certificate
+obstacles(pursued)              # what it fails, and what would have to give
+"""
+
+from levade.hardware.plan import Plan
+from levade.hardware.pursuit import Part, Pursued, discard, is_pursuit, pursue, read_pursuit
+from levade.hardware.verdict import binding, obstacles
+
+__all__ = ["Part", "Plan", "Pursued", "binding", "discard", "is_pursuit", "obstacles", "pursue", "read_pursuit"]

@@ -1,0 +1,220 @@
+"""From a task to the searches that make of it a motion for hardware: the same goal, with what hardware needs beside it.
+
+    plan = Plan.of(load_task("rearing"), robot)
+    plan.within_limits()            # the nominal model, every limit a criterion, the duration free
+    plan.robust(0.42)               # perturbed models too, at the duration that was found
+    plan.closed_loop(0.42)          # the same with feedback
+
+One plan for all tasks: nothing here knows a task by its name. Costs that state the goal are made anew from the criteria, so
+that all of them count alike: a miss by half of what is allowed costs 1. Costs of effort, and those that are Python code, stay.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from levade.costs import (
+    AngularVelocity,
+    Criterion,
+    LinearVelocity,
+    Margins,
+    Miss,
+    Orientation,
+    Position,
+    Posture,
+    unit_of,
+)
+from levade.engines import Perturbation, engine_kind
+from levade.motions import Motion
+from levade.robots import Dimensions, Robot, dimensions
+from levade.tasks import Cost, HorizonRange, Regulation, Robust, Search, Stage, Task
+
+LONGEST = 2.0
+"""How many times longer a motion may take, at most, than its task says."""
+
+_BEGIN = 1.2
+"""Where the search for a duration begins, in durations that the task says: slower keeps limits more easily."""
+
+ROOM = {"angle_margin": 0.0, "speed_margin": 0.01, "torque_speed_margin": 0.01, "self_distance": 0.0}
+"""Quantity -> what the motion has to leave of the limit on the model [rad, shares, m]: the search stops as soon as it does."""
+
+WANTED = {"angle": 0.05, "speed": 0.1, "torque_speed": 0.1, "self_distance": 0.01}
+"""What the cost of margins wants left: more, since a drive, a joint and a shank are never just those of the model."""
+
+_MARGINS_WEIGHT = 0.02
+_GOALS = (Orientation, Position, Posture, LinearVelocity, AngularVelocity, Miss, Margins)
+"""Terms that the criteria, and the margins, replace."""
+
+_HELD = 0.3
+"""[s] of the hold that candidates are simulated through: who falls over begins to by then. Successes are through all of it."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What to search for, on a task's robot.
+
+    Attributes:
+        task: The task as it was asked for.
+        robot: Its robot.
+        goal: Criterion -> what is good enough on hardware: the task's own, and not tighter than `tolerance`.
+        limits: Criterion -> what has to be left of each kind of limit that the robot has, and what the task asks of them.
+    """
+
+    task: Task
+    robot: Robot
+    goal: Mapping[str, Criterion]
+    limits: Mapping[str, Criterion]
+
+    @classmethod
+    def of(cls, task: Task, robot: Robot) -> Plan:
+        """The plan for a task. What the task itself says is good enough on perturbed models is taken from there."""
+        size = dimensions(robot)
+        goal = {name: _good_enough(one, size) for name, one in task.good_enough.items() if one.quantity not in ROOM}
+        own = {name: one for name, one in task.success.items() if one.quantity in ROOM}
+        return cls(task, robot, goal, {**_limits(robot), **own})
+
+    @property
+    def loosened(self) -> Mapping[str, tuple[Criterion, Criterion]]:
+        """Criterion -> the task's, and what is asked for instead, where these differ."""
+        pairs = {name: (self.task.success[name], one) for name, one in self.goal.items() if name in self.task.success}
+        return {name: pair for name, pair in pairs.items() if pair[0] != pair[1]}
+
+    def within_limits(self) -> Task:
+        """The task on the nominal model, with limits as criteria, and its duration free up to `LONGEST`."""
+        task = self.task
+        horizon = task.horizon
+        if not isinstance(horizon, HorizonRange):
+            horizon = HorizonRange(horizon, LONGEST * horizon, _BEGIN * horizon)
+        return replace(
+            self._demanding(),
+            horizon=horizon,
+            stages=(Stage("within limits", hold=self._held),),
+            search=replace(task.search, trials=6000, restart=2500, polish=240),
+        )
+
+    def robust(self, horizon: float) -> Task:
+        """The task on perturbed models, at one duration [s]: they reach the goal, the nominal model keeps the limits too."""
+        search = self.task.search
+        return replace(
+            self._demanding(),
+            horizon=horizon,
+            stages=(Stage("robust", step=0.3, hold=self._held),),
+            search=Search(
+                optimizer="cma",
+                trials=8000,
+                population=16,
+                step=search.step,
+                smoothness=search.smoothness,
+                modes=search.modes,
+                step_adaptation="csa",
+                polish=1500,
+            ),
+            robust=Robust(
+                samples=3,
+                measure="mean",
+                redraw="generation",
+                validation=40,
+                contender="mean",
+                success=self.goal,
+                perturb=self.perturb,
+            ),
+        )
+
+    def closed_loop(self, horizon: float) -> Task:
+        """The same, with feedback while perturbed models are simulated."""
+        return replace(self.robust(horizon), feedback=Regulation())
+
+    @property
+    def perturb(self) -> Perturbation:
+        """How far robots may differ from the model."""
+        return Perturbation() if self.task.robust is None else self.task.robust.perturb
+
+    def certifiable(self, motion: Motion) -> Motion:
+        """A motion whose task says what is good enough on robots that differ from the model, as those of robust searches do."""
+        if motion.task.robust is not None:
+            return motion
+        task = replace(motion.task, robust=Robust(success=self.goal, perturb=self.perturb))
+        return motion.with_task(task)
+
+    @property
+    def can_close_the_loop(self) -> bool:
+        """Whether the task's engine simulates feedback."""
+        return engine_kind(self.task.physics.engine).feedback
+
+    @property
+    def _held(self) -> bool | float:
+        return min(_HELD, self.task.hold) if self.task.hold else True
+
+    def _demanding(self) -> Task:
+        size = dimensions(self.robot)
+        costs = {name: Cost(_miss(one, size), 1.0) for name, one in self.goal.items()}
+        kept = {name: cost for name, cost in self.task.costs.items() if not isinstance(cost.term, _GOALS)}
+        of = {_OF_MARGINS[one.quantity] for one in self.limits.values()}
+        wanted = {name: WANTED[name] for name in WANTED if name in of}
+        margins = {"margins": Cost(Margins(**wanted), _MARGINS_WEIGHT)}
+        return replace(
+            self.task,
+            costs={**costs, **kept, **margins},
+            success={**self.goal, **self.limits},
+            stages=(Stage(hold=self._held),),
+            robust=None,
+            feedback=None,
+        )
+
+
+_OF_MARGINS = {
+    "angle_margin": "angle",
+    "speed_margin": "speed",
+    "torque_speed_margin": "torque_speed",
+    "self_distance": "self_distance",
+}
+"""Quantity -> the same in `levade.costs.Margins`."""
+
+
+def _limits(robot: Robot) -> dict[str, Criterion]:
+    """A criterion for each kind of limit that the robot has."""
+    limits = robot.limits
+    there = {
+        "angle_margin": bool(np.isfinite([limits.lower, limits.upper]).any()),
+        "speed_margin": bool(np.isfinite(limits.velocity).any()),
+        "torque_speed_margin": limits.stall_torque is not None,
+        "self_distance": True,
+    }
+    return {name: Criterion(name, minimum=ROOM[name], at="min") for name, is_there in there.items() if is_there}  # type: ignore[arg-type]
+
+
+def tolerance(unit: str, size: Dimensions) -> float:
+    """What is good enough on hardware [SI] for a target in a unit: 0.1 rad, a twelfth of the robot's height, 0 of others."""
+    return {"rad": 0.1, "m": size.height / 12}.get(unit, 0.0)
+
+
+def _good_enough(criterion: Criterion, size: Dimensions) -> Criterion:
+    if criterion.tolerance is None:
+        return criterion
+    return replace(criterion, tolerance=max(criterion.tolerance, tolerance(unit_of(criterion.quantity), size)))
+
+
+def _miss(criterion: Criterion, size: Dimensions) -> Miss:
+    """A criterion as a cost, 1 for a miss of half of what is allowed, or at a bound, with nothing farther inside."""
+    same = {"quantity": criterion.quantity, "at": criterion.at, "legs": criterion.legs}
+    if criterion.target is not None:
+        return Miss(target=criterion.target, scale=max(criterion.tolerance or 0.0, 1e-9) / 2, **same)  # type: ignore[arg-type]
+    low, high = criterion.minimum, criterion.maximum
+    fall = size.fall
+    scale = {"rad": 0.05, "m": size.height / 24, "m/s": 0.05 * size.height / fall, "rad/s": 0.1 / fall}.get(
+        unit_of(criterion.quantity), 0.05
+    )
+    if low is not None and high is not None:
+        scale = min(scale, (high - low) / 4)
+    elif high is not None and high > 0:
+        scale = min(scale, high / 2)
+    scale = max(scale, 1e-9)
+    return Miss(
+        minimum=None if low is None else low + scale,
+        maximum=None if high is None else high - scale,
+        scale=scale,
+        **same,  # type: ignore[arg-type]
+    )

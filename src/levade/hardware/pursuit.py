@@ -1,0 +1,305 @@
+"""The pursuit of a motion for hardware: searches one after another, each begun around the last, until a certificate passes.
+
+    pursued = pursue(load_task("rearing"), seed=0, directory=Path("rearing"))
+    pursued.passed, pursued.certificate.verdicts
+    pursued.motion.save("rearing.npz")
+
+DIR/motion.npz          the motion with the best certificate so far
+DIR/certificate.json    its certificate
+DIR/task.yaml           its task, with every default filled in
+DIR/hardware.json       what was asked for: from it, the pursuit goes on where it stopped
+DIR/1-limits, ...       the searches, each a run of its own (`levade.search.run`)
+
+A search that is needed no more is not made: a motion that holds on perturbed robots as it is needs no robust search.
+"""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from levade.checks import Certificate, Demands, check
+from levade.document import read_yaml
+from levade.errors import LevadeError, Remedy
+from levade.hardware.plan import Plan
+from levade.locking import locked
+from levade.motions import Motion
+from levade.robots import Robot, load_robot
+from levade.search import Generation, Stopped, make_objective
+from levade.search.checkpoint import CHECKPOINT
+from levade.search.initial import initial_guess
+from levade.search.run import MOTION, TASK, Outcome, check_replaceable, check_unlocked, read_run, resume, run
+from levade.search.storage import storing
+from levade.tasks import Task, task_from_dict, task_to_dict, task_to_yaml
+from levade.writing import write_text
+
+ASKED, CERTIFICATE = "hardware.json", "certificate.json"
+LIMITS, ROBUST, CLOSED = "1-limits", "2-robust", "3-feedback"
+
+Begin = Callable[[str, Task], object]
+"""Called before each search with its name and its task."""
+
+Observe = Callable[[str, Generation], "Stopped | None"]
+"""Called after each generation with the search's name."""
+
+Tell = Callable[["Part"], object]
+"""Called with each part once it is certified."""
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """One search of a pursuit and what came of it.
+
+    Attributes:
+        name: Its directory.
+        motion: What it found.
+        trials: Roll-outs that it made.
+        certificate: Of its motion.
+        seconds: Duration of the search and of the check.
+    """
+
+    name: str
+    motion: Motion
+    trials: int
+    certificate: Certificate
+    seconds: float
+
+    @property
+    def rank(self) -> tuple[int, float]:
+        """Less is better: what the certificate fails, then the share of perturbed runs that fail."""
+        return len(self.certificate.to_json()["failed"]), -self.certificate.perturbed.share
+
+
+@dataclass(frozen=True, eq=False)
+class Pursued:
+    """What a pursuit came to.
+
+    Attributes:
+        plan: What was searched for.
+        parts: The searches, in order.
+        best: The part with the best certificate.
+        directory: Where everything is.
+        seed: Seed of the pursuit.
+        stopped: Why it ended before its end: "interrupted", "time", or "" if it did not.
+    """
+
+    plan: Plan
+    parts: tuple[Part, ...]
+    best: Part
+    directory: Path
+    seed: int
+    stopped: str
+
+    @property
+    def motion(self) -> Motion:
+        """The motion with the best certificate."""
+        return self.best.motion
+
+    @property
+    def certificate(self) -> Certificate:
+        """Its certificate."""
+        return self.best.certificate
+
+    @property
+    def passed(self) -> bool:
+        """Whether the certificate passes."""
+        return self.certificate.passed
+
+    @property
+    def trials(self) -> int:
+        """Roll-outs of all searches."""
+        return sum(part.trials for part in self.parts)
+
+
+def pursue(
+    task: Task,
+    *,
+    robot: Robot | None = None,
+    seed: int = 0,
+    threads: int = 0,
+    directory: Path,
+    minutes: float | None = None,
+    demands: Demands | None = None,
+    begin: Begin | None = None,
+    observe: Observe | None = None,
+    tell: Tell | None = None,
+) -> Pursued:
+    """Search for a motion that hardware can do, and certify it.
+
+    Args:
+        task: What the motion is to do. Its stages, search settings and costs of the goal are the plan's business.
+        robot: The robot, instead of the one that the task names.
+        seed: Seed of all random numbers.
+        threads: Engine threads; 0 for one per core.
+        directory: Where to write, and to go on: searches that are there already, of the same task and seed, are not made again.
+        minutes: Time for all of it; the searches end with the best so far, and a later call goes on. None gives all the time
+            that their trials take.
+        demands: What the certificate asks for. Defaults to `levade.checks.Demands`.
+        begin: See `Begin`.
+        observe: See `Observe`.
+        tell: See `Tell`.
+
+    Raises:
+        LevadeError: If the task has no criteria or does not fit together, or the directory cannot be written or holds something
+            else.
+    """
+    if not task.success:
+        raise LevadeError(f"hardware: the task {task.name} has no success criteria to certify; give it some")
+    if minutes is not None and not minutes > 0:
+        raise LevadeError(f"{minutes:g} should be a positive number of minutes; 5 is usual", field="minutes")
+    if robot is None:
+        choice: dict[str, Any] = vars(task.robot).copy()
+        robot = load_robot(choice.pop("name"), **choice)
+    asked = {"task": task_to_dict(task), "seed": seed}
+    with storing(directory / ASKED, then=Remedy("give another directory")):
+        directory.mkdir(parents=True, exist_ok=True)
+    with locked(directory, "pursuit"):
+        _check_same(directory, asked)
+        with storing(directory / ASKED, then=Remedy("give another directory")):
+            write_text(directory / ASKED, json.dumps(asked, ensure_ascii=False, indent=1) + "\n")
+        end = None if minutes is None else time.monotonic() + 60 * minutes
+        plan = Plan.of(task, robot)
+        return _Pursuit(plan, seed, threads, directory, end, demands, begin, observe, tell).go()
+
+
+def read_pursuit(directory: Path) -> tuple[Task, int]:
+    """What a pursuit in a directory was asked for: task and seed.
+
+    Raises:
+        LevadeError: If there is none.
+    """
+    content = read_yaml(directory / ASKED)
+    try:
+        return task_from_dict(content["task"], where=str(directory / ASKED)), int(content["seed"])
+    except (KeyError, TypeError, ValueError):
+        raise LevadeError(f"{directory / ASKED}: is not what a pursuit wrote; start again") from None
+
+
+def is_pursuit(directory: Path) -> bool:
+    """Whether a directory holds a pursuit."""
+    return (directory / ASKED).is_file()
+
+
+def discard(directory: Path) -> None:
+    """Forget the searches of an earlier pursuit, so that a new one begins from nothing; what holds none is left alone.
+
+    Raises:
+        LevadeError: If one of them goes on.
+    """
+    if not is_pursuit(directory):
+        return
+    for name in (LIMITS, ROBUST, CLOSED):
+        check_unlocked(directory / name)
+    for name in (LIMITS, ROBUST, CLOSED):
+        (directory / name / CHECKPOINT).unlink(missing_ok=True)
+    (directory / ASKED).unlink()
+
+
+def _check_same(directory: Path, asked: Mapping[str, Any]) -> None:
+    """Raise LevadeError if a directory holds another pursuit, or a run."""
+    if not is_pursuit(directory):
+        check_replaceable(directory)
+        return
+    task, seed = read_pursuit(directory)
+    if {"task": task_to_dict(task), "seed": seed} != asked:
+        raise LevadeError(
+            f"{directory}: holds the pursuit of another task, robot or seed",
+            remedies=(Remedy("write elsewhere", "elsewhere"), Remedy("replace it", "replace")),
+        )
+
+
+class _Pursuit:
+    def __init__(
+        self,
+        plan: Plan,
+        seed: int,
+        threads: int,
+        directory: Path,
+        end: float | None,
+        demands: Demands | None,
+        begin: Begin | None,
+        observe: Observe | None,
+        tell: Tell | None,
+    ) -> None:
+        self._plan, self._seed, self._threads, self._directory = plan, seed, threads, directory
+        self._end, self._demands = end, demands
+        self._begin, self._observe, self._tell = begin, observe, tell
+        self._parts: list[Part] = []
+        self._stopped = ""
+
+    def go(self) -> Pursued:
+        plan = self._plan
+        within = self._search(LIMITS, plan.within_limits(), None)
+        if self._worth_more(within):
+            around = within
+            for name, make in ((ROBUST, plan.robust), (CLOSED, plan.closed_loop)):
+                if name == CLOSED and not plan.can_close_the_loop:
+                    break
+                around = self._search(name, make(around.motion.horizon), around.motion)
+                if not self._worth_more(around):
+                    break
+        return Pursued(plan, tuple(self._parts), self._best, self._directory, self._seed, self._stopped)
+
+    @property
+    def _best(self) -> Part:
+        return min(self._parts, key=lambda part: part.rank)
+
+    def _worth_more(self, part: Part) -> bool:
+        """Whether another search may mend what the certificate fails: not the time, nor limits that the model itself breaks."""
+        motion = part.motion
+        met = not motion.result.diverged and all(motion.meets(name) for name in motion.task.success)
+        return met and not self._stopped and not part.certificate.passed
+
+    def _search(self, name: str, task: Task, around: Motion | None) -> Part:
+        """Make one search, or go on with it, or take what it has come to already; and certify its motion."""
+        began = time.monotonic()
+        outcome = self._run(name, task, around)
+        motion = self._plan.certifiable(outcome.motion)
+        certificate = check(
+            motion, seed=self._seed, perturbation=self._plan.perturb, demands=self._demands, threads=self._threads
+        )
+        part = Part(name, motion, outcome.solution.trials, certificate, time.monotonic() - began)
+        self._parts.append(part)
+        if part is self._best:
+            self._keep(part)
+        if self._tell is not None:
+            self._tell(part)
+        return part
+
+    def _run(self, name: str, task: Task, around: Motion | None) -> Outcome:
+        directory = self._directory / name
+        objective = make_objective(task, robot=self._plan.robot, threads=self._threads)
+        if self._begin is not None:
+            self._begin(name, task)
+        if (directory / CHECKPOINT).is_file():
+            known, checkpoint = read_run(directory)
+            if task_to_dict(known) == task_to_dict(task) and checkpoint.header.seed == self._seed:
+                return resume(directory, objective=objective, observe=lambda one: self._watch(name, one))
+        guess = None if around is None else initial_guess(objective.policy, around)
+        return run(
+            objective,
+            seed=self._seed,
+            directory=directory,
+            initial=guess,
+            observe=lambda one: self._watch(name, one),
+        )
+
+    def _watch(self, name: str, generation: Generation) -> Stopped | None:
+        wish = None if self._observe is None else self._observe(name, generation)
+        if wish is not None:
+            self._stopped = "interrupted"
+        elif self._end is not None and time.monotonic() > self._end and not generation.replayed:
+            self._stopped, wish = "time", Stopped.INTERRUPTED
+        return wish
+
+    def _keep(self, part: Part) -> None:
+        place, room = self._directory, Remedy("make room, then go on", "resume", self._directory)
+        with storing(place, then=room):
+            part.motion.save(place / MOTION)
+            write_text(place / TASK, task_to_yaml(part.motion.task, code=True))
+            content = {"motion": MOTION, **part.certificate.to_json()}
+            write_text(place / CERTIFICATE, json.dumps(content, ensure_ascii=False, indent=1) + "\n")

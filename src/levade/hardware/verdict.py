@@ -1,0 +1,88 @@
+"""What stands between a motion and the hardware, in words: which limit binds, what fails, and what would have to give."""
+
+from __future__ import annotations
+
+from levade.checks import Certificate, Margin
+from levade.hardware.pursuit import LIMITS, Part, Pursued
+from levade.motions import Motion
+
+_SHARES = {"speed": "speed limit", "torque_speed": "torque-speed line", "linkage": "linkage's torque"}
+
+
+def binding(certificate: Certificate) -> str:
+    """Which limit a motion comes nearest to, and by how much it is not there; "" if no limit is known."""
+    left = {
+        name: margin
+        for name, margin in certificate.margins.items()
+        if name in _SHARES and margin.value is not None and margin.required is not None
+    }
+    if not left:
+        return ""
+    name = min(left, key=lambda one: left[one].value or 0.0)
+    margin = left[name]
+    assumed = " (assumed)" if margin.least in margin.unknown else ""
+    return f"{margin.least} comes nearest to a limit: {margin.value:.1%} of its {_SHARES[name]}{assumed} left"
+
+
+def obstacles(pursued: Pursued) -> list[str]:
+    """What the best certificate fails, one line each, with what would have to give."""
+    part = pursued.best
+    failed = set(part.certificate.to_json()["failed"])
+    said = [
+        text
+        for name, margin in part.certificate.margins.items()
+        if name.replace("_", " ") in failed
+        for text in [_of_margin(name, margin, part.motion)]
+    ]
+    missed = [name for name in pursued.plan.goal if not part.motion.meets(name)]
+    if part.name == LIMITS and missed:
+        off = ", ".join(f"{name} {part.motion.result.errors[name]:+.3g}" for name in missed)
+        said.append(f"the goal is missed within the limits ({off}): ask for less, or allow a longer horizon")
+    if "perturbed" in failed and not missed:
+        said.append(_of_perturbed(part))
+    others = [name for name in sorted(failed) if name != "perturbed" and name not in _names(part.certificate)]
+    if others and not missed:
+        said.append(f"it does not succeed with: {', '.join(others)}; its success depends on how contact is computed")
+    return said
+
+
+def _names(certificate: Certificate) -> set[str]:
+    return {name.replace("_", " ") for name in certificate.margins}
+
+
+def _of_margin(name: str, margin: Margin, motion: Motion) -> str:
+    joints, limits = motion.joint_names, motion.embodiment.limits
+    if margin.value is None or margin.least not in joints:
+        if name == "self_collision" and margin.value is not None:
+            return (
+                f"{margin.least} are {1000 * margin.value:.0f} mm in each other: a slower motion, or legs farther apart"
+            )
+        return f"{name.replace('_', ' ')}: {margin.least} {margin.value} {margin.unit}"
+    joint = joints.index(margin.least)
+    if name == "speed":
+        needed = limits.velocity[joint] * (1 - margin.value)
+        return (
+            f"{margin.least} reaches {1 - margin.value:.2f} of its speed limit: a joint of {needed:.3g} rad/s would do, or a"
+            " slower motion, or a goal that asks for less"
+        )
+    if name == "torque_speed":
+        return (
+            f"{margin.least} is beyond its torque-speed line by {-margin.value:.0%} of the stall torque: a stronger joint, a"
+            " slower motion, or a goal that asks for less"
+        )
+    if name == "position":
+        return (
+            f"{margin.least} is {-margin.value:.3g} rad beyond its range: a wider range, or a goal that asks for less"
+        )
+    return f"{margin.least} is beyond its {name.replace('_', ' ')} limit by {-margin.value:.0%}: a stronger joint"
+
+
+def _of_perturbed(part: Part) -> str:
+    found = part.certificate.perturbed
+    worst = max(found.errors, key=lambda name: found.errors[name]["missed"], default="")
+    breaks = found.sensitivity[0].parameter if found.sensitivity else ""
+    wanted = part.certificate.demands.share or 0.0
+    return (
+        f"it succeeds on {found.share:.1%} of perturbed robots, and {wanted:.0%} are asked for: {worst} is missed most"
+        f"{breaks and f', {breaks} matters most'}; a wider tolerance of {worst}, or a robot that is known better"
+    )
