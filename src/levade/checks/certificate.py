@@ -43,6 +43,11 @@ class Certificate:
         return not self.interrupted and all(verdict.passed is not False for verdict in self.verdicts)
 
     @property
+    def failed(self) -> tuple[str, ...]:
+        """Names of the criteria that are not met."""
+        return tuple(verdict.name for verdict in self.verdicts if verdict.passed is False)
+
+    @property
     def unknown(self) -> tuple[str, ...]:
         """Names of the criteria that cannot be judged: the robot's limit is not known, or only assumed."""
         return tuple(verdict.name for verdict in self.verdicts if verdict.unknown)
@@ -54,7 +59,7 @@ class Certificate:
             "task": self.task,
             "robot": self.robot,
             "criteria": self.criteria,
-            "failed": [verdict.name for verdict in self.verdicts if verdict.passed is False],
+            "failed": list(self.failed),
             "unknown": list(self.unknown),
             "perturbed": self.perturbed.to_json(),
             "open_loop": None if self.open_loop is None else self.open_loop.to_json(),

@@ -115,7 +115,7 @@ def _tell(console: Console, path: Path, certificate: Certificate, runs: int) -> 
     console.print(_errors(certificate.perturbed))
     console.print()
     console.print(_sensitivity(certificate.perturbed))
-    failed = [verdict.name for verdict in certificate.verdicts if verdict.passed is False]
+    failed = certificate.failed
     console.print()
     if certificate.interrupted:
         console.print(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 from rich.console import Console
@@ -17,7 +16,7 @@ from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console, quantity_unit
 from levade.hardware import Part, Plan, Pursued, binding, discard, obstacles, pursue, read_pursuit
 from levade.robots import load_robot
-from levade.search import Generation, Stopped
+from levade.search import Generation
 from levade.tasks import HorizonRange, Task, load_task
 
 
@@ -52,7 +51,7 @@ def pursue_and_report(
     tell_warnings(console, loaded, chosen.robot.name)
     _tell_goal(console, Plan.of(chosen, loaded))
     with stop_between("generation") as stopping:
-        showing = _Showing(console, quiet=as_json and not console.is_terminal, stopping=stopping)
+        showing = _Showing(console, quiet=as_json and not console.is_terminal)
         pursued = pursue(
             chosen,
             robot=loaded,
@@ -64,6 +63,7 @@ def pursue_and_report(
             observe=showing.observe,
             begin=showing.begin,
             tell=showing.tell,
+            stopping=stopping,
         )
     if as_json:
         print(json.dumps(summary(pursued), ensure_ascii=False), flush=True)
@@ -93,7 +93,7 @@ def summary(pursued: Pursued) -> dict[str, object]:
                 "success": part.motion.result.success,
                 "horizon": part.motion.horizon,
                 "share": part.certificate.perturbed.share,
-                "failed": part.certificate.to_json()["failed"],
+                "failed": list(part.certificate.failed),
             }
             for part in pursued.parts
         ],
@@ -105,18 +105,17 @@ def summary(pursued: Pursued) -> dict[str, object]:
 class _Showing:
     """A display for each search in turn, and a line for each certificate."""
 
-    def __init__(self, console: Console, *, quiet: bool, stopping: Callable[[], bool]) -> None:
-        self._console, self._quiet, self._stopping = console, quiet, stopping
+    def __init__(self, console: Console, *, quiet: bool) -> None:
+        self._console, self._quiet = console, quiet
         self._display: Display | None = None
 
     def begin(self, name: str, task: Task) -> None:
         self._display = Display(self._console, task, quiet=self._quiet)
         self._display.__enter__()
 
-    def observe(self, name: str, generation: Generation) -> Stopped | None:
+    def observe(self, name: str, generation: Generation) -> None:
         if self._display is not None:
             self._display.update(generation)
-        return Stopped.INTERRUPTED if self._stopping() else None
 
     def tell(self, part: Part) -> None:
         if self._display is not None:
@@ -124,7 +123,7 @@ class _Showing:
             self._display = None
         if self._quiet:
             return
-        failed = ", ".join(part.certificate.to_json()["failed"])
+        failed = ", ".join(part.certificate.failed)
         found = f"[green]passes[/]: {part.certificate.perturbed.share:.1%} of perturbed robots" if not failed else ""
         self._console.print(
             f"{part.name}: {part.trials} trials, {part.seconds:.0f} s, T = {part.motion.horizon:.3g} s; the certificate "

@@ -8,9 +8,11 @@ DIR/motion.npz          the motion with the best certificate so far
 DIR/certificate.json    its certificate
 DIR/task.yaml           its task, with every default filled in
 DIR/hardware.json       what was asked for: from it, the pursuit goes on where it stopped
-DIR/1-limits, ...       the searches, each a run of its own (`levade.search.run`)
+DIR/limits-1, ...       the searches, each a run of its own (`levade.search.run`)
 
-A search that is needed no more is not made: a motion that holds on perturbed robots as it is needs no robust search.
+First motions of the nominal model within its limits, several, since motions that look alike there differ widely on other
+robots; around the one that holds on most of these a robust search, and around what that finds one with feedback. A search that
+is needed no more is not made.
 """
 
 from __future__ import annotations
@@ -38,7 +40,13 @@ from levade.tasks import Task, task_from_dict, task_to_dict, task_to_yaml
 from levade.writing import write_text
 
 ASKED, CERTIFICATE = "hardware.json", "certificate.json"
-LIMITS, ROBUST, CLOSED = "1-limits", "2-robust", "3-feedback"
+LIMITS, ROBUST, CLOSED = ("limits-1", "limits-2", "limits-3"), "robust", "feedback"
+
+_ON_LIMITS = 0.4
+"""Share of the time after which no further search within limits is begun."""
+
+_APART = 1000
+"""Between the seeds of searches that differ in nothing else."""
 
 Begin = Callable[[str, Task], object]
 """Called before each search with its name and its task."""
@@ -69,9 +77,16 @@ class Part:
     seconds: float
 
     @property
-    def rank(self) -> tuple[int, float]:
-        """Less is better: what the certificate fails, then the share of perturbed runs that fail."""
-        return len(self.certificate.to_json()["failed"]), -self.certificate.perturbed.share
+    def met(self) -> bool:
+        """Whether the model does what was searched for: the goal, within the limits."""
+        motion = self.motion
+        return not motion.result.diverged and all(motion.meets(name) for name in motion.task.success)
+
+    @property
+    def rank(self) -> tuple[bool, int, float]:
+        """Less is better: a whole certificate first, then what it fails, then the share of perturbed runs that fail."""
+        certificate = self.certificate
+        return certificate.interrupted, len(certificate.failed), -certificate.perturbed.share
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,6 +142,7 @@ def pursue(
     begin: Begin | None = None,
     observe: Observe | None = None,
     tell: Tell | None = None,
+    stopping: Callable[[], bool] = lambda: False,
 ) -> Pursued:
     """Search for a motion that hardware can do, and certify it.
 
@@ -142,6 +158,7 @@ def pursue(
         begin: See `Begin`.
         observe: See `Observe`.
         tell: See `Tell`.
+        stopping: Asked on the way; once it says so, searches and checks end with what there is.
 
     Raises:
         LevadeError: If the task has no criteria or does not fit together, or the directory cannot be written or holds something
@@ -157,13 +174,13 @@ def pursue(
     asked = {"task": task_to_dict(task), "seed": seed}
     with storing(directory / ASKED, then=Remedy("give another directory")):
         directory.mkdir(parents=True, exist_ok=True)
+    _check_same(directory, asked)
     with locked(directory, "pursuit"):
-        _check_same(directory, asked)
         with storing(directory / ASKED, then=Remedy("give another directory")):
             write_text(directory / ASKED, json.dumps(asked, ensure_ascii=False, indent=1) + "\n")
         end = None if minutes is None else time.monotonic() + 60 * minutes
         plan = Plan.of(task, robot)
-        return _Pursuit(plan, seed, threads, directory, end, demands, begin, observe, tell).go()
+        return _Pursuit(plan, seed, threads, directory, end, demands, begin, observe, tell, stopping).go()
 
 
 def read_pursuit(directory: Path) -> tuple[Task, int]:
@@ -192,9 +209,10 @@ def discard(directory: Path) -> None:
     """
     if not is_pursuit(directory):
         return
-    for name in (LIMITS, ROBUST, CLOSED):
+    searches = (*LIMITS, ROBUST, CLOSED)
+    for name in searches:
         check_unlocked(directory / name)
-    for name in (LIMITS, ROBUST, CLOSED):
+    for name in searches:
         (directory / name / CHECKPOINT).unlink(missing_ok=True)
     (directory / ASKED).unlink()
 
@@ -224,44 +242,57 @@ class _Pursuit:
         begin: Begin | None,
         observe: Observe | None,
         tell: Tell | None,
+        stopping: Callable[[], bool],
     ) -> None:
         self._plan, self._seed, self._threads, self._directory = plan, seed, threads, directory
         self._end, self._demands = end, demands
-        self._begin, self._observe, self._tell = begin, observe, tell
+        self._begin, self._observe, self._tell, self._stopping = begin, observe, tell, stopping
+        self._began = time.monotonic()
         self._parts: list[Part] = []
         self._stopped = ""
 
     def go(self) -> Pursued:
-        plan = self._plan
-        within = self._search(LIMITS, plan.within_limits(), None)
-        if self._worth_more(within):
-            around = within
+        plan, task = self._plan, self._plan.within_limits()
+        for number, name in enumerate(LIMITS):
+            part = self._search(name, task, None, seed=self._seed + _APART * number)
+            if self._stopped or part.certificate.passed or self._late(_ON_LIMITS):
+                break
+        met = [part for part in self._parts if part.met]
+        if met and not self._stopped and not self._best.certificate.passed:
+            around = max(met, key=lambda part: part.certificate.perturbed.share)
             for name, make in ((ROBUST, plan.robust), (CLOSED, plan.closed_loop)):
                 if name == CLOSED and not plan.can_close_the_loop:
                     break
-                around = self._search(name, make(around.motion.horizon), around.motion)
-                if not self._worth_more(around):
+                around = self._search(name, make(around.motion.horizon), around.motion, seed=self._seed)
+                if self._stopped or around.certificate.passed or not around.met:
                     break
         return Pursued(plan, tuple(self._parts), self._best, self._directory, self._seed, self._stopped)
+
+    def _late(self, share: float) -> bool:
+        """Whether a share of the time is over."""
+        if self._end is None:
+            return False
+        return time.monotonic() > self._began + share * (self._end - self._began)
 
     @property
     def _best(self) -> Part:
         return min(self._parts, key=lambda part: part.rank)
 
-    def _worth_more(self, part: Part) -> bool:
-        """Whether another search may mend what the certificate fails: not the time, nor limits that the model itself breaks."""
-        motion = part.motion
-        met = not motion.result.diverged and all(motion.meets(name) for name in motion.task.success)
-        return met and not self._stopped and not part.certificate.passed
-
-    def _search(self, name: str, task: Task, around: Motion | None) -> Part:
+    def _search(self, name: str, task: Task, around: Motion | None, *, seed: int) -> Part:
         """Make one search, or go on with it, or take what it has come to already; and certify its motion."""
         began = time.monotonic()
-        outcome = self._run(name, task, around)
+        outcome = self._run(name, task, around, seed)
         motion = self._plan.certifiable(outcome.motion)
         certificate = check(
-            motion, seed=self._seed, perturbation=self._plan.perturb, demands=self._demands, threads=self._threads
+            motion,
+            seed=self._seed,
+            perturbation=self._plan.perturb,
+            demands=self._demands,
+            threads=self._threads,
+            stopping=self._stopping,
         )
+        if certificate.interrupted:
+            self._stopped = "interrupted"
         part = Part(name, motion, outcome.solution.trials, certificate, time.monotonic() - began)
         self._parts.append(part)
         if part is self._best:
@@ -270,19 +301,19 @@ class _Pursuit:
             self._tell(part)
         return part
 
-    def _run(self, name: str, task: Task, around: Motion | None) -> Outcome:
+    def _run(self, name: str, task: Task, around: Motion | None, seed: int) -> Outcome:
         directory = self._directory / name
         objective = make_objective(task, robot=self._plan.robot, threads=self._threads)
         if self._begin is not None:
             self._begin(name, task)
         if (directory / CHECKPOINT).is_file():
             known, checkpoint = read_run(directory)
-            if task_to_dict(known) == task_to_dict(task) and checkpoint.header.seed == self._seed:
+            if task_to_dict(known) == task_to_dict(task) and checkpoint.header.seed == seed:
                 return resume(directory, objective=objective, observe=lambda one: self._watch(name, one))
         guess = None if around is None else initial_guess(objective.policy, around)
         return run(
             objective,
-            seed=self._seed,
+            seed=seed,
             directory=directory,
             initial=guess,
             observe=lambda one: self._watch(name, one),
@@ -290,6 +321,7 @@ class _Pursuit:
 
     def _watch(self, name: str, generation: Generation) -> Stopped | None:
         wish = None if self._observe is None else self._observe(name, generation)
+        wish = wish or (Stopped.INTERRUPTED if self._stopping() else None)
         if wish is not None:
             self._stopped = "interrupted"
         elif self._end is not None and time.monotonic() > self._end and not generation.replayed:

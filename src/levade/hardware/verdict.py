@@ -27,7 +27,7 @@ def binding(certificate: Certificate) -> str:
 def obstacles(pursued: Pursued) -> list[str]:
     """What the best certificate fails, one line each, with what would have to give."""
     part = pursued.best
-    failed = set(part.certificate.to_json()["failed"])
+    failed = set(part.certificate.failed)
     said = [
         text
         for name, margin in part.certificate.margins.items()
@@ -35,7 +35,7 @@ def obstacles(pursued: Pursued) -> list[str]:
         for text in [_of_margin(name, margin, part.motion)]
     ]
     missed = [name for name in pursued.plan.goal if not part.motion.meets(name)]
-    if part.name == LIMITS and missed:
+    if part.name in LIMITS and missed:
         off = ", ".join(f"{name} {part.motion.result.errors[name]:+.3g}" for name in missed)
         said.append(f"the goal is missed within the limits ({off}): ask for less, or allow a longer horizon")
     if "perturbed" in failed and not missed:

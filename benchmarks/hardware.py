@@ -1,0 +1,135 @@
+"""What `levade solve --hardware` reaches, and what the nominal and the robust tasks reach by the same certificate.
+
+    python benchmarks/hardware.py run --tasks rearing squat-jump --robots hyq2max --seeds 0 --arms nominal hardware
+    python benchmarks/hardware.py table
+
+A row is written as soon as it is there, to results/hardware.jsonl, and one that is there is not run again. The certificate's
+perturbed runs have a seed that no search has.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import tempfile
+import time
+from pathlib import Path
+from typing import Any
+
+from levade.checks import Certificate, check
+from levade.errors import LevadeError
+from levade.hardware import binding, obstacles, pursue
+from levade.motions import Motion
+from levade.search import make_objective, solve
+from levade.search.recording import record
+from levade.tasks import builtin_tasks, load_task
+
+RESULTS = Path(__file__).resolve().parent / "results" / "hardware.jsonl"
+TASKS = (
+    *(
+        "rearing",
+        "rearing-slow",
+        "posture-recovery",
+        "posture-recovery-slow",
+        "sit-to-stand",
+        "squat-jump",
+        "handstand",
+    ),
+    *("mount", "leap", "side-recovery", "self-righting", "rear-and-land"),
+)
+CHECK_SEED = 100
+ARMS = ("nominal", "robust", "hardware")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(dest="command", required=True)
+    running = commands.add_parser("run")
+    running.add_argument("--tasks", nargs="+", default=TASKS)
+    running.add_argument("--robots", nargs="+", default=["hyq2max"])
+    running.add_argument("--seeds", nargs="+", type=int, default=[0])
+    running.add_argument("--arms", nargs="+", choices=ARMS, default=ARMS)
+    running.add_argument("--minutes", type=float, default=5.0)
+    running.add_argument("--threads", type=int, default=0)
+    running.add_argument("--out", type=Path, default=RESULTS)
+    table = commands.add_parser("table")
+    table.add_argument("results", nargs="*", type=Path, default=[RESULTS])
+    options = parser.parse_args()
+    if options.command == "table":
+        print(as_table(rows_in(options.results)))
+        return
+    there = {(row["arm"], row["task"], row["robot"], row["seed"]) for row in rows_in([options.out])}
+    for robot in options.robots:
+        for task in options.tasks:
+            for seed in options.seeds:
+                for arm in options.arms:
+                    known = arm != "robust" or f"{task}-robust" in builtin_tasks()
+                    if known and (arm, task, robot, seed) not in there:
+                        row = row_of(arm, task, robot, seed, options)
+                        with options.out.open("a") as file:
+                            file.write(json.dumps(row) + "\n")
+
+
+def row_of(arm: str, task: str, robot: str, seed: int, options: argparse.Namespace) -> dict[str, Any]:
+    """One search, or pursuit, and its certificate."""
+    row: dict[str, Any] = {"arm": arm, "task": task, "robot": robot, "seed": seed, "threads": options.threads}
+    began, cpu = time.perf_counter(), time.process_time()
+    try:
+        made = load_task(f"{task}-robust" if arm == "robust" else task, robot=robot)
+        if arm == "hardware":
+            with tempfile.TemporaryDirectory() as folder:
+                place = Path(folder) / "run"
+                found = pursue(made, seed=seed, threads=options.threads, directory=place, minutes=options.minutes)
+            motion, trials = found.motion, found.trials
+            row |= {"minutes": options.minutes, "stopped": found.stopped, "obstacles": obstacles(found)}
+            row["searches"] = [[part.name, part.trials, part.certificate.perturbed.share] for part in found.parts]
+        else:
+            objective = make_objective(made, threads=options.threads)
+            solution = solve(objective, seed=seed)
+            motion, trials = record(objective, solution, seed=seed), solution.trials
+    except LevadeError as error:
+        return {**row, "refused": str(error)}
+    row |= {"seconds": time.perf_counter() - began, "cpu": time.process_time() - cpu, "trials": trials}
+    return {**row, **facts(motion, check(motion, seed=CHECK_SEED, threads=options.threads))}
+
+
+def facts(motion: Motion, certificate: Certificate) -> dict[str, Any]:
+    """What a row says of a motion."""
+    content = certificate.to_json()
+    return {
+        "solved": motion.result.success,
+        "horizon": motion.horizon,
+        "feedback": motion.stabiliser is not None,
+        "passed": certificate.passed,
+        "failed": content["failed"],
+        "unknown": content["unknown"],
+        "share": certificate.perturbed.share,
+        "binding": binding(certificate),
+        "margins": {name: one.value for name, one in certificate.margins.items()},
+    }
+
+
+def rows_in(files: list[Path]) -> list[dict[str, Any]]:
+    """The rows of all files that are there."""
+    return [json.loads(line) for file in files if file.exists() for line in file.read_text().splitlines()]
+
+
+def as_table(rows: list[dict[str, Any]]) -> str:
+    """Markdown: a line for each task and robot, certificates of the arms beside one another."""
+    lines = [
+        "| task | robot | seed | arm | certificate | holds on | T [s] | trials | CPU [s] | nearest limit |",
+        "|---|---|--:|---|---|--:|--:|--:|--:|---|",
+    ]
+    for row in sorted(rows, key=lambda row: (row["robot"], row["task"], row["seed"], ARMS.index(row["arm"]))):
+        lead = f"| {row['task']} | {row['robot'].split(':')[-1]} | {row['seed']} | {row['arm']} |"
+        if "refused" in row:
+            lines.append(f"{lead} refused | | | | | {row['refused'].split(':', 1)[-1].strip()} |")
+            continue
+        verdict = "**passes**" if row["passed"] else "fails " + ", ".join(row["failed"])
+        numbers = f"{row['share']:.1%} | {row['horizon']:.2f} | {row['trials']} | {row['cpu']:.0f}"
+        lines.append(f"{lead} {verdict}{' (feedback)' * row['feedback']} | {numbers} | {row['binding']} |")
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    main()
