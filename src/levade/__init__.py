@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 from levade.version import __version__
 
 if TYPE_CHECKING:
-    from levade.api import Result, check, export, load_robot, show, solve, solve_many, stabilise
+    from levade.api import Result, check, export, load_robot, pursue, show, solve, solve_many, stabilise
     from levade.costs import Criterion, Measure
     from levade.errors import LevadeError
     from levade.motions import Motion
@@ -38,6 +38,7 @@ _HOMES = {
     "export": "levade.api",
     "load_robot": "levade.api",
     "load_task": "levade.tasks",
+    "pursue": "levade.api",
     "show": "levade.api",
     "solve": "levade.api",
     "solve_many": "levade.api",
@@ -58,6 +59,7 @@ __all__ = [
     "export",
     "load_robot",
     "load_task",
+    "pursue",
     "show",
     "solve",
     "solve_many",

@@ -38,8 +38,9 @@ from levade.search.run import run
 from levade.tasks import Task, load_task
 
 if TYPE_CHECKING:
-    from levade.checks import Certificate
+    from levade.checks import Certificate, Demands
     from levade.exports import Exported
+    from levade.hardware import Pursued
     from levade.optimizers import Choice
     from levade.policies import JointPolicy
     from levade.stabilisers import Stabilised
@@ -195,6 +196,50 @@ def solve_many(
     ]
 
 
+def pursue(
+    task: str | Path | Task,
+    *,
+    seed: int = 0,
+    robot: RobotLike | None = None,
+    out: str | Path | None = None,
+    minutes: float | None = None,
+    demands: Demands | None = None,
+    threads: int = 0,
+) -> Pursued:
+    """Search for a motion that hardware can do, until a certificate passes: ``levade solve --hardware``.
+
+    Args:
+        task: A built-in task's name, the path of a task file, or a `Task`.
+        seed: Seed of all random numbers.
+        robot: Another robot than the task's.
+        out: Directory in which to keep the searches, the motion and its certificate; what it holds already is gone on with.
+            None keeps nothing.
+        minutes: Time for all searches. None gives them all the trials that they may take.
+        demands: What the certificate asks for. Defaults to `levade.checks.Demands`.
+        threads: Engine threads; 0 for one per core.
+
+    Returns:
+        The motion with the best certificate, that certificate, and whether it passes: ``motion``, ``certificate``, ``passed``.
+
+    Raises:
+        LevadeError: If something does not fit together, or ``out`` cannot be written.
+    """
+    from levade.hardware import pursue as pursued
+
+    made = None if robot is None else load_robot(robot)
+    task = _task(task, made)
+    with tempfile.TemporaryDirectory(prefix="levade-") as folder:
+        return pursued(
+            task,
+            robot=made,
+            seed=seed,
+            threads=threads,
+            directory=Path(folder) / "pursuit" if out is None else Path(out),
+            minutes=minutes,
+            demands=demands,
+        )
+
+
 def check(motion: Motion | str | Path, **options: Any) -> Certificate:
     """Check whether a motion can be trusted: perturbed robots, numerics, other engines, hardware limits.
 
@@ -280,11 +325,7 @@ def _objective(
 ) -> Objective:
     """Put a task together with what was given instead of its own."""
     made = None if robot is None else load_robot(robot)
-    if not isinstance(task, Task):
-        task = load_task(task, robot=made)
-    if made is not None:
-        source = made.source or made.name
-        task = replace(task, robot=replace(task.robot, name=source, actuation=None, variant=made.variant))
+    task = _task(task, made)
     changes: dict[str, Any] = {} if trials is None else {"trials": trials}
     if optimizer is not None:
         changes |= {"optimizer": optimizer, "settings": {}}
@@ -297,6 +338,16 @@ def _objective(
     if engine is not None:
         task = replace(task, physics=replace(task.physics, engine=_engine_name(engine)))
     return make_objective(task, robot=made, policy=policy, threads=threads)
+
+
+def _task(task: str | Path | Task, robot: Robot | None) -> Task:
+    """The task, of another robot if one is given."""
+    if not isinstance(task, Task):
+        task = load_task(task, robot=robot)
+    if robot is None:
+        return task
+    source = robot.source or robot.name
+    return replace(task, robot=replace(task.robot, name=source, actuation=None, variant=robot.variant))
 
 
 def _engine_name(engine: str | EngineKind) -> str:
@@ -320,6 +371,7 @@ __all__: Iterable[str] = (
     "check",
     "export",
     "load_robot",
+    "pursue",
     "show",
     "solve",
     "solve_many",

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -166,7 +167,7 @@ class Plan:
         costs = {name: Cost(_miss(one, size), 1.0) for name, one in self.goal.items()}
         kept = {name: cost for name, cost in self.task.costs.items() if not isinstance(cost.term, _GOALS)}
         of = {_OF_MARGINS[one.quantity] for one in self.limits.values()}
-        wanted = {name: WANTED[name] for name in WANTED if name in of}
+        wanted: dict[str, Any] = {name: WANTED[name] for name in WANTED if name in of}
         margins = {"margins": Cost(Margins(**wanted), _MARGINS_WEIGHT)}
         return replace(
             self.task,

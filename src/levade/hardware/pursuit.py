@@ -171,7 +171,7 @@ def pursue(
     if robot is None:
         choice: dict[str, Any] = vars(task.robot).copy()
         robot = load_robot(choice.pop("name"), **choice)
-    asked = {"task": task_to_dict(task), "seed": seed}
+    asked = {"task": task_to_dict(task, code=True), "seed": seed}
     with storing(directory / ASKED, then=Remedy("give another directory")):
         directory.mkdir(parents=True, exist_ok=True)
     _check_same(directory, asked)
@@ -222,8 +222,7 @@ def _check_same(directory: Path, asked: Mapping[str, Any]) -> None:
     if not is_pursuit(directory):
         check_replaceable(directory)
         return
-    task, seed = read_pursuit(directory)
-    if {"task": task_to_dict(task), "seed": seed} != asked:
+    if read_yaml(directory / ASKED) != asked:
         raise LevadeError(
             f"{directory}: holds the pursuit of another task, robot or seed",
             remedies=(Remedy("write elsewhere", "elsewhere"), Remedy("replace it", "replace")),
@@ -308,7 +307,7 @@ class _Pursuit:
             self._begin(name, task)
         if (directory / CHECKPOINT).is_file():
             known, checkpoint = read_run(directory)
-            if task_to_dict(known) == task_to_dict(task) and checkpoint.header.seed == seed:
+            if task_to_dict(known, code=True) == task_to_dict(task, code=True) and checkpoint.header.seed == seed:
                 return resume(directory, objective=objective, observe=lambda one: self._watch(name, one))
         guess = None if around is None else initial_guess(objective.policy, around)
         return run(

@@ -163,7 +163,7 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
     content = dict(content)
     if isinstance(content.get("success"), Mapping):
         content["success"] = _with_quantities(content["success"], where)
-        content["robust"] = _good_enough(content.get("robust"), content["success"])
+        content["robust"] = _good_enough(content.get("robust"), content["success"], where)
     costs = content.get("costs")
     if isinstance(costs, Mapping):
         content["costs"] = {
@@ -223,10 +223,14 @@ def _with_quantities(success: Mapping[str, Any], where: str) -> dict[str, Any]:
     return named
 
 
-def _good_enough(robust: Any, success: Mapping[str, Any]) -> Any:
+def _good_enough(robust: Any, success: Mapping[str, Any], where: str) -> Any:
     """What robust asks for, its criteria filled up from those of the task: ``{pitch: {tolerance: 0.1}}`` is enough."""
     if not (isinstance(robust, Mapping) and isinstance(robust.get("success"), Mapping)):
         return robust
+    for name in robust["success"]:
+        if name not in success:
+            hint = did_you_mean(str(name), success) if success else "the task has none"
+            raise LevadeError(f"{where}.robust.success.{name}: is no criterion of the task; {hint}")
     filled = {
         name: {**success[name], **value}
         if isinstance(value, Mapping) and isinstance(success.get(name), Mapping)

@@ -1,0 +1,112 @@
+"""The plan for hardware: the same goal for any task and robot, limits beside it, costs that all count alike."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from levade.costs import Criterion, Effort, Margins, Miss
+from levade.hardware import Plan
+from levade.hardware.plan import _miss, tolerance
+from levade.robots import Dimensions, Robot, dimensions, load_robot
+from levade.tasks import Cost, HorizonRange, builtin_tasks, load_task
+
+NOMINAL = [name for name in builtin_tasks() if load_task(name).robust is None]
+
+
+@pytest.fixture(scope="module")
+def robot() -> Robot:
+    return load_robot("hyq2max")
+
+
+@pytest.mark.parametrize("name", NOMINAL)
+def test_every_nominal_task_has_one(name: str, robot: Robot) -> None:
+    task = load_task(name)
+    plan = Plan.of(task, robot)
+    within, robust = plan.within_limits(), plan.robust(0.5)
+    for made in (within, robust, plan.closed_loop(0.5)):
+        assert (made.robot, made.scene, made.start, made.hold) == (task.robot, task.scene, task.start, task.hold)
+        assert set(made.success) == {*task.success, *plan.limits}
+        for key, criterion in task.success.items():
+            one = made.success[key]
+            assert (one.quantity, one.target, one.minimum, one.at) == (
+                *(criterion.quantity, criterion.target, criterion.minimum, criterion.at),
+            )
+            assert (one.tolerance or 0.0) >= (criterion.tolerance or 0.0)
+    assert set(plan.limits) == {"angle_margin", "speed_margin", "torque_speed_margin", "self_distance"}
+    assert robust.horizon == 0.5
+    assert robust.robust is not None
+    assert robust.robust.success == plan.goal
+    assert isinstance(within.horizon, HorizonRange)
+    if not isinstance(task.horizon, HorizonRange):
+        assert within.horizon.minimum == task.horizon
+
+
+def test_what_is_tighter_than_hardware_needs_is_loosened_and_told(robot: Robot) -> None:
+    plan = Plan.of(load_task("rearing"), robot)
+    assert set(plan.loosened) == {"pitch", "height"}
+    asked, enough = plan.loosened["pitch"]
+    assert (asked.tolerance, enough.tolerance) == (0.006, 0.1)
+    assert plan.goal["height"].tolerance == pytest.approx(dimensions(robot).height / 12)
+    assert Plan.of(load_task("squat-jump"), robot).loosened == {}
+
+
+def test_what_the_task_says_of_perturbed_models_counts(robot: Robot) -> None:
+    changes = ["robust={samples: 4, success: {pitch: {tolerance: 0.2}}}"]
+    plan = Plan.of(load_task("rearing", changes=changes), robot)
+    assert {name: one.tolerance for name, one in plan.goal.items()} == {"pitch": 0.2}
+
+
+def test_a_robot_without_speed_limits_or_lines_is_asked_for_neither(robot: Robot) -> None:
+    limits = replace(robot.limits, velocity=np.full(12, np.inf), stall_torque=None, no_load_speed=None)
+    plan = Plan.of(load_task("rearing"), replace(robot, limits=limits))
+    assert set(plan.limits) == {"angle_margin", "self_distance"}
+    (margins,) = (cost.term for cost in plan.within_limits().costs.values() if isinstance(cost.term, Margins))
+    assert (margins.speed, margins.torque_speed) == (None, None)
+
+
+def test_a_limit_of_the_task_s_own_stays(robot: Robot) -> None:
+    task = load_task("rearing", changes=["success.gap={quantity: self_distance, minimum: 0.02, at: min}"])
+    plan = Plan.of(task, robot)
+    assert plan.limits["gap"].minimum == 0.02
+    assert "gap" not in plan.goal
+
+
+def test_costs_of_effort_stay_and_code_too(robot: Robot) -> None:
+    task = load_task("rearing")
+    task = replace(task, costs={**task.costs, "mine": Cost(lambda trajectories: np.zeros(trajectories.n), 3.0)})
+    costs = Plan.of(task, robot).within_limits().costs
+    assert costs["mine"] is task.costs["mine"]
+    assert isinstance(costs["effort"].term, Effort)
+    assert isinstance(costs["pitch"].term, Miss)
+    assert "orientation" not in costs
+
+
+SIZE = Dimensions(height=0.6, leg=0.7, trunk=0.8)
+
+
+@pytest.mark.parametrize(
+    ("criterion", "values"),
+    [
+        (Criterion("pitch", target=-1.0, tolerance=0.1), {-1.0: 0.0, -0.95: 1.0, -1.1: 4.0}),
+        (Criterion("height", minimum=0.5), {0.5: 1.0, 0.525: 0.0, 0.6: 0.0, 0.475: 4.0}),
+        (Criterion("tilt", maximum=0.2), {0.2: 1.0, 0.15: 0.0, 0.0: 0.0, 0.25: 4.0}),
+        (Criterion("pitch", minimum=-1.1, maximum=-1.0), {-1.05: 0.0, -1.1: 1.0, -1.0: 1.0}),
+    ],
+)
+def test_a_bound_costs_1_and_so_does_half_a_tolerance(criterion: Criterion, values: dict[float, float]) -> None:
+    """By hand: squared distance from what costs nothing, over the scale."""
+    miss = _miss(criterion, SIZE)
+    for value, cost in values.items():
+        low = -np.inf if miss.minimum is None else miss.minimum
+        high = np.inf if miss.maximum is None else miss.maximum
+        nearest = miss.target if miss.target is not None else np.clip(value, low, high)
+        assert ((value - nearest) / miss.scale) ** 2 == pytest.approx(cost)
+
+
+def test_good_enough_grows_with_the_robot() -> None:
+    assert tolerance("rad", SIZE) == 0.1
+    assert tolerance("m", SIZE) == pytest.approx(0.05)
+    assert tolerance("m/s", SIZE) == 0.0
