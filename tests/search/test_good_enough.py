@@ -10,6 +10,9 @@ import pytest
 from levade.errors import LevadeError
 from levade.search import Objective, make_objective
 from levade.search.evaluation import Trials
+from levade.search.outcome import Trial
+from levade.search.robust import Judge
+from levade.search.schedule import full_level
 from levade.tasks import Task, load_task, task_from_dict, task_to_dict
 
 PERTURBED = "robust={samples: 6, success: {pitch: {tolerance: 10}}}"
@@ -63,3 +66,23 @@ def test_it_survives_a_file(task: Task) -> None:
 def test_mistakes_are_told(robust: str, message: str) -> None:
     with pytest.raises(LevadeError, match=message):
         load_task("rearing", changes=[f"robust={robust}"])
+
+
+def test_who_does_all_on_the_model_ranks_before_who_holds_on_more_robots() -> None:
+    def trial(*, met: bool, share: float) -> Trial:
+        return Trial(np.zeros(2), 1.0, {}, {}, success=False, share=share, met=met)
+
+    assert trial(met=True, share=0.5).rank < trial(met=False, share=0.9).rank
+    assert trial(met=True, share=0.9).rank < trial(met=True, share=0.5).rank
+
+
+def test_a_judgement_says_who_does_all_on_the_model(task: Task, objective: Objective) -> None:
+    judging = Judge(task, 0).evaluate(objective.space.mean[None], full_level(task))
+    trials = next(judging)
+    with pytest.raises(StopIteration) as end:
+        while True:
+            trials = judging.send(objective.evaluate(trials))
+    evaluation = end.value.value
+    assert evaluation.samples.share.tolist() == [1.0]
+    assert evaluation.met.tolist() == [False]
+    assert evaluation.success.tolist() == [False]

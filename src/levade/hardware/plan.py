@@ -54,7 +54,9 @@ three seeds met every limit, with five of them three of four did.
 _DURATION_WEIGHT = 0.5
 """Of a duration as long as the task says: what is quick leaves a robot that differs from the model less time to fall."""
 
-_MARGINS_WEIGHT = 0.02
+_MARGINS_WEIGHT, _ROBUST_MARGINS_WEIGHT = 0.02, 0.2
+"""On the nominal model, and on perturbed ones, where the misses of the goal that remain are many times as large."""
+
 _GOALS = (Orientation, Position, Posture, LinearVelocity, AngularVelocity, Miss, Margins)
 """Terms that the criteria, and the margins, replace."""
 
@@ -114,7 +116,7 @@ class Plan:
         """The task on perturbed models, at one duration [s]: they reach the goal, the nominal model keeps the limits too."""
         search = self.task.search
         return replace(
-            self._demanding(),
+            self._demanding(_ROBUST_MARGINS_WEIGHT),
             horizon=horizon,
             stages=(Stage("robust", step=0.3, hold=self._held),),
             search=Search(
@@ -162,13 +164,13 @@ class Plan:
     def _held(self) -> bool | float:
         return min(_HELD, self.task.hold) if self.task.hold else True
 
-    def _demanding(self) -> Task:
+    def _demanding(self, margins_weight: float = _MARGINS_WEIGHT) -> Task:
         size = dimensions(self.robot)
         costs = {name: Cost(_miss(one, size), 1.0) for name, one in self.goal.items()}
         kept = {name: cost for name, cost in self.task.costs.items() if not isinstance(cost.term, _GOALS)}
         of = {_OF_MARGINS[one.quantity] for one in self.limits.values()}
         wanted: dict[str, Any] = {name: WANTED[name] for name in WANTED if name in of}
-        margins = {"margins": Cost(Margins(**wanted), _MARGINS_WEIGHT)}
+        margins = {"margins": Cost(Margins(**wanted), margins_weight)}
         return replace(
             self.task,
             costs={**costs, **kept, **margins},

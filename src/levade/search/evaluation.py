@@ -139,6 +139,7 @@ class Evaluation:
         slack: Criterion with bounds -> what is left to the nearer one [SI], negative beyond it, shape (n,).
         samples: What the trials did on perturbed models, if they were tried on any.
         verified: With samples, roll-outs beyond these that it took to tell which trials succeed.
+        met: With samples, where less is asked of perturbed models: which trials do on the nominal one all that is asked there.
     """
 
     terms: Mapping[str, Array]
@@ -148,6 +149,7 @@ class Evaluation:
     slack: Mapping[str, Array] = field(default_factory=dict)
     samples: Samples | None = None
     verified: int = 0
+    met: Mask | None = None
 
     def __post_init__(self) -> None:
         for table in (self.terms, self.errors, self.slack):

@@ -37,6 +37,7 @@ class Trial:
         share: Share of the perturbed models that it succeeds on. None if it was not tried on any.
         along: Weights of the motion along which the gains were made of the feedback that it had there, shape (d,). None if it
             had none.
+        met: Whether it does on the nominal model all that is asked there, where less is asked of perturbed ones.
     """
 
     weights: Array
@@ -46,6 +47,7 @@ class Trial:
     success: bool
     share: float | None = None
     along: Array | None = None
+    met: bool = True
 
     @classmethod
     def of(cls, weights: Array, cost: float, evaluation: Evaluation, i: int, along: Array | None = None) -> Trial:
@@ -58,12 +60,13 @@ class Trial:
             success=bool(evaluation.success[i]),
             share=None if evaluation.samples is None else float(evaluation.samples.share[i]),
             along=None if evaluation.samples is None else along,
+            met=evaluation.met is None or bool(evaluation.met[i]),
         )
 
     @property
-    def rank(self) -> tuple[bool, float, float]:
-        """Less is better: success first, then the share of perturbed models that it succeeds on, then cost."""
-        return not self.success, -(self.share or 0.0), self.cost
+    def rank(self) -> tuple[bool, bool, float, float]:
+        """Less is better: success first, then what the model does, then the share of perturbed models, then cost."""
+        return not self.success, not self.met, -(self.share or 0.0), self.cost
 
 
 def better(one: Trial | None, other: Trial) -> Trial:

@@ -134,7 +134,8 @@ class Judge:
         for trial in np.flatnonzero(success).tolist() if hold_steps < self.task.hold_steps else ():
             success[trial], made = yield from self._verify(robust, candidates, draw, trial, columns, nominal.terms)
             verified += made
-        return replace(nominal.with_success(success), samples=samples, verified=verified)
+        met = None if robust.success is None else nominal.success.copy()
+        return replace(nominal.with_success(success), samples=samples, verified=verified, met=met)
 
     def _verify(
         self, robust: Robust, candidates: Array, draw: int, trial: int, columns: Index, terms: Iterable[str]

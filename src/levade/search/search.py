@@ -380,7 +380,8 @@ class Search:
         """Keep the best trial of all, by its rank. along: see `Judge`."""
         cost = evaluation.cost(self._weights, self._task.robust)
         share = np.zeros(len(cost)) if evaluation.samples is None else evaluation.samples.share
-        first = int(np.lexsort((cost, -share, ~evaluation.success))[0])
+        unmet = np.zeros(len(cost), dtype=bool) if evaluation.met is None else ~evaluation.met
+        first = int(np.lexsort((cost, -share, unmet, ~evaluation.success))[0])
         trial = Trial.of(candidates[first], float(cost[first]), evaluation, first, along)
         if self._best is None or trial.rank < self._best.rank:
             self._best = trial
@@ -401,7 +402,7 @@ class Search:
             self._optimizer.forget_costs(np.array([hold and looks_at_hold(criterion) for criterion in criteria]))
 
 
-def _rank(trial: Trial) -> tuple[bool, float, float]:
+def _rank(trial: Trial) -> tuple[bool, bool, float, float]:
     return trial.rank
 
 
