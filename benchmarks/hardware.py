@@ -2,6 +2,7 @@
 
     python benchmarks/hardware.py run --tasks rearing squat-jump --robots hyq2max --seeds 0 --arms nominal hardware
     python benchmarks/hardware.py table
+    python benchmarks/hardware.py write         # docs/hardware.md, from benchmarks/hardware.md.in and the results
 
 A row is written as soon as it is there, to results/hardware.jsonl, and one that is there is not run again. The certificate's
 perturbed runs have a seed that no search has.
@@ -24,7 +25,10 @@ from levade.search import make_objective, solve
 from levade.search.recording import record
 from levade.tasks import builtin_tasks, load_task
 
-RESULTS = Path(__file__).resolve().parent / "results" / "hardware.jsonl"
+HERE = Path(__file__).resolve().parent
+RESULTS = HERE / "results" / "hardware.jsonl"
+TEMPLATE = HERE / "hardware.md.in"
+PAGE = HERE.parent / "docs" / "hardware.md"
 TASKS = (
     *(
         "rearing",
@@ -54,7 +58,11 @@ def main() -> None:
     running.add_argument("--out", type=Path, default=RESULTS)
     table = commands.add_parser("table")
     table.add_argument("results", nargs="*", type=Path, default=[RESULTS])
+    commands.add_parser("write")
     options = parser.parse_args()
+    if options.command == "write":
+        PAGE.write_text(page(), encoding="utf-8")
+        return
     if options.command == "table":
         print(as_table(rows_in(options.results)))
         return
@@ -112,6 +120,32 @@ def facts(motion: Motion, certificate: Certificate) -> dict[str, Any]:
 def rows_in(files: list[Path]) -> list[dict[str, Any]]:
     """The rows of all files that are there."""
     return [json.loads(line) for file in files if file.exists() for line in file.read_text().splitlines()]
+
+
+def page() -> str:
+    """The text of docs/hardware.md."""
+    rows = rows_in([RESULTS])
+    minutes = {row["minutes"] for row in rows if "minutes" in row}
+    text = TEMPLATE.read_text(encoding="utf-8")
+    for name, value in {
+        "minutes": " or ".join(f"{one:g}" for one in sorted(minutes)),
+        "table": as_table(rows),
+        "summary": summary(rows),
+    }.items():
+        text = text.replace(f"{{{name}}}", value)
+    return text
+
+
+def summary(rows: list[dict[str, Any]]) -> str:
+    """How many certificates pass, arm by arm, and what those of the hardware arm fail."""
+    said = []
+    for arm in ARMS:
+        made = [row for row in rows if row["arm"] == arm and "refused" not in row]
+        if made:
+            passed = sum(row["passed"] for row in made)
+            enough = sum(row["share"] >= 0.95 for row in made)
+            said.append(f"{arm}: {passed} of {len(made)} certificates pass, {enough} hold on 95 % of robots or more")
+    return "; ".join(said) + "."
 
 
 def as_table(rows: list[dict[str, Any]]) -> str:

@@ -14,7 +14,7 @@ from levade.cli.display import Display
 from levade.cli.inspecting import tell_warnings
 from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console, quantity_unit
-from levade.hardware import Part, Plan, Pursued, binding, discard, obstacles, pursue, read_pursuit
+from levade.hardware import Part, Plan, Pursued, binding, obstacles, pursue, read_pursuit
 from levade.robots import load_robot
 from levade.search import Generation
 from levade.tasks import HorizonRange, Task, load_task
@@ -44,8 +44,6 @@ def pursue_and_report(
         assert task is not None
         chosen = load_task(task, robot=robot, changes=changes)
         place = directory or Path(chosen.name)
-        if force:
-            discard(place)
     choice = dict(vars(chosen.robot))
     loaded = load_robot(choice.pop("name"), **choice)
     tell_warnings(console, loaded, chosen.robot.name)

@@ -71,6 +71,10 @@ def solve_and_report(
         out = directory or Path(chosen.name)
         if force:
             check_unlocked(out)
+            if (out / "hardware.json").exists():
+                from levade.hardware import discard
+
+                discard(out)
         else:
             check_replaceable(out)
         objective = make_objective(chosen, threads=threads)

@@ -139,6 +139,8 @@ def pursue(
     directory: Path,
     minutes: float | None = None,
     demands: Demands | None = None,
+    runs: int = 500,
+    replace: bool = False,
     begin: Begin | None = None,
     observe: Observe | None = None,
     tell: Tell | None = None,
@@ -155,6 +157,8 @@ def pursue(
         minutes: Time for all of it; the searches end with the best so far, and a later call goes on. None gives all the time
             that their trials take.
         demands: What the certificate asks for. Defaults to `levade.checks.Demands`.
+        runs: Perturbed runs of each certificate.
+        replace: Whether to replace what the directory holds, and begin from nothing.
         begin: See `Begin`.
         observe: See `Observe`.
         tell: See `Tell`.
@@ -174,13 +178,16 @@ def pursue(
     asked = {"task": task_to_dict(task, code=True), "seed": seed}
     with storing(directory / ASKED, then=Remedy("give another directory")):
         directory.mkdir(parents=True, exist_ok=True)
-    _check_same(directory, asked)
+    if replace:
+        discard(directory)
+    else:
+        _check_same(directory, asked)
     with locked(directory, "pursuit"):
         with storing(directory / ASKED, then=Remedy("give another directory")):
             write_text(directory / ASKED, json.dumps(asked, ensure_ascii=False, indent=1) + "\n")
         end = None if minutes is None else time.monotonic() + 60 * minutes
         plan = Plan.of(task, robot)
-        return _Pursuit(plan, seed, threads, directory, end, demands, begin, observe, tell, stopping).go()
+        return _Pursuit(plan, seed, threads, directory, end, demands, runs, begin, observe, tell, stopping).go()
 
 
 def read_pursuit(directory: Path) -> tuple[Task, int]:
@@ -202,31 +209,29 @@ def is_pursuit(directory: Path) -> bool:
 
 
 def discard(directory: Path) -> None:
-    """Forget the searches of an earlier pursuit, so that a new one begins from nothing; what holds none is left alone.
+    """Forget the run or the searches that a directory holds, so that a new pursuit, or run, begins from nothing.
 
     Raises:
         LevadeError: If one of them goes on.
     """
-    if not is_pursuit(directory):
-        return
-    searches = (*LIMITS, ROBUST, CLOSED)
-    for name in searches:
-        check_unlocked(directory / name)
-    for name in searches:
-        (directory / name / CHECKPOINT).unlink(missing_ok=True)
-    (directory / ASKED).unlink()
+    searches = [directory, *(directory / name for name in (*LIMITS, ROBUST, CLOSED))]
+    for search in searches:
+        check_unlocked(search)
+    for search in searches:
+        (search / CHECKPOINT).unlink(missing_ok=True)
+    (directory / ASKED).unlink(missing_ok=True)
 
 
 def _check_same(directory: Path, asked: Mapping[str, Any]) -> None:
-    """Raise LevadeError if a directory holds another pursuit, or a run."""
-    if not is_pursuit(directory):
+    """Raise LevadeError if a directory holds another pursuit, a run, or files of neither."""
+    remedies = (Remedy("write elsewhere", "elsewhere"), Remedy("replace it", "replace"))
+    if is_pursuit(directory):
+        if read_yaml(directory / ASKED) != asked:
+            raise LevadeError(f"{directory}: holds the pursuit of another task, robot or seed", remedies=remedies)
+    elif (directory / CHECKPOINT).exists():
+        raise LevadeError(f"{directory}: holds a run that is no pursuit for hardware", remedies=remedies)
+    else:
         check_replaceable(directory)
-        return
-    if read_yaml(directory / ASKED) != asked:
-        raise LevadeError(
-            f"{directory}: holds the pursuit of another task, robot or seed",
-            remedies=(Remedy("write elsewhere", "elsewhere"), Remedy("replace it", "replace")),
-        )
 
 
 class _Pursuit:
@@ -238,13 +243,14 @@ class _Pursuit:
         directory: Path,
         end: float | None,
         demands: Demands | None,
+        runs: int,
         begin: Begin | None,
         observe: Observe | None,
         tell: Tell | None,
         stopping: Callable[[], bool],
     ) -> None:
         self._plan, self._seed, self._threads, self._directory = plan, seed, threads, directory
-        self._end, self._demands = end, demands
+        self._end, self._demands, self._runs = end, demands, runs
         self._begin, self._observe, self._tell, self._stopping = begin, observe, tell, stopping
         self._began = time.monotonic()
         self._parts: list[Part] = []
@@ -284,6 +290,7 @@ class _Pursuit:
         motion = self._plan.certifiable(outcome.motion)
         certificate = check(
             motion,
+            runs=self._runs,
             seed=self._seed,
             perturbation=self._plan.perturb,
             demands=self._demands,

@@ -14,7 +14,7 @@ def binding(certificate: Certificate) -> str:
     left = {
         name: margin
         for name, margin in certificate.margins.items()
-        if name in _SHARES and margin.value is not None and margin.required is not None
+        if name in _SHARES and margin.value is not None and (margin.passed is not None or margin.unknown)
     }
     if not left:
         return ""

