@@ -6,12 +6,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import yaml
 
-from levade.costs import Criterion, Effort, Margins, Miss
+from levade.checks import Demands
+from levade.costs import Criterion, Effort, Margins, Measure, Miss
+from levade.errors import LevadeError
 from levade.hardware import Plan
 from levade.hardware.plan import _miss, tolerance
 from levade.robots import Dimensions, Robot, dimensions, load_robot
-from levade.tasks import Cost, HorizonRange, builtin_tasks, load_task
+from levade.tasks import Change, Cost, HorizonRange, builtin_tasks, load_task, task_from_dict, task_to_yaml
+from levade.trajectory import Trajectories
 
 NOMINAL = [name for name in builtin_tasks() if load_task(name).robust is None]
 
@@ -56,7 +60,8 @@ def test_what_is_tighter_than_hardware_needs_is_loosened_and_told(robot: Robot) 
 def test_what_the_task_says_of_perturbed_models_counts(robot: Robot) -> None:
     changes = ["robust={samples: 4, success: {pitch: {tolerance: 0.2}}}"]
     plan = Plan.of(load_task("rearing", changes=changes), robot)
-    assert {name: one.tolerance for name, one in plan.goal.items()} == {"pitch": 0.2}
+    assert plan.goal["pitch"].tolerance == 0.2
+    assert plan.goal["height"].tolerance == pytest.approx(dimensions(robot).height / 12)
 
 
 def test_a_robot_without_speed_limits_or_lines_is_asked_for_neither(robot: Robot) -> None:
@@ -110,3 +115,47 @@ def test_good_enough_grows_with_the_robot() -> None:
     assert tolerance("rad", SIZE) == 0.1
     assert tolerance("m", SIZE) == pytest.approx(0.05)
     assert tolerance("m/s", SIZE) == 0.0
+
+
+def test_what_a_certificate_will_ask_for_is_searched_for(robot: Robot) -> None:
+    plan = Plan.of(load_task("rearing"), robot, Demands(speed=0.5, position=0.1))
+    assert plan.limits["speed_margin"].minimum == pytest.approx(0.51)
+    assert plan.limits["angle_margin"].minimum == pytest.approx(0.1)
+    (margins,) = (cost.term for cost in plan.within_limits().costs.values() if isinstance(cost.term, Margins))
+    assert margins.speed == pytest.approx(0.6)
+
+
+def test_what_perturbed_models_need_not_do_is_asked_of_the_nominal_one(robot: Robot) -> None:
+    plan = Plan.of(load_task("rearing", changes=["robust={samples: 4, success: {pitch: {tolerance: 0.2}}}"]), robot)
+    robust = plan.robust(0.4)
+    assert {"pitch", "height"} <= set(robust.success)
+    assert {"pitch", "height"} <= set(robust.costs)
+    assert set(robust.good_enough) == {"pitch"}
+
+
+def test_a_measure_of_one_s_own_is_a_cost_that_a_file_names(robot: Robot) -> None:
+    def knee(trajectories: Trajectories, rows: slice) -> np.ndarray:
+        return trajectories.joint_position[:, rows, 2]
+
+    task = load_task("rearing")
+    own = Criterion(Measure("knee", "rad", knee), target=-1.6, tolerance=0.05)
+    made = Plan.of(replace(task, success={**task.success, "knee": own}), robot).within_limits()
+    assert made.success["knee"].tolerance == 0.1
+    text = task_to_yaml(made, code=True)
+    read = task_from_dict(yaml.safe_load(text), where="file", code=True)
+    assert read.success["knee"].target == -1.6
+    with pytest.raises(LevadeError, match="Python function cannot be written"):
+        task_to_yaml(made)
+
+
+def test_weights_that_sliders_moved_are_no_hindrance(robot: Robot) -> None:
+    task = load_task("rearing").changed(Change(3, {"orientation": 2.0}))
+    assert Plan.of(task, robot).within_limits().search.changes == ()
+
+
+def test_a_cost_of_a_criterion_s_name_stays_beside_it(robot: Robot) -> None:
+    task = load_task("rearing")
+    task = replace(task, costs={**task.costs, "pitch": Cost(Effort(), 2.0)})
+    costs = Plan.of(task, robot).within_limits().costs
+    assert isinstance(costs["pitch"].term, Miss)
+    assert costs["pitch (cost)"].weight == 2.0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from contextlib import ExitStack
 from pathlib import Path
 
 from rich.console import Console
@@ -47,9 +48,10 @@ def pursue_and_report(
     choice = dict(vars(chosen.robot))
     loaded = load_robot(choice.pop("name"), **choice)
     tell_warnings(console, loaded, chosen.robot.name)
-    _tell_goal(console, Plan.of(chosen, loaded))
-    with stop_between("generation") as stopping:
+    _tell_goal(console, Plan.of(chosen, loaded, demands))
+    with stop_between("generation") as stopping, ExitStack() as stack:
         showing = _Showing(console, quiet=as_json and not console.is_terminal)
+        stack.callback(showing.close)
         pursued = pursue(
             chosen,
             robot=loaded,
@@ -58,6 +60,7 @@ def pursue_and_report(
             directory=place,
             minutes=minutes,
             demands=demands,
+            replace=force,
             observe=showing.observe,
             begin=showing.begin,
             tell=showing.tell,
@@ -116,17 +119,24 @@ class _Showing:
             self._display.update(generation)
 
     def tell(self, part: Part) -> None:
+        self.close()
+        if self._quiet:
+            return
+        certificate, failed = part.certificate, ", ".join(part.certificate.failed)
+        found = f"[green]passes[/]: {certificate.perturbed.share:.1%} of perturbed robots"
+        if certificate.interrupted:
+            found = "was interrupted"
+        elif not certificate.passed:
+            found = f"fails {escape(failed)}"
+        self._console.print(
+            f"{part.name}: {part.trials} trials, {part.seconds:.0f} s, T = {part.motion.horizon:.3g} s; the certificate {found}"
+        )
+
+    def close(self) -> None:
+        """Close the display of the search that goes on, if any."""
         if self._display is not None:
             self._display.__exit__(None, None, None)
             self._display = None
-        if self._quiet:
-            return
-        failed = ", ".join(part.certificate.failed)
-        found = f"[green]passes[/]: {part.certificate.perturbed.share:.1%} of perturbed robots" if not failed else ""
-        self._console.print(
-            f"{part.name}: {part.trials} trials, {part.seconds:.0f} s, T = {part.motion.horizon:.3g} s; the certificate "
-            + (found or f"fails {escape(failed)}")
-        )
 
 
 def _tell_goal(console: Console, plan: Plan) -> None:
@@ -134,8 +144,11 @@ def _tell_goal(console: Console, plan: Plan) -> None:
     task = plan.task
     if not isinstance(task.horizon, HorizonRange):
         horizon = plan.within_limits().horizon
-        console.print(f"On hardware: T may be {horizon}, within every limit that {escape(plan.robot.name)} has.")
+        console.print(f"On hardware: T may be {horizon}, within the limits that {escape(plan.robot.name)} has.")
     for name, (asked, enough) in plan.loosened.items():
+        if asked.tolerance is None or enough.tolerance is None:
+            console.print(f"On hardware {escape(name)} is good enough as robust.success of the task says.")
+            continue
         unit = quantity_unit(asked.quantity)
         within = f"{enough.tolerance:.3g} {unit}; the task says {asked.tolerance:.3g} {unit}"
         console.print(f"On hardware {escape(name)} is good enough within {within}.")
@@ -154,7 +167,10 @@ def _tell(console: Console, pursued: Pursued) -> None:
         unknown = ", ".join(pursued.certificate.unknown)
         console.print(f"[green]The certificate passes[/]; {spent}.{escape(unknown and f' Unknown: {unknown}.')}")
     else:
-        console.print(f"[red]The certificate fails[/] after {spent}. In the way:")
+        if pursued.certificate.interrupted:
+            console.print(f"The certificate was interrupted, and passes for nothing; {spent}.")
+        else:
+            console.print(f"[red]The certificate fails[/] after {spent}. In the way:")
         for text in obstacles(pursued):
             console.print(f"- {escape(text)}")
     if pursued.stopped:

@@ -17,12 +17,14 @@ from typing import Any
 
 import numpy as np
 
+from levade.checks import Demands
 from levade.costs import (
     AngularVelocity,
     Criterion,
     Duration,
     LinearVelocity,
     Margins,
+    Measure,
     Miss,
     Orientation,
     Position,
@@ -84,12 +86,25 @@ class Plan:
     limits: Mapping[str, Criterion]
 
     @classmethod
-    def of(cls, task: Task, robot: Robot) -> Plan:
-        """The plan for a task. What the task itself says is good enough on perturbed models is taken from there."""
-        size = dimensions(robot)
-        goal = {name: _good_enough(one, size) for name, one in task.good_enough.items() if one.quantity not in ROOM}
-        own = {name: one for name, one in task.success.items() if one.quantity in ROOM}
-        return cls(task, robot, goal, {**_limits(robot), **own})
+    def of(cls, task: Task, robot: Robot, demands: Demands | None = None) -> Plan:
+        """The plan for a task.
+
+        Args:
+            task: The task. What it calls good enough on perturbed models counts on the nominal one, too.
+            robot: Its robot.
+            demands: What a certificate will ask for. Defaults to `levade.checks.Demands`.
+        """
+        size, own = dimensions(robot), {**task.success, **task.good_enough}
+        goal = {name: _good_enough(one, size) for name, one in own.items() if one.quantity not in ROOM}
+        asked = {name: one for name, one in task.success.items() if one.quantity in ROOM}
+        known = {one.quantity for one in asked.values()}
+        limits = {name: one for name, one in _limits(robot, demands or Demands()).items() if name not in known}
+        return cls(task, robot, goal, {**limits, **asked})
+
+    @property
+    def on_others(self) -> Mapping[str, Criterion]:
+        """Of the goal, what perturbed models have to meet."""
+        return {name: one for name, one in self.goal.items() if name in self.task.good_enough}
 
     @property
     def loosened(self) -> Mapping[str, tuple[Criterion, Criterion]]:
@@ -134,7 +149,7 @@ class Plan:
                 redraw="generation",
                 validation=40,
                 contender="mean",
-                success=self.goal,
+                success=self.on_others,
                 perturb=self.perturb,
             ),
         )
@@ -152,7 +167,7 @@ class Plan:
         """A motion whose task says what is good enough on robots that differ from the model, as those of robust searches do."""
         if motion.task.robust is not None:
             return motion
-        task = replace(motion.task, robust=Robust(success=self.goal, perturb=self.perturb))
+        task = replace(motion.task, robust=Robust(success=self.on_others, perturb=self.perturb))
         return motion.with_task(task)
 
     @property
@@ -167,9 +182,17 @@ class Plan:
     def _demanding(self, margins_weight: float = _MARGINS_WEIGHT) -> Task:
         size = dimensions(self.robot)
         costs = {name: Cost(_miss(one, size), 1.0) for name, one in self.goal.items()}
-        kept = {name: cost for name, cost in self.task.costs.items() if not isinstance(cost.term, _GOALS)}
-        of = {_OF_MARGINS[one.quantity] for one in self.limits.values()}
-        wanted: dict[str, Any] = {name: WANTED[name] for name in WANTED if name in of}
+        kept = {
+            f"{name} (cost)" if name in costs else name: cost
+            for name, cost in self.task.costs.items()
+            if not isinstance(cost.term, _GOALS)
+        }
+        wanted: dict[str, Any] = {}
+        for one in self.limits.values():
+            name = _OF_MARGINS[one.quantity]
+            wanted[name] = max(
+                wanted.get(name, 0.0), WANTED[name] + max(0.0, (one.minimum or 0.0) - ROOM[one.quantity])
+            )
         margins = {"margins": Cost(Margins(**wanted), margins_weight)}
         return replace(
             self.task,
@@ -177,6 +200,7 @@ class Plan:
             success={**self.goal, **self.limits},
             stages=(Stage(hold=self._held),),
             policy=_smooth(self.task.policy),
+            search=replace(self.task.search, changes=()),
             robust=None,
             feedback=None,
         )
@@ -197,16 +221,25 @@ def _smooth(policy: PolicyChoice) -> PolicyChoice:
     return replace(policy, kernels=min(policy.kernels, _KERNELS), variance=_VARIANCE, time="normalised")
 
 
-def _limits(robot: Robot) -> dict[str, Criterion]:
-    """A criterion for each kind of limit that the robot has."""
+def _limits(robot: Robot, demands: Demands) -> dict[str, Criterion]:
+    """A criterion for each kind of limit that the robot has, with what is demanded of it."""
     limits = robot.limits
+    demanded = {
+        "angle_margin": demands.position,
+        "speed_margin": demands.speed,
+        "torque_speed_margin": demands.torque_speed,
+    }
     there = {
         "angle_margin": bool(np.isfinite([limits.lower, limits.upper]).any()),
         "speed_margin": bool(np.isfinite(limits.velocity).any()),
         "torque_speed_margin": limits.stall_torque is not None,
         "self_distance": True,
     }
-    return {name: Criterion(name, minimum=ROOM[name], at="min") for name, is_there in there.items() if is_there}  # type: ignore[arg-type]
+    return {
+        name: Criterion(name, minimum=ROOM[name] + (demanded.get(name) or 0.0), at="min")  # type: ignore[arg-type]
+        for name, is_there in there.items()
+        if is_there
+    }
 
 
 def tolerance(unit: str, size: Dimensions) -> float:
@@ -220,11 +253,16 @@ def _good_enough(criterion: Criterion, size: Dimensions) -> Criterion:
     return replace(criterion, tolerance=max(criterion.tolerance, tolerance(unit_of(criterion.quantity), size)))
 
 
+class MissOfCode(Miss):
+    """A miss of a measure that is Python code, and so is code itself: a file names it without holding it."""
+
+
 def _miss(criterion: Criterion, size: Dimensions) -> Miss:
     """A criterion as a cost, 1 for a miss of half of what is allowed, or at a bound, with nothing farther inside."""
+    kind = MissOfCode if isinstance(criterion.quantity, Measure) else Miss
     same = {"quantity": criterion.quantity, "at": criterion.at, "legs": criterion.legs}
     if criterion.target is not None:
-        return Miss(target=criterion.target, scale=max(criterion.tolerance or 0.0, 1e-9) / 2, **same)  # type: ignore[arg-type]
+        return kind(target=criterion.target, scale=max(criterion.tolerance or 0.0, 1e-9) / 2, **same)  # type: ignore[arg-type]
     low, high = criterion.minimum, criterion.maximum
     fall = size.fall
     scale = {"rad": 0.05, "m": size.height / 24, "m/s": 0.05 * size.height / fall, "rad/s": 0.1 / fall}.get(
@@ -235,7 +273,7 @@ def _miss(criterion: Criterion, size: Dimensions) -> Miss:
     elif high is not None and high > 0:
         scale = min(scale, high / 2)
     scale = max(scale, 1e-9)
-    return Miss(
+    return kind(
         minimum=None if low is None else low + scale,
         maximum=None if high is None else high - scale,
         scale=scale,

@@ -34,12 +34,12 @@ from levade.robots import Robot, load_robot
 from levade.search import Generation, Stopped, make_objective
 from levade.search.checkpoint import CHECKPOINT
 from levade.search.initial import initial_guess
-from levade.search.run import MOTION, TASK, Outcome, check_replaceable, check_unlocked, read_run, resume, run
+from levade.search.run import MOTION, PURSUIT, TASK, Outcome, check_replaceable, check_unlocked, read_run, resume, run
 from levade.search.storage import storing
 from levade.tasks import Task, task_from_dict, task_to_dict, task_to_yaml
 from levade.writing import write_text
 
-ASKED, CERTIFICATE = "hardware.json", "certificate.json"
+ASKED, CERTIFICATE = PURSUIT, "certificate.json"
 LIMITS, ROBUST, CLOSED = ("limits-1", "limits-2", "limits-3"), "robust", "feedback"
 
 _ON_LIMITS = 0.4
@@ -168,13 +168,14 @@ def pursue(
         LevadeError: If the task has no criteria or does not fit together, or the directory cannot be written or holds something
             else.
     """
-    if not task.success:
-        raise LevadeError(f"hardware: the task {task.name} has no success criteria to certify; give it some")
     if minutes is not None and not minutes > 0:
         raise LevadeError(f"{minutes:g} should be a positive number of minutes; 5 is usual", field="minutes")
     if robot is None:
         choice: dict[str, Any] = vars(task.robot).copy()
         robot = load_robot(choice.pop("name"), **choice)
+    plan = Plan.of(task, robot, demands)
+    if not plan.goal:
+        raise LevadeError(f"hardware: the task {task.name} has no success criteria to certify; give it some")
     asked = {"task": task_to_dict(task, code=True), "seed": seed}
     with storing(directory / ASKED, then=Remedy("give another directory")):
         directory.mkdir(parents=True, exist_ok=True)
@@ -186,7 +187,6 @@ def pursue(
         with storing(directory / ASKED, then=Remedy("give another directory")):
             write_text(directory / ASKED, json.dumps(asked, ensure_ascii=False, indent=1) + "\n")
         end = None if minutes is None else time.monotonic() + 60 * minutes
-        plan = Plan.of(task, robot)
         return _Pursuit(plan, seed, threads, directory, end, demands, runs, begin, observe, tell, stopping).go()
 
 
@@ -217,9 +217,13 @@ def discard(directory: Path) -> None:
     searches = [directory, *(directory / name for name in (*LIMITS, ROBUST, CLOSED))]
     for search in searches:
         check_unlocked(search)
-    for search in searches:
-        (search / CHECKPOINT).unlink(missing_ok=True)
-    (directory / ASKED).unlink(missing_ok=True)
+    with storing(directory, then=Remedy("give another directory")):
+        for search in searches:
+            (search / CHECKPOINT).unlink(missing_ok=True)
+        if (directory / CERTIFICATE).exists():  # and the motion that it is of
+            (directory / MOTION).unlink(missing_ok=True)
+        for name in (CERTIFICATE, ASKED):
+            (directory / name).unlink(missing_ok=True)
 
 
 def _check_same(directory: Path, asked: Mapping[str, Any]) -> None:
@@ -259,6 +263,8 @@ class _Pursuit:
     def go(self) -> Pursued:
         plan, task = self._plan, self._plan.within_limits()
         for number, name in enumerate(LIMITS):
+            if self._is_there(ROBUST) and not self._is_there(name):
+                break  # an earlier call, with less time, went on without it
             part = self._search(name, task, None, seed=self._seed + _APART * number)
             if self._stopped or part.certificate.passed or self._late(_ON_LIMITS):
                 break
@@ -272,6 +278,9 @@ class _Pursuit:
                 if self._stopped or around.certificate.passed or not around.met:
                     break
         return Pursued(plan, tuple(self._parts), self._best, self._directory, self._seed, self._stopped)
+
+    def _is_there(self, name: str) -> bool:
+        return (self._directory / name / CHECKPOINT).is_file()
 
     def _late(self, share: float) -> bool:
         """Whether a share of the time is over."""
@@ -301,7 +310,7 @@ class _Pursuit:
             self._stopped = "interrupted"
         part = Part(name, motion, outcome.solution.trials, certificate, time.monotonic() - began)
         self._parts.append(part)
-        if part is self._best:
+        if part is self._best and not self._better_there(part):
             self._keep(part)
         if self._tell is not None:
             self._tell(part)
@@ -310,13 +319,13 @@ class _Pursuit:
     def _run(self, name: str, task: Task, around: Motion | None, seed: int) -> Outcome:
         directory = self._directory / name
         objective = make_objective(task, robot=self._plan.robot, threads=self._threads)
-        if self._begin is not None:
-            self._begin(name, task)
         if (directory / CHECKPOINT).is_file():
             known, checkpoint = read_run(directory)
             if task_to_dict(known, code=True) == task_to_dict(task, code=True) and checkpoint.header.seed == seed:
+                self._told(name, task)
                 return resume(directory, objective=objective, observe=lambda one: self._watch(name, one))
         guess = None if around is None else initial_guess(objective.policy, around)
+        self._told(name, task)
         return run(
             objective,
             seed=seed,
@@ -324,6 +333,10 @@ class _Pursuit:
             initial=guess,
             observe=lambda one: self._watch(name, one),
         )
+
+    def _told(self, name: str, task: Task) -> None:
+        if self._begin is not None:
+            self._begin(name, task)
 
     def _watch(self, name: str, generation: Generation) -> Stopped | None:
         wish = None if self._observe is None else self._observe(name, generation)
@@ -333,6 +346,18 @@ class _Pursuit:
         elif self._end is not None and time.monotonic() > self._end and not generation.replayed:
             self._stopped, wish = "time", Stopped.INTERRUPTED
         return wish
+
+    def _better_there(self, part: Part) -> bool:
+        """Whether an earlier call left a motion with a better certificate, by the same demands."""
+        place = self._directory / CERTIFICATE
+        if not place.is_file() or not (self._directory / MOTION).is_file():
+            return False
+        try:
+            there = read_yaml(place)
+            rank = (bool(there["interrupted"]), len(there["failed"]), -float(there["perturbed"]["share"]))
+            return there["demands"] == part.certificate.to_json()["demands"] and rank < part.rank
+        except (LevadeError, LookupError, TypeError, ValueError):
+            return False
 
     def _keep(self, part: Part) -> None:
         place, room = self._directory, Remedy("make room, then go on", "resume", self._directory)

@@ -35,13 +35,13 @@ def obstacles(pursued: Pursued) -> list[str]:
         for text in [_of_margin(name, margin, part.motion)]
     ]
     missed = [name for name in pursued.plan.goal if not part.motion.meets(name)]
-    if part.name in LIMITS and missed:
+    if missed:
         off = ", ".join(f"{name} {part.motion.result.errors[name]:+.3g}" for name in missed)
         said.append(f"the goal is missed within the limits ({off}): ask for less, or allow a longer horizon")
-    if "perturbed" in failed and not missed:
+    if "perturbed" in failed and not (missed and part.name in LIMITS):
         said.append(_of_perturbed(part))
     others = [name for name in sorted(failed) if name != "perturbed" and name not in _names(part.certificate)]
-    if others and not missed:
+    if others and not (missed and part.name in LIMITS):
         said.append(f"it does not succeed with: {', '.join(others)}; its success depends on how contact is computed")
     return said
 
@@ -58,16 +58,19 @@ def _of_margin(name: str, margin: Margin, motion: Motion) -> str:
                 f"{margin.least} are {1000 * margin.value:.0f} mm in each other: a slower motion, or legs farther apart"
             )
         return f"{name.replace('_', ' ')}: {margin.least} {margin.value} {margin.unit}"
-    joint = joints.index(margin.least)
+    joint, required = joints.index(margin.least), margin.required or 0.0
+    if name == "power":
+        return f"{margin.least} takes {margin.value:.0f} W, and {required:.0f} are allowed: a slower motion"
+    asked = f", and {required:.0%} of it are to be left" * (required > 0)
     if name == "speed":
-        needed = limits.velocity[joint] * (1 - margin.value)
+        needed = limits.velocity[joint] * (1 - margin.value) / max(1 - required, 1e-2)
         return (
-            f"{margin.least} reaches {1 - margin.value:.2f} of its speed limit: a joint of {needed:.3g} rad/s would do, or a"
-            " slower motion, or a goal that asks for less"
+            f"{margin.least} reaches {1 - margin.value:.2f} of its speed limit{asked}: a joint of {needed:.3g} rad/s would"
+            " do, or a slower motion, or a goal that asks for less"
         )
     if name == "torque_speed":
         return (
-            f"{margin.least} is beyond its torque-speed line by {-margin.value:.0%} of the stall torque: a stronger joint, a"
+            f"{margin.least} leaves {margin.value:.0%} of its stall torque to its torque-speed line{asked}: a stronger joint, a"
             " slower motion, or a goal that asks for less"
         )
     if name == "position":

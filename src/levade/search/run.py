@@ -42,6 +42,9 @@ from levade.writing import write_text
 
 TASK, MOTION = "task.yaml", "motion.npz"
 
+PURSUIT = "hardware.json"
+"""In a directory that holds several runs and no run itself: see `levade.hardware`."""
+
 _SAVE_EVERY = 5.0
 """[s], between motions that are written on the way."""
 
@@ -205,6 +208,8 @@ def check_unlocked(directory: Path) -> None:
 def check_replaceable(directory: Path) -> None:
     """Raise LevadeError if a run in the directory would replace an interrupted or a running one, or files of no run."""
     check_unlocked(directory)
+    if (directory / PURSUIT).exists():
+        raise LevadeError(f"{directory}: holds a pursuit for hardware", remedies=(_ELSEWHERE, _REPLACE))
     if not (directory / CHECKPOINT).exists():
         for name in (TASK, MOTION, PROGRESS):
             if (directory / name).exists():
