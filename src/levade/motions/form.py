@@ -43,7 +43,7 @@ PerJoint = list[Positive | None]
 
 
 class _Form(BaseModel):
-    model_config = ConfigDict(extra="ignore", frozen=True, strict=True)
+    model_config = ConfigDict(defer_build=True, extra="ignore", frozen=True, strict=True)
 
 
 class GeometryForm(_Form):
