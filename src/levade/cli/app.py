@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import sys
 from collections.abc import Sequence
@@ -45,10 +46,11 @@ def _run(arguments: Sequence[str] | None) -> int:
     # typer names these by its own copy of click since 0.26, by click itself before
     _, usage_error, click_exception, *_ = typer.BadParameter.__mro__
     arguments = _spread(sys.argv[1:] if arguments is None else arguments)
+    first = arguments[0] if arguments else ""
     try:
-        status = _command()(args=arguments, standalone_mode=False)
+        status = _command(first)(args=arguments, standalone_mode=False)
     except LevadeError as error:
-        return _failed(in_flags(error, _command(), arguments))
+        return _failed(in_flags(error, _command(first), arguments))
     except usage_error as error:  # type: ignore[misc]
         command = error.ctx.command_path if error.ctx else "levade"
         message = " ".join(error.format_message().split())
@@ -68,9 +70,14 @@ def _run(arguments: Sequence[str] | None) -> int:
 
 
 @cache
-def _command() -> Any:
-    """The tree of commands. typer reads every signature anew whenever it makes one."""
-    return typer.main.get_command(app)
+def _command(word: str) -> Any:
+    """The tree of commands; only the one that a word names, if it names one: typer reads each signature anew."""
+    alone = copy.copy(app)
+    alone.registered_commands = [
+        one for one in app.registered_commands if one.callback and one.callback.__name__ == word
+    ]
+    alone.registered_groups = []
+    return typer.main.get_command(alone if alone.registered_commands else app)
 
 
 def _spread(arguments: Sequence[str]) -> list[str]:
