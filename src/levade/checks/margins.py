@@ -14,7 +14,6 @@ from levade.checks.demands import Demands
 from levade.embodiment import TorqueCurve
 from levade.errors import LevadeError
 from levade.motions import RecordedSimulation
-from levade.robots import load_robot
 
 _ROUNDING = 1e-6
 """Of a limit: a torque that the engine holds at its limit is at it, not beyond."""
@@ -201,9 +200,8 @@ def _linkage(simulation: RecordedSimulation, required: float | None) -> Margin:
 
 def _curves(simulation: RecordedSimulation) -> Mapping[int, TorqueCurve] | str:
     """The linkage's curves from the robot's description, or why there are none."""
-    choice: dict[str, Any] = asdict(simulation.task.robot) | {"linkage": True}
     try:
-        robot = load_robot(choice.pop("name"), **choice)
+        robot = replace(simulation.task.robot, linkage=True).load()
     except LevadeError as error:
         text = str(error)
         return "the robot has no linkage" if "linkage" in text else f"the robot's description cannot be read: {text}"

@@ -71,7 +71,7 @@ def _run(arguments: Sequence[str] | None) -> int:
 
 @cache
 def _command(word: str) -> Any:
-    """The tree of commands; only the one that a word names, if it names one: typer reads each signature anew."""
+    """Make the tree of commands. If the word names a command, it holds that one only, as typer reads the signature of each."""
     alone = copy.copy(app)
     alone.registered_commands = [
         one for one in app.registered_commands if one.callback and one.callback.__name__ == word
@@ -197,7 +197,9 @@ def solve(
         raise LevadeError(
             "solve: name a task, such as: levade solve rearing (levade tasks lists them), or --resume DIR"
         )
-    if hardware or (resume is not None and (resume / "hardware.json").is_file()):
+    from levade.search.run import PURSUIT
+
+    if hardware or (resume is not None and (resume / PURSUIT).is_file()):
         from levade.cli.pursuing import pursue_and_report
 
         beside = {"--watch": watch, "--from": begin, "--after": after, "--trials": trials, "--optimizer": optimizer}

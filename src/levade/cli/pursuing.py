@@ -16,7 +16,6 @@ from levade.cli.inspecting import tell_warnings
 from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console, quantity_unit
 from levade.hardware import Part, Plan, Pursued, binding, obstacles, pursue, read_pursuit
-from levade.robots import load_robot
 from levade.search import Generation
 from levade.tasks import HorizonRange, Task, load_task
 
@@ -45,8 +44,7 @@ def pursue_and_report(
         assert task is not None
         chosen = load_task(task, robot=robot, changes=changes)
         place = directory or Path(chosen.name)
-    choice = dict(vars(chosen.robot))
-    loaded = load_robot(choice.pop("name"), **choice)
+    loaded = chosen.robot.load()
     tell_warnings(console, loaded, chosen.robot.name)
     _tell_goal(console, Plan.of(chosen, loaded, demands))
     with stop_between("generation") as stopping, ExitStack() as stack:

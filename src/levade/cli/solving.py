@@ -26,7 +26,7 @@ from levade.search.initial import initial_guess
 from levade.search.memory import in_words, needed
 from levade.search.objective import AT_ONCE
 from levade.search.optimizing import make_attempt
-from levade.search.run import Outcome, check_replaceable, check_unlocked, read_run, resume, run
+from levade.search.run import PURSUIT, Outcome, check_replaceable, check_unlocked, read_run, resume, run
 from levade.tasks import HorizonRange, load_task
 
 
@@ -71,7 +71,7 @@ def solve_and_report(
         out = directory or Path(chosen.name)
         if force:
             check_unlocked(out)
-            if (out / "hardware.json").exists():
+            if (out / PURSUIT).exists():
                 from levade.hardware import discard
 
                 discard(out)

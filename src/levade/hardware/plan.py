@@ -5,8 +5,8 @@
     plan.robust(0.42)               # perturbed models too, at the duration that was found
     plan.closed_loop(0.42)          # the same with feedback
 
-One plan for all tasks: nothing here knows a task by its name. Costs that state the goal are made anew from the criteria, so
-that all of them count alike: a miss by half of what is allowed costs 1. Costs of effort, and those that are Python code, stay.
+All tasks have the same plan; nothing here knows a task by its name. Each success criterion becomes a cost, which is 1 where the
+motion misses by half of what is allowed. These replace the task's costs of the goal. Costs of effort and Python code stay.
 """
 
 from __future__ import annotations
@@ -49,8 +49,8 @@ WANTED = {"angle": 0.05, "speed": 0.1, "torque_speed": 0.1, "self_distance": 0.0
 """What the cost of margins wants left: more, since a drive, a joint and a shank are never just those of the model."""
 
 _KERNELS, _VARIANCE = 6, 0.02
-"""At most so many kernels a joint, and then so wide: limits are kept by what is smooth. With a rearing's sixteen kernels one of
-three seeds met every limit, with five of them three of four did.
+"""The most kernels a joint may have, and their variance if the task has more. Smooth motions keep limits more easily:
+rearing met every limit with one of three seeds with its own sixteen kernels, and with three of four with five wide ones.
 """
 
 _DURATION_WEIGHT = 0.5
@@ -265,9 +265,8 @@ def _miss(criterion: Criterion, size: Dimensions) -> Miss:
         return kind(target=criterion.target, scale=max(criterion.tolerance or 0.0, 1e-9) / 2, **same)  # type: ignore[arg-type]
     low, high = criterion.minimum, criterion.maximum
     fall = size.fall
-    scale = {"rad": 0.05, "m": size.height / 24, "m/s": 0.05 * size.height / fall, "rad/s": 0.1 / fall}.get(
-        unit_of(criterion.quantity), 0.05
-    )
+    unit = unit_of(criterion.quantity)
+    scale = tolerance(unit, size) / 2 or {"m/s": 0.05 * size.height / fall, "rad/s": 0.1 / fall}.get(unit, 0.05)
     if low is not None and high is not None:
         scale = min(scale, (high - low) / 4)
     elif high is not None and high > 0:

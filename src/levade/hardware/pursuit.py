@@ -30,7 +30,7 @@ from levade.errors import LevadeError, Remedy
 from levade.hardware.plan import Plan
 from levade.locking import locked
 from levade.motions import Motion
-from levade.robots import Robot, load_robot
+from levade.robots import Robot
 from levade.search import Generation, Stopped, make_objective
 from levade.search.checkpoint import CHECKPOINT
 from levade.search.initial import initial_guess
@@ -79,8 +79,7 @@ class Part:
     @property
     def met(self) -> bool:
         """Whether the model does what was searched for: the goal, within the limits."""
-        motion = self.motion
-        return not motion.result.diverged and all(motion.meets(name) for name in motion.task.success)
+        return self.motion.met
 
     @property
     def rank(self) -> tuple[bool, int, float]:
@@ -171,8 +170,7 @@ def pursue(
     if minutes is not None and not minutes > 0:
         raise LevadeError(f"{minutes:g} should be a positive number of minutes; 5 is usual", field="minutes")
     if robot is None:
-        choice: dict[str, Any] = vars(task.robot).copy()
-        robot = load_robot(choice.pop("name"), **choice)
+        robot = task.robot.load()
     plan = Plan.of(task, robot, demands)
     if not plan.goal:
         raise LevadeError(f"hardware: the task {task.name} has no success criteria to certify; give it some")

@@ -29,10 +29,9 @@ def obstacles(pursued: Pursued) -> list[str]:
     part = pursued.best
     failed = set(part.certificate.failed)
     said = [
-        text
+        _of_margin(name, margin, part.motion)
         for name, margin in part.certificate.margins.items()
         if name.replace("_", " ") in failed
-        for text in [_of_margin(name, margin, part.motion)]
     ]
     missed = [name for name in pursued.plan.goal if not part.motion.meets(name)]
     if missed:
@@ -75,9 +74,10 @@ def _of_margin(name: str, margin: Margin, motion: Motion) -> str:
         )
     if name == "position":
         return (
-            f"{margin.least} is {-margin.value:.3g} rad beyond its range: a wider range, or a goal that asks for less"
+            f"{margin.least} leaves {margin.value:.3g} rad of its range, and {required:.3g} rad are to be left: a wider range,"
+            " or a goal that asks for less"
         )
-    return f"{margin.least} is beyond its {name.replace('_', ' ')} limit by {-margin.value:.0%}: a stronger joint"
+    return f"{margin.least} leaves {margin.value:.0%} of its {name.replace('_', ' ')} limit{asked}: a stronger joint"
 
 
 def _of_perturbed(part: Part) -> str:

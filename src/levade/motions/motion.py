@@ -336,10 +336,14 @@ class Motion:
         return abs(self.result.errors[criterion]) <= (self.task.success[criterion].tolerance or 0.0)
 
     @property
+    def met(self) -> bool:
+        """Whether the motion meets every criterion of its task on the model."""
+        return not self.result.diverged and all(self.meets(name) for name in self.task.success)
+
+    @property
     def met_on_the_model_only(self) -> bool:
         """Whether it meets every criterion on the model and still is no success: a motion of a robust search."""
-        result = self.result
-        return not (result.success or result.diverged) and all(self.meets(name) for name in self.task.success)
+        return self.met and not self.result.success
 
     # the stabiliser
 

@@ -10,7 +10,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -31,7 +31,7 @@ from levade.errors import LevadeError, did_you_mean
 from levade.feedback import Feedback
 from levade.optimizers import SearchSpace
 from levade.policies import FreePolicy, JointPolicy, Policy
-from levade.robots import Robot, load_robot
+from levade.robots import Robot
 from levade.search.closed_loop import ClosedLoop
 from levade.search.evaluation import Evaluation, Trials
 from levade.search.memory import check_fits, needed
@@ -76,8 +76,7 @@ class Simulation:
             LevadeError: If they do not fit together, or the robot cannot be put down where the start says.
         """
         if robot is None:
-            choice = asdict(task.robot)
-            robot = load_robot(choice.pop("name"), **choice)
+            robot = task.robot.load()
         engine = make_engine(robot, task.scene, task.physics, threads=threads, clearance=task.clearance)
         return cls(robot, engine, start_state(engine, robot, task.scene, task.start.choice))
 

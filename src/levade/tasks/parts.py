@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Literal
 
 from levade.costs import Term
 from levade.engines import Fall, GivenState, Settled
 from levade.errors import LevadeError
 from levade.optimizers import Choice, canonical
+from levade.robots import Robot, load_robot
 
 if TYPE_CHECKING:
     OptimizerChoice = Choice
@@ -28,6 +29,11 @@ class RobotChoice:
     linkage: bool = False
     kp: float | None = None
     kd: float | None = None
+
+    def load(self) -> Robot:
+        """Load the robot. Raises LevadeError."""
+        options = asdict(self)
+        return load_robot(options.pop("name"), **options)
 
 
 @dataclass(frozen=True)
