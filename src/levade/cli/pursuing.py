@@ -166,7 +166,7 @@ def _tell(console: Console, pursued: Pursued) -> None:
         console.print(f"[green]The certificate passes[/]; {spent}.{escape(unknown and f' Unknown: {unknown}.')}")
     else:
         if pursued.certificate.interrupted:
-            console.print(f"The certificate was interrupted, and passes for nothing; {spent}.")
+            console.print(f"The certificate was interrupted, and so does not pass; {spent}.")
         else:
             console.print(f"[red]The certificate fails[/] after {spent}. In the way:")
         for text in obstacles(pursued):
