@@ -7,11 +7,11 @@ import json
 from collections.abc import Mapping
 from contextlib import ExitStack
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from rich.console import Console
 from rich.markup import escape
 
-from levade.checks import Numeric
 from levade.cli.display import Display
 from levade.cli.doubts import binding_limits, in_other_numbers, tell_numerics, tell_unknown_limits
 from levade.cli.inspecting import tell_warnings
@@ -28,6 +28,9 @@ from levade.search.objective import AT_ONCE
 from levade.search.optimizing import make_attempt
 from levade.search.run import PURSUIT, Outcome, check_replaceable, check_unlocked, read_run, resume, run
 from levade.tasks import HorizonRange, load_task
+
+if TYPE_CHECKING:
+    from levade.checks import Numeric
 
 
 def solve_and_report(

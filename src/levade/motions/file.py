@@ -19,7 +19,6 @@ from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.feedback import ARRAYS as FEEDBACK_ARRAYS
 from levade.feedback import META as FEEDBACK_META
-from levade.motions.form import check
 from levade.motions.model import check_text
 from levade.rotations import conjugate, rotate
 from levade.writing import replacing
@@ -112,6 +111,8 @@ def read(path: str | Path) -> Content:
     Raises:
         LevadeError: If the file is missing, damaged, something else, or of a later layout.
     """
+    from levade.motions.form import check  # only now: a search that writes a motion needs no forms
+
     path = Path(path)
     data = unpack(path)
     missing = [name for name in ("meta", "model_xml", *ARRAYS) if name not in data]

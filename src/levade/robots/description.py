@@ -35,7 +35,7 @@ PerJointOrZero = Annotated[dict[str, NotNegative], BeforeValidator(_table)]
 
 
 class _Form(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=False)
+    model_config = ConfigDict(defer_build=True, extra="forbid", frozen=True, strict=False)
 
 
 class LegForm(_Form):
