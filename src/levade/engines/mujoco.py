@@ -18,6 +18,7 @@ from levade.arrays import Array
 from levade.engines.batches import RESET_OFF, SENSORS_OFF, STATE, quiet, simulate
 from levade.engines.clearance import SELF_DISTANCE, distances, distances_at
 from levade.engines.engine import Engine, Trials, broke_down
+from levade.engines.lean import Lean
 from levade.engines.models import Models, with_free_frames
 from levade.engines.state import State
 from levade.feedback import Correcting, Feedback
@@ -65,7 +66,7 @@ class MujocoEngine(Engine):
         Args:
             starts: Where the trials start.
             reference: What they are to follow.
-            fields: Names of arrays of `mujoco.MjData`.
+            fields: Names of arrays of `mujoco.MjData`, but of those of shapes: only shapes that can touch are simulated.
             models: As in `rollout`.
             feedback: As in `rollout`.
             sensor_errors: As in `rollout`.
@@ -132,9 +133,14 @@ class MujocoEngine(Engine):
             yield part, n
 
     @cached_property
+    def _lean(self) -> Lean:
+        """The model that is stepped."""
+        return Lean.of(self.model, self.xml, self.assets)
+
+    @cached_property
     def _free(self) -> mujoco.MjModel:
         """The model that versions are made of."""
-        return with_free_frames(self.model, self.layout)
+        return with_free_frames(self._lean.model, self.layout)
 
     def _batch_for(self, n: int, *, sensors: tuple[int, ...] | None, versions: bool) -> Batch:
         """A batch of at least n simulations. A batch takes its options when it is made, and which sensors it computes.
@@ -149,7 +155,7 @@ class MujocoEngine(Engine):
         """
         batch = self._batches.get((sensors, versions))
         if batch is None or batch.nsim < n:
-            model = copy.deepcopy(self._free if versions else self.model)
+            model = copy.deepcopy(self._free if versions else self._lean.model)
             model.opt.disableflags |= RESET_OFF | (0 if sensors is None or sensors else SENSORS_OFF)
             if sensors:  # all of them together take as long as a fifth of the physics
                 model.sensor_needstage[~np.isin(model.sensor_adr, sensors)] = mujoco.mjtStage.mjSTAGE_NONE
@@ -160,7 +166,8 @@ class MujocoEngine(Engine):
         """Give the first n simulations their versions' fields, and what follows from them."""
         self._varied |= set(fields)
         for name in self._varied:  # a version has the nominal values of what an earlier one differed in
-            batch.expand(name)[:n] = fields.get(name, getattr(self._free, name))
+            given = fields.get(name)
+            batch.expand(name)[:n] = getattr(self._free, name) if given is None else self._lean.fields(name, given)
         with quiet():
             batch.set_const(np.arange(n))
 
