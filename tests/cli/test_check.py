@@ -60,6 +60,17 @@ def test_a_motion_that_does_not_fails_and_says_in_what(motion: Path, tmp_path: P
 
 
 @pytest.mark.slow
+def test_it_writes_a_page(motion: Path, tmp_path: Path, levade) -> None:
+    status, _, err = levade("check", motion, "--runs", 4, "--criteria", "rearing", "--page", "certificate.html")
+    assert (status, err) == (1, "")
+    assert "levade.certificate()" in (tmp_path / "certificate.html").read_text(encoding="utf-8")
+    (tmp_path / "mine.html").write_text("mine")
+    status, _, err = levade("check", motion, "--runs", 500_000, "--page", "mine.html")  # said before the work
+    assert (status, err.count("\n")) == (2, 1)
+    assert "--page FILE" in err
+
+
+@pytest.mark.slow
 def test_another_tasks_criteria_can_be_used(motion: Path, levade) -> None:
     code, out, _ = levade("check", str(motion), "--runs", "4", "--criteria", "rearing", "--json")
     content = json.loads(out)

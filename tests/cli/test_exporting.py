@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from levade.exports import FORMATS
+from levade.motions import Motion
 
 
 @pytest.fixture
@@ -88,3 +89,40 @@ def test_what_is_no_motion(tmp_path: Path, levade) -> None:
     assert status == 2
     assert "no such file; give the motion.npz that levade solve wrote" in err
     assert levade("export")[0] == 2
+
+
+def certificate(path: Path, motion: Path, **content: object) -> Path:
+    path.write_text(json.dumps({"passed": True, "checksum": Motion.load(motion).checksum, **content}))
+    return path
+
+
+def test_a_certificate_that_is_asked_for_has_to_pass(motion: Path, tmp_path: Path, levade) -> None:
+    failing = certificate(tmp_path / "fails.json", motion, passed=False, failed=["speed"])
+    status, _, err = levade("export", motion, "--to", "csv", "--out", "out", "--certificate", failing)
+    assert status == 2
+    assert f"--certificate {failing}: it fails speed; nothing is written" in err
+    assert not (tmp_path / "out").exists()
+    status, _, err = levade("export", motion, "--to", "csv", "--out", "out", "--certificate", "none.json")
+    assert (status, err.count("\n")) == (2, 1)
+    passing = certificate(tmp_path / "passes.json", motion)
+    status, out, _ = levade("export", motion, "--to", "csv", "--out", "out", "--certificate", passing)
+    assert status == 0
+    assert "no certificate" not in out
+
+
+def test_motions_for_robots_without_a_certificate_beside_them_are_remarked_on(
+    motion: Path, tmp_path: Path, levade
+) -> None:
+    copy = tmp_path / "motion.npz"
+    copy.write_bytes(motion.read_bytes())
+
+    def notes(to: str) -> list[str]:
+        _, out, _ = levade("export", copy, "--to", to, "--out", tmp_path / to, "--json")
+        return [note for note in json.loads(out)["notes"] if "certificate" in note]
+
+    assert notes("mjcf") == []
+    assert "levade check" in notes("unitree")[0]
+    certificate(tmp_path / "certificate.json", motion, checksum="0")
+    assert "it is of another motion" in notes("csv")[0]
+    certificate(tmp_path / "certificate.json", motion)
+    assert notes("csv") == []

@@ -17,7 +17,7 @@ def test_the_certificate_decides(levade, tmp_path: Path) -> None:
     assert content["certificate"]["failed"] == content["obstacles"] == []
     assert [search["name"] for search in content["searches"]] == ["limits-1"]
     assert {path.name for path in (tmp_path / "stand").iterdir()} == {
-        *("motion.npz", "certificate.json", "task.yaml", "hardware.json", "limits-1"),
+        *("motion.npz", "certificate.html", "certificate.json", "task.yaml", "hardware.json", "limits-1"),
     }
     status, out, _ = levade("check", "stand/motion.npz", "--json")
     assert status == 0

@@ -22,7 +22,7 @@ from levade.checks.perturbed import Perturbed, Sensitivity, perturbed
 from levade.engines import Perturbation
 from levade.errors import LevadeError
 from levade.feedback import Feedback
-from levade.motions import Motion, RecordedSimulation
+from levade.motions import Motion, RecordedSimulation, versions
 from levade.tasks import Task
 
 __all__ = [
@@ -87,7 +87,11 @@ def check(
         task=simulation.task.name,
         robot=motion.robot,
         criteria=simulation.task.name if criteria is None else criteria.name,
+        checksum=motion.checksum,
+        versions=versions(simulation.engine.name),
         demands=demands,
+        ranges=ranges,
+        runs=runs,
         perturbed=found,
         open_loop=None if feedback is None else without,
         numerics={} if cut else numerics(simulation),

@@ -11,12 +11,15 @@ from levade.checks.engines import Replayed
 from levade.checks.margins import Margin
 from levade.checks.numerics import Numeric
 from levade.checks.perturbed import Perturbed
+from levade.engines import Perturbation
 
 
 @dataclass(frozen=True)
 class Certificate:
     """What a check found. criteria: whose success criteria were used, the name of a task.
 
+    checksum: of the motion (`levade.motions.Motion.checksum`). versions: of the libraries that decided the bits.
+    ranges: what the perturbed runs were drawn from. runs: how many were asked for.
     perturbed, numerics: with the stabiliser, if the motion has one. open_loop: the perturbed runs without it, else None.
     interrupted: in the perturbed runs; then fewer of them were made, and nothing else.
     """
@@ -24,7 +27,11 @@ class Certificate:
     task: str
     robot: str
     criteria: str
+    checksum: str
+    versions: Mapping[str, str]
     demands: Demands
+    ranges: Perturbation
+    runs: int
     perturbed: Perturbed
     numerics: Mapping[str, Numeric]
     engines: Mapping[str, Replayed]
@@ -59,6 +66,8 @@ class Certificate:
             "task": self.task,
             "robot": self.robot,
             "criteria": self.criteria,
+            "checksum": self.checksum,
+            "versions": dict(self.versions),
             "failed": list(self.failed),
             "unknown": list(self.unknown),
             "perturbed": self.perturbed.to_json(),
@@ -67,6 +76,7 @@ class Certificate:
             "engines": {name: one.to_json() for name, one in self.engines.items()},
             "margins": {name: one.to_json() for name, one in self.margins.items()},
             "demands": asdict(self.demands),
+            "ranges": asdict(self.ranges),
         }
 
     def _perturbed(self) -> Verdict:

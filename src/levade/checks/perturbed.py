@@ -16,6 +16,9 @@ from levade.engines.perturbation import PARAMETERS, joined, labels
 from levade.feedback import Feedback
 from levade.motions import RecordedSimulation, Trials, run_trials
 
+_POOREST = 3
+"""Runs that can be looked at afterwards."""
+
 _CORNERS = 8
 """Runs with one parameter alone at the ends of its range."""
 
@@ -55,8 +58,8 @@ class Perturbed:
 
     low, high: of the share, Wilson's interval at 95 %. errors: criterion -> lowest, mean and highest error [SI], and in how
     many runs it was missed. timestep: [s]. diverged: runs whose simulation broke down. worst: of the runs that fail, if any,
-    the one that misses by the most times its tolerance: its number, errors, and the parameters' values. sensitivity: in
-    order, strongest first.
+    the one that misses by the most times its tolerance: its number, errors, and the parameters' values. poorest: numbers of
+    the few that come next to it, and its own before them. sensitivity: in order, strongest first.
     """
 
     runs: int
@@ -68,6 +71,7 @@ class Perturbed:
     diverged: int
     errors: Mapping[str, Mapping[str, float]]
     worst: Mapping[str, Any]
+    poorest: tuple[int, ...]
     sensitivity: tuple[Sensitivity, ...]
 
     @property
@@ -82,6 +86,7 @@ class Perturbed:
             },
             "errors": {name: dict(values) for name, values in self.errors.items()},
             "worst": dict(self.worst),
+            "poorest": list(self.poorest),
             "sensitivity": [one.to_json() for one in self.sensitivity],
         }
 
@@ -114,13 +119,14 @@ def perturbed(
     whole = run_trials(simulation, every, feedback=feedback, seed=seed, stopping=stopping)
     drawn, alone, first = whole.part(0, runs), {}, runs
     runs = len(drawn)
-    sample = Sample({name: values[:runs] for name, values in sample.values.items()})
+    sample = sample[:runs]
     for name, corner in corners.items():
         alone[name] = whole.part(first, first + len(corner)).success
         first += len(corner)
     successes = int(drawn.success.sum())
     low, high = wilson(successes, runs)
-    worst = int(np.lexsort((-drawn.miss, drawn.success))[0])
+    poorest = np.lexsort((-drawn.miss, drawn.success))[:_POOREST].tolist()
+    worst = poorest[0]
     sound = ~drawn.diverged
     return Perturbed(
         runs=runs,
@@ -146,6 +152,7 @@ def perturbed(
             "errors": {name: float(values[worst]) for name, values in drawn.errors.items()},
             "values": {name: sample.values[name][worst].tolist() for name in names},
         },
+        poorest=tuple(poorest),
         sensitivity=_sensitivities(simulation, perturbation, sample, drawn, alone, names),
     )
 

@@ -348,6 +348,9 @@ def check(
         str | None, typer.Option(metavar="TASK", help="Judge by this task's success criteria, not the motion's own.")
     ] = None,
     out: Annotated[Path | None, typer.Option(metavar="FILE", help="Write the certificate, as JSON, to FILE.")] = None,
+    page: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Write it as one HTML page, with the poorest runs to play.")
+    ] = None,
     threads: Annotated[int, typer.Option(min=0, help="0 for one per core; no effect on the result.")] = 0,
     as_json: Json = False,
 ) -> int:
@@ -366,6 +369,7 @@ def check(
         demand=demand or [],
         criteria=criteria,
         out=out,
+        page=page,
         threads=threads,
         as_json=as_json,
     )
@@ -440,6 +444,10 @@ def export(
     hold: Annotated[bool, typer.Option("--hold/--no-hold", help="Go on after the horizon, or stop there.")] = True,
     kp: Annotated[float | None, typer.Option(help="Of all joints [Nm/rad]; by default the simulation's.")] = None,
     kd: Annotated[float | None, typer.Option(help="Of all joints [Nm s/rad]; by default the simulation's.")] = None,
+    certificate: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Write nothing unless this certificate is the motion's, and passes."),
+    ] = None,
     as_json: Json = False,
 ) -> int:
     """Write a motion for a robot or another tool, with a player.py that plays it.
@@ -448,7 +456,18 @@ def export(
     """
     from levade.cli.exporting import export_motion
 
-    return export_motion(motion, to, out, rate=rate, reference=reference, hold=hold, kp=kp, kd=kd, as_json=as_json)
+    return export_motion(
+        motion,
+        to,
+        out,
+        rate=rate,
+        reference=reference,
+        hold=hold,
+        kp=kp,
+        kd=kd,
+        certificate=certificate,
+        as_json=as_json,
+    )
 
 
 _tasks = typer.Typer(help="List the built-in tasks; print one, or the form of them all.", rich_markup_mode=None)

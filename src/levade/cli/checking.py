@@ -23,6 +23,7 @@ from levade.engines import Perturbation
 from levade.errors import LevadeError, did_you_mean
 from levade.motions import Motion
 from levade.report.files import writing
+from levade.report.page import check_page
 from levade.tasks import load_task
 from levade.tasks.units import to_si
 
@@ -42,6 +43,7 @@ def check_motion(
     demand: Sequence[str],
     criteria: str | None,
     out: Path | None,
+    page: Path | None,
     threads: int,
     as_json: bool,
 ) -> int:
@@ -51,6 +53,8 @@ def check_motion(
     demands = changed(Demands(), demand, option="--demand")
     task = None if criteria is None else load_task(criteria, robot=motion.task.robot.name)
     place = nullcontext(None) if out is None else writing(out, instead="give a path that can: --out FILE")
+    if page is not None:
+        check_page(page, instead="give a path that can: --page FILE")
     with place as file:  # whatever cannot be written is said before the work
         with stop_between() as stopping:
             certificate = check(
@@ -71,6 +75,13 @@ def check_motion(
             _tell(make_console(), path, certificate, runs)
         if file is not None:
             file.write_text(json.dumps(content, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
+    if page is not None:
+        from levade.hardware import write_certificate  # only now: it brings searches and scenes with it
+
+        judged = None if task is None else task.success
+        write_certificate(
+            motion, certificate, page, criteria=judged, source=str(path), instead="give a path that can: --page FILE"
+        )
     return 0 if certificate.passed else 1
 
 

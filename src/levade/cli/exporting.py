@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import json
 import shlex
+from dataclasses import replace
 from pathlib import Path
 
 from rich.markup import escape
 
+from levade.checks.record import CERTIFICATE, doubt
 from levade.cli.tables import make_console
 from levade.errors import LevadeError
 from levade.exports import FORMATS, Exported, export
 from levade.motions import Motion
+
+_TO_ROBOTS = ("csv", "json", "ros2", "unitree")
+"""Formats that a robot plays; the others are for simulators."""
 
 _FILES = (".csv", ".json", ".npz", ".mcap", ".yaml", ".py")
 
@@ -26,6 +31,7 @@ def export_motion(
     hold: bool,
     kp: float | None,
     kd: float | None,
+    certificate: Path | None,
     as_json: bool,
 ) -> int:
     """Exit status 0: it was written."""
@@ -34,6 +40,10 @@ def export_motion(
     if directory is not None and directory.suffix in _FILES:
         raise LevadeError(f"--out {directory}: several files are written; give a directory, such as {directory.stem}")
     motion = Motion.load(path)
+    if certificate is not None and (reason := doubt(certificate, motion)) is not None:
+        raise LevadeError(
+            f"--certificate {certificate}: {reason}; nothing is written. levade check says what there is to mend"
+        )
     options = [
         ("--rate", rate),
         ("--reference", None if reference == "measured" else reference),
@@ -46,6 +56,8 @@ def export_motion(
     words += ["--no-hold"] * (not hold)
     place = directory if directory is not None else path.with_name(f"{path.stem}-{to}")
     done = export(motion, to, place, rate=rate, reference=reference, hold=hold, kp=kp, kd=kd, command=shlex.join(words))
+    if certificate is None and to in _TO_ROBOTS:
+        done = replace(done, notes=(*done.notes, *_uncertified(path, motion)))
     if as_json:
         print(json.dumps({"motion": str(path), **_summary(done)}, ensure_ascii=False))
         return 0
@@ -61,6 +73,18 @@ def export_motion(
     names = ", ".join(escape(str(file.relative_to(done.directory))) for file in done.written)
     console.print(f"Written to {escape(str(done.directory))}: {names}")
     return 0
+
+
+def _uncertified(path: Path, motion: Motion) -> tuple[str, ...]:
+    """What to say of a motion that goes to a robot without a certificate beside it that passes."""
+    beside = path.with_name(CERTIFICATE)
+    try:
+        reason = doubt(beside, motion) if beside.is_file() else f"there is no {beside}"
+    except LevadeError:
+        reason = f"{beside} is none"
+    if reason is None:
+        return ()
+    return (f"no certificate says that hardware can do this ({reason}): levade check {path} --out {beside}",)
 
 
 def _summary(done: Exported) -> dict[str, object]:

@@ -174,4 +174,6 @@ def _tell(console: Console, pursued: Pursued) -> None:
     if pursued.stopped:
         why = "Interrupted" if pursued.stopped == "interrupted" else "Out of time"
         console.print(f"[yellow]{why}[/]. To go on: levade solve --resume {place}")
-    console.print(f"Written: {place}/motion.npz, certificate.json, task.yaml, and a run for each search")
+    console.print(
+        f"Written: {place}/motion.npz, certificate.html, certificate.json, task.yaml, and a run for each search"
+    )

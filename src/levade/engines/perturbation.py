@@ -12,7 +12,7 @@ runs there are, nor on which other parameters are switched off.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -236,6 +236,10 @@ class Sample:
 
     def __len__(self) -> int:
         return len(next(iter(self.values.values())))
+
+    def __getitem__(self, rows: slice | Sequence[int]) -> Sample:
+        """Some of the runs, in the order given."""
+        return Sample({name: values[rows] for name, values in self.values.items()})
 
 
 def joined(samples: list[Sample]) -> Sample:

@@ -6,8 +6,20 @@ pursued.motion                  # the motion with the best certificate
 obstacles(pursued)              # what it fails, and what would have to give
 """
 
+from levade.hardware.page import write_certificate
 from levade.hardware.plan import Plan
 from levade.hardware.pursuit import Part, Pursued, discard, is_pursuit, pursue, read_pursuit
 from levade.hardware.verdict import binding, obstacles
 
-__all__ = ["Part", "Plan", "Pursued", "binding", "discard", "is_pursuit", "obstacles", "pursue", "read_pursuit"]
+__all__ = [
+    "Part",
+    "Plan",
+    "Pursued",
+    "binding",
+    "discard",
+    "is_pursuit",
+    "obstacles",
+    "pursue",
+    "read_pursuit",
+    "write_certificate",
+]

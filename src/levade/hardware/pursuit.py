@@ -6,6 +6,7 @@
 
 DIR/motion.npz          the motion with the best certificate so far
 DIR/certificate.json    its certificate
+DIR/certificate.html    the same to look at, with the runs that came out poorest
 DIR/task.yaml           its task, with every default filled in
 DIR/hardware.json       what was asked for: from it, the pursuit goes on where it stopped
 DIR/limits-1, ...       the searches, each a run of its own (`levade.search.run`)
@@ -25,8 +26,10 @@ from pathlib import Path
 from typing import Any
 
 from levade.checks import Certificate, Demands, check
+from levade.checks.record import CERTIFICATE
 from levade.document import read_yaml
 from levade.errors import LevadeError, Remedy
+from levade.hardware.page import write_certificate
 from levade.hardware.plan import Plan
 from levade.locking import locked
 from levade.motions import Motion
@@ -39,7 +42,7 @@ from levade.search.storage import storing
 from levade.tasks import Task, task_from_dict, task_to_dict, task_to_yaml
 from levade.writing import write_text
 
-ASKED, CERTIFICATE = PURSUIT, "certificate.json"
+ASKED, PAGE = PURSUIT, "certificate.html"
 LIMITS, ROBUST, CLOSED = ("limits-1", "limits-2", "limits-3"), "robust", "feedback"
 
 _ON_LIMITS = 0.4
@@ -220,7 +223,7 @@ def discard(directory: Path) -> None:
             (search / CHECKPOINT).unlink(missing_ok=True)
         if (directory / CERTIFICATE).exists():  # and the motion that it is of
             (directory / MOTION).unlink(missing_ok=True)
-        for name in (CERTIFICATE, ASKED):
+        for name in (CERTIFICATE, PAGE, ASKED):
             (directory / name).unlink(missing_ok=True)
 
 
@@ -364,3 +367,4 @@ class _Pursuit:
             write_text(place / TASK, task_to_yaml(part.motion.task, code=True))
             content = {"motion": MOTION, **part.certificate.to_json()}
             write_text(place / CERTIFICATE, json.dumps(content, ensure_ascii=False, indent=1) + "\n")
+            write_certificate(part.motion, part.certificate, place / PAGE, source=MOTION)

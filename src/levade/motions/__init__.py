@@ -11,7 +11,7 @@ from levade.motions.file import ARRAYS, LATER, LATER_ARRAYS, META, SCHEMA
 from levade.motions.motion import Motion, Provenance, Result, UnknownArray
 from levade.motions.reference import ReferenceCurve
 from levade.motions.simulation import RecordedSimulation, Replay, configurations, replay_in
-from levade.motions.trials import Trials, run_trials
+from levade.motions.trials import Trials, run_again, run_trials
 from levade.motions.versions import versions
 
 __all__ = [
@@ -30,6 +30,7 @@ __all__ = [
     "UnknownArray",
     "configurations",
     "replay_in",
+    "run_again",
     "run_trials",
     "versions",
 ]

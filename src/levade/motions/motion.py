@@ -22,6 +22,7 @@ it needs none of levade:
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -133,6 +134,20 @@ class Motion:
             return self.arrays[name]
         except KeyError:
             raise UnknownArray(f"motion: no array {name!r}; {did_you_mean(str(name), self.arrays)}") from None
+
+    @cached_property
+    def checksum(self) -> str:
+        """What tells this motion from others: SHA-256 of its model and arrays, in hexadecimal, the same in every file of it.
+
+        What is said about the motion, such as its task, does not count.
+        """
+        found = hashlib.sha256(self.model_xml.encode())
+        for name, content in sorted(self.assets.items()):
+            found.update(name.encode() + content)
+        for name, values in sorted(self.arrays.items()):
+            whole = np.ascontiguousarray(values)
+            found.update(f"{name} {whole.dtype.str} {whole.shape}".encode() + whole.tobytes())
+        return found.hexdigest()
 
     def __contains__(self, name: object) -> bool:
         return name in self.arrays

@@ -134,6 +134,7 @@ class RecordedSimulation:
         *,
         feedback: Feedback | None = None,
         sensor_errors: Array | None = None,
+        record: Sequence[str] = (),
     ) -> Trajectories:
         """Simulate the motion.
 
@@ -141,9 +142,10 @@ class RecordedSimulation:
             sample: Perturbed models, a run of each. Defaults to one run of the model as it is.
             feedback: Corrects the reference in every run.
             sensor_errors: What is added to what the feedback senses, shape (n, ticks, sensed).
+            record: What to record beside what the criteria need; see `levade.engines.Engine.rollout`.
         """
         starts, models = self._models(self.nominal if sample is None else sample)
-        record = () if self._clearance is None else (SELF_DISTANCE,)
+        record = (*record, *(() if self._clearance is None else (SELF_DISTANCE,)))
         return self.engine.rollout(
             starts, self.reference, models=models, feedback=feedback, sensor_errors=sensor_errors, record=record
         )
@@ -158,6 +160,10 @@ class RecordedSimulation:
             raise LevadeError(f"simulation: the engine {self.engine.name} has no arrays of MuJoCo's; only mujoco has")
         starts, models = self._models(sample)
         return self.engine.states(starts, self.reference, fields, models=models)[0]
+
+    def starts(self, sample: Sample) -> State:
+        """Where the runs on perturbed models start."""
+        return self._models(sample)[0]
 
     @property
     def nominal(self) -> Sample:

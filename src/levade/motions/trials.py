@@ -7,7 +7,7 @@ trials.success.mean(), trials.errors["pitch"]
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +18,7 @@ from levade.costs import DIVERGED, errors, success
 from levade.engines import Sample
 from levade.feedback import Feedback, SensorErrors
 from levade.motions.simulation import RecordedSimulation
+from levade.trajectory import Trajectories
 
 _AT_ONCE = 64
 """Runs simulated together: what they record has to fit into memory."""
@@ -69,15 +70,14 @@ def run_trials(
         seed: Seed of the sensors' errors.
         stopping: Asked on the way; once it says so, the trials made by then are the result, some at least.
     """
-    criteria, reference, parts = simulation.criteria, simulation.reference, []
+    criteria, parts = simulation.criteria, []
     for first in range(0, len(sample), _AT_ONCE):
         if parts and stopping is not None and stopping():
             break
-        part = Sample({name: values[first : first + _AT_ONCE] for name, values in sample.values.items()})
+        part = sample[first : first + _AT_ONCE]
         wrong = None
         if feedback is not None:
-            ticks = -(-reference.steps // feedback.steps(reference.timestep))
-            wrong = SensorErrors().draw(_AT_ONCE, ticks, simulation.joints, seed=(seed, first, _SENSING))[: len(part)]
+            wrong = _sensor_errors(simulation, first, feedback, seed)[: len(part)]
         trajectories = simulation.rollout(part, feedback=feedback, sensor_errors=wrong)
         parts.append((errors(criteria, trajectories), success(criteria, trajectories), trajectories.diverged))
     off = {name: np.concatenate([part[0][name] for part in parts]) for name in criteria}
@@ -88,3 +88,41 @@ def run_trials(
         np.maximum(miss, np.abs(off[name]) / (criterion.tolerance or bound), out=miss)
     miss[diverged] = DIVERGED
     return Trials(off, met, diverged, miss)
+
+
+def run_again(
+    simulation: RecordedSimulation,
+    sample: Sample,
+    runs: Sequence[int],
+    *,
+    feedback: Feedback | None = None,
+    seed: int = 0,
+    record: Sequence[str] = (),
+) -> Trajectories:
+    """Simulate some of the runs of `run_trials` once more, for what they did on the way.
+
+    Args:
+        simulation: As there.
+        sample: As there: of all the runs.
+        runs: Numbers of those to simulate.
+        feedback: As there.
+        seed: As there.
+        record: What to record beside what the criteria need; see `levade.engines.Engine.rollout`.
+    """
+    wrong = None
+    if feedback is not None:
+        drawn = {first: _sensor_errors(simulation, first, feedback, seed) for first in {_first(run) for run in runs}}
+        wrong = np.stack([drawn[_first(run)][run - _first(run)] for run in runs])
+    return simulation.rollout(sample[list(runs)], feedback=feedback, sensor_errors=wrong, record=record)
+
+
+def _first(run: int) -> int:
+    """The first of the runs that a run is simulated together with."""
+    return run - run % _AT_ONCE
+
+
+def _sensor_errors(simulation: RecordedSimulation, first: int, feedback: Feedback, seed: int) -> Array:
+    """Of the runs that are simulated together from one on."""
+    reference = simulation.reference
+    ticks = -(-reference.steps // feedback.steps(reference.timestep))
+    return SensorErrors().draw(_AT_ONCE, ticks, simulation.joints, seed=(seed, first, _SENSING))

@@ -70,7 +70,7 @@ def write_page(
     Raises:
         LevadeError: If the file cannot be written, or is there and is no page of levade.
     """
-    _check_replaceable(Path(path), instead)
+    check_page(Path(path), instead=instead)
     return save_page(page(motion, progress_csv=progress_csv, source=source), path, instead=instead)
 
 
@@ -80,7 +80,7 @@ def save_page(text: str, path: str | Path, *, instead: str) -> Path:
     instead: what else could be done, for the message. Raises LevadeError as `write_page` does.
     """
     path = Path(path)
-    _check_replaceable(path, instead)
+    check_page(path, instead=instead)
     with writing(path, instead=instead) as partial:
         partial.write_text(text, encoding="utf-8", newline="\n")
     return path
@@ -99,7 +99,7 @@ def page(motion: Motion, *, progress_csv: str | Path | None = None, source: str 
     return assembled(f"{provenance['task']} on {provenance['robot']}, seed {provenance['seed']}", data, "report")
 
 
-def assembled(title: str, data: Any, entry: Literal["report", "live"]) -> str:
+def assembled(title: str, data: Any, entry: Literal["report", "certificate", "live"]) -> str:
     """Build a page that needs nothing else.
 
     Args:
@@ -140,8 +140,11 @@ def _bundled(name: str) -> str:
     return (files("levade.report") / "web" / name).read_text(encoding="utf-8")
 
 
-def _check_replaceable(path: Path, instead: str) -> None:
-    """Nothing may be there but a page of levade's; what cannot be read is left to the writing to complain of."""
+def check_page(path: Path, *, instead: str) -> None:
+    """Nothing may be there but a page of levade's; what cannot be read is left to the writing to complain of.
+
+    Raises LevadeError for anything else, whose message says ``instead``.
+    """
     try:
         check_replaceable(path)  # opening a pipe would wait for its other end
         with path.open("rb") as file:

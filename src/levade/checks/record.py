@@ -1,0 +1,33 @@
+"""The file that a certificate is kept in, and whether it vouches for a motion.
+
+reason = doubt(Path("certificate.json"), motion)        # None: it is the motion's, and it passes
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from levade.document import read_yaml
+from levade.errors import LevadeError
+from levade.motions import Motion
+
+CERTIFICATE = "certificate.json"
+"""The file's usual name, beside the motion's."""
+
+
+def doubt(path: Path, motion: Motion) -> str | None:
+    """Why a certificate's file does not vouch for a motion, in a few words; None if it does.
+
+    Raises:
+        LevadeError: If there is no such file, or it is no certificate.
+    """
+    content = read_yaml(path)
+    if not isinstance(content, dict) or not isinstance(content.get("passed"), bool):
+        raise LevadeError(f"{path}: is no certificate; levade check MOTION --out FILE writes one")
+    if content.get("checksum") != motion.checksum:
+        return "it is of another motion"
+    if content.get("interrupted"):
+        return "its check was interrupted"
+    if not content["passed"]:
+        return f"it fails {', '.join(map(str, content.get('failed') or ()))}"
+    return None

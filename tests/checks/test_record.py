@@ -1,0 +1,57 @@
+"""Whether a certificate's file vouches for a motion, and the checksum that tells."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from levade.checks.record import doubt
+from levade.errors import LevadeError
+from levade.motions import Motion
+
+
+def test_a_motion_keeps_its_checksum_in_every_file(standing: Motion, tmp_path: Path) -> None:
+    standing.save(tmp_path / "one.npz")
+    loaded = Motion.load(tmp_path / "one.npz")
+    loaded.save(tmp_path / "two.npz")
+    assert standing.checksum == loaded.checksum == Motion.load(tmp_path / "two.npz").checksum
+    task = replace(standing.task, description="another")
+    assert standing.with_task(task).checksum == standing.checksum
+
+
+def test_any_other_number_has_another_checksum(standing: Motion, changed: Callable[..., Motion]) -> None:
+    ctrl = standing["ctrl"].copy()
+    ctrl[-1, -1] = np.nextafter(ctrl[-1, -1], 1.0)
+    other = changed(standing, ctrl=ctrl)
+    assert other.checksum != standing.checksum
+    assert replace(standing, model_xml=standing.model_xml + " ").checksum != standing.checksum
+
+
+@pytest.mark.parametrize(
+    ("content", "reason"),
+    [
+        ({}, None),
+        ({"passed": False, "failed": ["speed", "perturbed"]}, "it fails speed, perturbed"),
+        ({"passed": False, "interrupted": True}, "its check was interrupted"),
+        ({"checksum": "0" * 64}, "it is of another motion"),
+    ],
+)
+def test_a_certificate_vouches_for_the_motion_it_is_of(
+    standing: Motion, tmp_path: Path, content: dict[str, object], reason: str | None
+) -> None:
+    place = tmp_path / "certificate.json"
+    place.write_text(json.dumps({"passed": True, "checksum": standing.checksum, **content}))
+    assert doubt(place, standing) == reason
+
+
+@pytest.mark.parametrize("text", ["{}", "[1]", '{"passed": "yes"}'])
+def test_what_is_no_certificate_is_said(standing: Motion, tmp_path: Path, text: str) -> None:
+    place = tmp_path / "certificate.json"
+    place.write_text(text)
+    with pytest.raises(LevadeError, match="certificate"):
+        doubt(place, standing)
