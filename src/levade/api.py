@@ -330,7 +330,7 @@ def _objective(
     if optimizer is not None:
         changes |= {"optimizer": optimizer, "settings": {}}
         if not can_restart(optimizer):
-            changes["restart"] = None
+            changes["restart"] = changes["patience"] = None
     if changes:
         task = replace(task, search=replace(task.search, **changes))
     if after is not None:

@@ -198,3 +198,23 @@ def test_an_assumed_limit_is_neither_met_nor_missed(standing: Motion, changed: C
     assert (found.passed, found.failed, found.unknown) == (False, ("rf_haa",), ("lf_hfe", "lf_kfe"))
     nothing = margins(RecordedSimulation(changed(standing, {"limits": limits})), Demands(speed=None))["speed"]
     assert (nothing.passed, nothing.unknown) == (None, ())
+
+
+def test_the_force_on_any_part_is_in_weights_of_the_robot(standing: Motion) -> None:
+    """A robot that stands bears itself on its shanks, and its trunk touches nothing."""
+    found = margins(RecordedSimulation(standing), Demands(part_force=1.0))["part_force"]
+    shanks = [share for body, share in found.values.items() if body.endswith("_lower") and share is not None]
+    assert len(shanks) == 4
+    assert 1.0 < sum(shanks) < 1.3  # the most of each, not at one instant
+    assert found.values["trunk"] == 0.0
+    assert found.passed is True
+    assert margins(RecordedSimulation(standing), Demands(part_force=0.2))["part_force"].failed
+
+
+def test_a_jolt_of_the_trunk_is_its_acceleration(standing: Motion, changed: Change) -> None:
+    velocity = np.zeros_like(standing["trunk_linear_velocity"])
+    velocity[50:, 2] = 0.3
+    moved = changed(standing, trunk_linear_velocity=velocity)
+    found = margins(RecordedSimulation(moved), Demands(trunk_acceleration=10.0))["trunk_acceleration"]
+    assert found.value == pytest.approx(0.3 / standing.timestep / 9.81)
+    assert found.failed == ("trunk",)

@@ -89,6 +89,30 @@ def test_without_success_it_restarts_from_the_first_stage() -> None:
     assert played(make_task(restart=None), *[1000] * 3) == [(GO_ON, 0, 0)] * 3
 
 
+def moves_of(task: Task, *generations: tuple[int, float]) -> list[Move]:
+    """The moves after generations of some trials and a lowest cost each."""
+    schedule, trials, moves = Schedule(task), 0, []
+    for spent, cost in generations:
+        trials += spent
+        moves.append(schedule.after(Report(spent, trials, cost=cost)))
+    return moves
+
+
+def test_an_attempt_that_improves_goes_on() -> None:
+    task = make_task(restart=24, patience=16)
+    falling = [(8, 10.0), (8, 8.0), (8, 6.0), (8, 5.8), (8, 5.5), (8, 99.0)]
+    assert moves_of(task, *falling) == [GO_ON, GO_ON, GO_ON, GO_ON, RESTART, GO_ON]  # 5.5 is 8 % below 6.0
+    assert moves_of(task, *[(8, 5.0)] * 3) == [GO_ON, GO_ON, RESTART]
+    assert moves_of(make_task(restart=24), *falling[:3]) == [GO_ON, GO_ON, RESTART]
+    assert moves_of(make_task(restart=8, patience=16), (8, 5.0), (8, 5.0), (8, 5.0)) == [GO_ON, GO_ON, RESTART]
+
+
+def test_patience_is_of_a_stage_whose_costs_are_alike() -> None:
+    """What was cheap by the weights of the stage before does not count."""
+    task = make_task(Stage("first", trials=16), Stage("second"), restart=24, patience=8)
+    assert moves_of(task, (8, 0.1), (8, 0.1), (8, 50.0), (8, 40.0), (8, 39.0)) == [GO_ON, NEXT, GO_ON, GO_ON, RESTART]
+
+
 def test_a_search_on_perturbed_models_does_not_restart() -> None:
     task = make_task(NOMINAL, Stage("robust"), starts=1, restart=16)
     assert played(task, (8, "promoted"), 8, 8, 80) == [(NEXT, 1, 0)] + [(GO_ON, 1, 0)] * 3

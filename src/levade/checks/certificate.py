@@ -137,7 +137,7 @@ class Certificate:
         ]
 
 
-MEASURED = ("power", "foot_force", "impact_speed", "self_collision")
+MEASURED = ("power", "foot_force", "impact_speed", "part_force", "trunk_acceleration", "self_collision")
 """Margins that are measured against the most that is allowed; of the others, the least that is left is required."""
 
 

@@ -17,7 +17,8 @@ class Demands:
     position: [rad], the least distance from the end of a joint's range. speed, torque, torque_speed, linkage: the least that
     is left of each limit, as a share of it.
     power: [W], the most of one joint. foot_force: the most on one foot, in weights of the robot. impact_speed: [m/s], the most
-    with which a foot meets the scene. self_collision: [m], how deep parts of the robot may enter each other.
+    with which a foot meets the scene. part_force: the most that the scene puts on any one part, feet and trunk among them, in
+    weights of the robot. trunk_acceleration: the most of the trunk, in g. self_collision: [m], how deep parts of the robot may enter each other.
 
     Robots' descriptions say nothing of power, forces and impacts yet, so nothing is demanded of them unless asked for.
     """
@@ -33,6 +34,8 @@ class Demands:
     power: float | None = None
     foot_force: float | None = None
     impact_speed: float | None = None
+    part_force: float | None = None
+    trunk_acceleration: float | None = None
     self_collision: float | None = 0.0
 
     def __post_init__(self) -> None:

@@ -85,7 +85,7 @@ def margins(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margi
             "", reason="the robot's description has neither cylinders nor motor constants to compute it from"
         ),
     }
-    return found | _contacts(simulation, demands)
+    return found | _contacts(simulation, demands) | _impacts(simulation, demands)
 
 
 def _left(most: Array, limit: Array) -> Array:
@@ -253,3 +253,23 @@ def _contacts(simulation: RecordedSimulation, demands: Demands) -> dict[str, Mar
         more={"collisions": [asdict(one) for one in collisions]},
     )
     return {"foot_force": foot_force, "impact_speed": impact, "self_collision": touching}
+
+
+def _impacts(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margin]:
+    """Forces of the scene on any part of the robot, by a replay in MuJoCo, and the trunk's acceleration, from the file."""
+    weight = float(simulation.model.body_mass.sum()) * GRAVITY
+    try:
+        forces = simulation.rollout(record=simulation.engine.bodies).body_contact_force
+    except LevadeError as error:  # of an early version, whose models have no sensors of it
+        part = Margin("robot weights", required=demands.part_force, reason=str(error))
+    else:
+        part = _most(
+            "robot weights",
+            {body: float(force.max() / weight) for body, force in forces.items()},
+            demands.part_force,
+            more={"robot_weight_N": weight},
+        )
+    velocity = simulation.motion["trunk_linear_velocity"]
+    change = np.linalg.norm(np.diff(velocity, axis=0), axis=-1).max(initial=0.0) / simulation.timestep
+    trunk = {simulation.embodiment.trunk: float(change / GRAVITY)}
+    return {"part_force": part, "trunk_acceleration": _most("g", trunk, demands.trunk_acceleration)}

@@ -124,7 +124,15 @@ class Plan:
             costs=costs,
             horizon=horizon,
             stages=(Stage("within limits", hold=self._held),),
-            search=replace(demanding.search, trials=6000, restart=1200, polish=240, modes=None, smoothness=_SMOOTHNESS),
+            search=replace(
+                demanding.search,
+                trials=6000,
+                restart=1200,
+                patience=600,
+                polish=240,
+                modes=None,
+                smoothness=_SMOOTHNESS,
+            ),
         )
 
     def robust(self, horizon: float) -> Task:

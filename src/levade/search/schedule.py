@@ -27,6 +27,10 @@ from levade.search.evaluation import Evaluation
 from levade.tasks import Stage, Task
 
 
+_ENOUGH = 0.1
+"""Share by which the lowest cost of an attempt has to fall within `Search.patience`."""
+
+
 class Move(StrEnum):
     """What follows a generation."""
 
@@ -56,6 +60,7 @@ class Report:
         trials_to_success: Trials at the first success. None while there is none.
         promoted: Whether a trial is within the tolerances that end the stage.
         found_start: Whether it ended the nominal stages with a motion that is one of several to start from.
+        cost: The lowest cost of its trials.
     """
 
     spent: int
@@ -63,6 +68,7 @@ class Report:
     trials_to_success: int | None = None
     promoted: bool = False
     found_start: bool = False
+    cost: float = np.inf
 
 
 class Schedule:
@@ -75,6 +81,7 @@ class Schedule:
         self._attempt_trials = 0
         self._rounds = 1
         self._starts = 0
+        self._lowest: list[tuple[int, float]] = []  # trials of the stage, and the lowest cost by then
         self.attempt = 0
 
     @property
@@ -115,6 +122,8 @@ class Schedule:
         self._stage_trials += report.spent
         self._attempt_trials += report.spent
         self._starts += report.found_start
+        before = self._lowest[-1][1] if self._lowest else np.inf
+        self._lowest.append((self._stage_trials, min(before, report.cost)))
         if self._polished(report):
             return Move.STOP
         if report.found_start or self._hopeless(report):
@@ -134,7 +143,7 @@ class Schedule:
         return next(i for i, stage in enumerate(self._task.stages) if stage.robust)
 
     def _enter(self, number: int, move: Move) -> Move:
-        self._number, self._stage_trials = number, 0
+        self._number, self._stage_trials, self._lowest = number, 0, []
         return move
 
     def _restart(self, move: Move) -> Move:
@@ -155,7 +164,16 @@ class Schedule:
         restart = self._task.search.restart
         if restart is None or report.trials_to_success is not None or self.level.robust:
             return False
-        return self._attempt_trials >= restart
+        return self._attempt_trials >= restart and not self._improves
+
+    @property
+    def _improves(self) -> bool:
+        """Whether the stage's lowest cost has lately fallen enough for the attempt to go on."""
+        patience = self._task.search.patience
+        if patience is None:
+            return False
+        before = [lowest for trials, lowest in self._lowest if trials <= self._stage_trials - patience]
+        return not before or self._lowest[-1][1] <= (1.0 - _ENOUGH) * before[-1]
 
     def _in_vain(self, report: Report) -> bool:
         """Whether the last stage of a search from several starts used up its trials without a success, and the budget
