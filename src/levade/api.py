@@ -35,10 +35,10 @@ from levade.search.initial import initial_guess
 from levade.search.loop import Observe
 from levade.search.recording import record
 from levade.search.run import run
-from levade.tasks import Task, load_task
+from levade.tasks import Demands, Task, load_task
 
 if TYPE_CHECKING:
-    from levade.checks import Certificate, Demands
+    from levade.checks import Certificate
     from levade.exports import Exported
     from levade.hardware import Pursued
     from levade.optimizers import Choice
@@ -215,7 +215,7 @@ def pursue(
         out: Directory in which to keep the searches, the motion and its certificate; what it holds already is gone on with.
             None keeps nothing.
         minutes: Time for all searches. None gives them all the trials that they may take.
-        demands: What the certificate asks for. Defaults to `levade.checks.Demands`.
+        demands: What the certificate asks for. Defaults to what the task says, or else to `levade.tasks.Demands`.
         threads: Engine threads; 0 for one per core.
 
     Returns:
@@ -326,6 +326,10 @@ def _objective(
     """Put a task together with what was given instead of its own."""
     made = None if robot is None else load_robot(robot)
     task = _task(task, made)
+    if task.hardware is not None:
+        raise LevadeError(
+            f"hardware: the task {task.name} asks for searches until a certificate passes; levade.pursue makes them"
+        )
     changes: dict[str, Any] = {} if trials is None else {"trials": trials}
     if optimizer is not None:
         changes |= {"optimizer": optimizer, "settings": {}}

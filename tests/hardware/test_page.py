@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from levade.checks import Certificate, check
-from levade.checks.demands import Demands
+from levade.checks import Certificate, Demands, check
 from levade.engines import Perturbation
 from levade.errors import LevadeError
 from levade.feedback import Feedback

@@ -14,16 +14,16 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from levade.checks.certificate import Certificate
-from levade.checks.demands import Demands, Verdict
 from levade.checks.engines import Replayed, other_engines
 from levade.checks.margins import Margin, margins
 from levade.checks.numerics import Numeric, numerics
 from levade.checks.perturbed import Perturbed, Sensitivity, perturbed
+from levade.checks.verdicts import Verdict
 from levade.engines import Perturbation
 from levade.errors import LevadeError
 from levade.feedback import Feedback
 from levade.motions import Motion, RecordedSimulation, versions
-from levade.tasks import Task
+from levade.tasks import Demands, Task
 
 __all__ = [
     "Certificate",

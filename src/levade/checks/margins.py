@@ -10,10 +10,10 @@ import numpy as np
 
 from levade.arrays import Array
 from levade.checks.contacts import landings, poses, scene_forces
-from levade.checks.demands import Demands
 from levade.embodiment import TorqueCurve
 from levade.errors import LevadeError
 from levade.motions import RecordedSimulation
+from levade.tasks import Demands
 
 _ROUNDING = 1e-6
 """Of a limit: a torque that the engine holds at its limit is at it, not beyond."""

@@ -208,7 +208,9 @@ def solve(
             "solve: name a task, such as: levade solve rearing (levade tasks lists them), or --resume DIR"
         )
     from levade.search.run import PURSUIT
+    from levade.tasks.files import asks_for_hardware
 
+    hardware = hardware or (task is not None and asks_for_hardware(task, changed))
     if hardware or (resume is not None and (resume / PURSUIT).is_file()):
         from levade.cli.pursuing import pursue_and_report
 

@@ -9,7 +9,6 @@ from pathlib import Path
 from rich.console import Console
 from rich.markup import escape
 
-from levade.checks import Demands
 from levade.cli.checking import changed, verdict_table
 from levade.cli.display import Display
 from levade.cli.inspecting import tell_warnings
@@ -17,7 +16,7 @@ from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console, quantity_unit
 from levade.hardware import Part, Plan, Pursued, binding, obstacles, pursue, read_pursuit
 from levade.search import Generation
-from levade.tasks import HorizonRange, Task, load_task
+from levade.tasks import Demands, HorizonRange, Task, load_task
 
 
 def pursue_and_report(
@@ -36,7 +35,6 @@ def pursue_and_report(
 ) -> int:
     """Exit status 0 if the certificate passes, else 1."""
     console = make_console(stderr=as_json)
-    demands = changed(Demands(), demand, option="--demand")
     if resume_from is not None:
         chosen, seed = read_pursuit(resume_from)
         place = resume_from
@@ -44,6 +42,7 @@ def pursue_and_report(
         assert task is not None
         chosen = load_task(task, robot=robot, changes=changes)
         place = directory or Path(chosen.name)
+    demands = changed(chosen.hardware or Demands(), demand, option="--demand")
     loaded = chosen.robot.load()
     tell_warnings(console, loaded, chosen.robot.name)
     _tell_goal(console, Plan.of(chosen, loaded, demands))

@@ -17,7 +17,6 @@ from typing import Any
 
 import numpy as np
 
-from levade.checks import Demands
 from levade.costs import (
     AngularVelocity,
     Criterion,
@@ -34,7 +33,7 @@ from levade.costs import (
 from levade.engines import Perturbation, engine_kind
 from levade.motions import Motion
 from levade.robots import Dimensions, Robot, dimensions
-from levade.tasks import Cost, HorizonRange, PolicyChoice, Regulation, Robust, Search, Stage, Task
+from levade.tasks import Cost, Demands, HorizonRange, PolicyChoice, Regulation, Robust, Search, Stage, Task
 
 LONGEST = 2.5
 """How many times longer a motion may take, at most, than its task says."""
@@ -92,13 +91,17 @@ class Plan:
         Args:
             task: The task. What it calls good enough on perturbed models counts on the nominal one, too.
             robot: Its robot.
-            demands: What a certificate will ask for. Defaults to `levade.checks.Demands`.
+            demands: What a certificate will ask for. Defaults to what the task says, or else to `levade.tasks.Demands`.
         """
         size, own = dimensions(robot), {**task.success, **task.good_enough}
         goal = {name: _good_enough(one, size) for name, one in own.items() if one.quantity not in ROOM}
         asked = {name: one for name, one in task.success.items() if one.quantity in ROOM}
         known = {one.quantity for one in asked.values()}
-        limits = {name: one for name, one in _limits(robot, demands or Demands()).items() if name not in known}
+        limits = {
+            name: one
+            for name, one in _limits(robot, demands or task.hardware or Demands()).items()
+            if name not in known
+        }
         return cls(task, robot, goal, {**limits, **asked})
 
     @property
@@ -211,6 +214,7 @@ class Plan:
             search=replace(self.task.search, changes=()),
             robust=None,
             feedback=None,
+            hardware=None,
         )
 
 

@@ -25,7 +25,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from levade.checks import Certificate, Demands, check
+from levade.checks import Certificate, check
 from levade.checks.record import CERTIFICATE
 from levade.document import read_yaml
 from levade.errors import LevadeError, Remedy
@@ -39,7 +39,7 @@ from levade.search.checkpoint import CHECKPOINT
 from levade.search.initial import initial_guess
 from levade.search.run import MOTION, PURSUIT, TASK, Outcome, check_replaceable, check_unlocked, read_run, resume, run
 from levade.search.storage import storing
-from levade.tasks import Task, task_from_dict, task_to_dict, task_to_yaml
+from levade.tasks import Demands, Task, task_from_dict, task_to_dict, task_to_yaml
 from levade.writing import write_text
 
 ASKED, PAGE = PURSUIT, "certificate.html"
@@ -158,7 +158,7 @@ def pursue(
         directory: Where to write, and to go on: searches that are there already, of the same task and seed, are not made again.
         minutes: Time for all of it; the searches end with the best so far, and a later call goes on. None gives all the time
             that their trials take.
-        demands: What the certificate asks for. Defaults to `levade.checks.Demands`.
+        demands: What the certificate asks for. Defaults to what the task says, or else to `levade.tasks.Demands`.
         runs: Perturbed runs of each certificate.
         replace: Whether to replace what the directory holds, and begin from nothing.
         begin: See `Begin`.
@@ -174,6 +174,7 @@ def pursue(
         raise LevadeError(f"{minutes:g} should be a positive number of minutes; 5 is usual", field="minutes")
     if robot is None:
         robot = task.robot.load()
+    demands = demands or task.hardware
     plan = Plan.of(task, robot, demands)
     if not plan.goal:
         raise LevadeError(f"hardware: the task {task.name} has no success criteria to certify; give it some")

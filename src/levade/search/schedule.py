@@ -26,7 +26,6 @@ from numpy.typing import NDArray
 from levade.search.evaluation import Evaluation
 from levade.tasks import Stage, Task
 
-
 _ENOUGH = 0.1
 """Share by which the lowest cost of an attempt has to fall within `Search.patience`."""
 

@@ -271,7 +271,14 @@ class Search:
         self._starts += [start] if start is not None else []
         self._keep_best(contenders, judged, self._judge.along)
         yield self._state(cost, evaluation, validated)
-        return Report(spent, self._trials, self._trials_to_success, promoted=ends, found_start=start is not None, cost=float(cost.min()))
+        return Report(
+            spent,
+            self._trials,
+            self._trials_to_success,
+            promoted=ends,
+            found_start=start is not None,
+            cost=float(cost.min()),
+        )
 
     def _state(self, cost: Array, evaluation: Evaluation, validated: Evaluation | None) -> Generation:
         assert self._best is not None

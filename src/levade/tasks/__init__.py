@@ -4,6 +4,7 @@ task = load_task("rearing", changes=["horizon=0.4"])
 task = load_task("my-task.yaml", robot="my/robot.yaml")
 """
 
+from levade.tasks.demands import Demands
 from levade.tasks.document import (
     TERMS,
     holds_code,
@@ -25,6 +26,7 @@ __all__ = [
     "TERMS",
     "Change",
     "Cost",
+    "Demands",
     "HorizonRange",
     "PolicyChoice",
     "Racing",

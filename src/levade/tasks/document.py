@@ -67,7 +67,7 @@ TERMS = {
 
 _ORDER = (
     *("name", "description", "robot", "scene", "physics", "start", "horizon", "hold"),
-    *("policy", "costs", "stages", "success", "search", "robust", "feedback"),
+    *("policy", "costs", "stages", "success", "search", "robust", "feedback", "hardware"),
 )
 _SEQUENCE = "tag:yaml.org,2002:seq"
 
@@ -186,6 +186,7 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
         ]
     if not code:  # a motion's task is complete, and reads no files
         content["policy"] = with_goal(content.get("policy", {}), f"{where}.policy.goal")
+    content["hardware"] = _demands(content.get("hardware"))
     content = dict(to_si(content, where=where, robot=measures))
     _check_horizon(content.get("horizon", 0.0), where)
     if not code:
@@ -248,6 +249,13 @@ def _without_code(criteria: Mapping[str, Any], where: str) -> dict[str, Any]:
         else value
         for name, value in criteria.items()
     }
+
+
+def _demands(hardware: Any) -> Any:
+    """What a certificate asks for: true for the usual demands, false for no certificate."""
+    if isinstance(hardware, bool):
+        return {} if hardware else None
+    return hardware
 
 
 def _check_horizon(horizon: Any, where: str) -> None:

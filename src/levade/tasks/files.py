@@ -6,14 +6,14 @@ A path in a task file is relative to the task file. A run's ``task.yaml`` is com
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from levade.archive import unpack
-from levade.document import hides, kind_of, read_yaml
+from levade.document import hides, kind_of, parse_yaml, read_yaml
 from levade.errors import LevadeError, did_you_mean, located
 from levade.scenes import read_heights
 
@@ -36,6 +36,20 @@ def find(name_or_path: str) -> Path:
     if _is_path(name_or_path):
         raise LevadeError(f"{path}: no such file; give a built-in task or the path of a YAML file")
     raise LevadeError(f"no task {name_or_path!r}; {did_you_mean(name_or_path, tasks)} (or the path of a YAML file)")
+
+
+def asks_for_hardware(name_or_path: str, changes: Sequence[str]) -> bool:
+    """Whether a task, with changes such as ``hardware=true``, asks for searches until a certificate passes.
+
+    Raises:
+        LevadeError: If its file cannot be read.
+    """
+    asked = None if name_or_path in builtin_tasks() else read_yaml(find(name_or_path)).get("hardware")
+    for change in changes:
+        name, _, text = change.partition("=")
+        if name == "hardware":
+            asked = parse_yaml(text, where=name)
+    return asked not in (None, False)
 
 
 def _is_path(text: str) -> bool:

@@ -187,8 +187,8 @@ class Search:
     restart: trials without a success after which the search starts anew, from the first stage, with other random numbers:
         whoever rolled to the wrong side seldom finds the way back. Not once candidates are tried on perturbed models. None
         goes on to the end of the budget.
-    patience: with restart, trials over which the best cost has to have fallen by a tenth for an attempt to go on all the same. None
-        restarts it in any case.
+    patience: with restart, trials over which the best cost has to have fallen by a tenth for an attempt to go on all the
+        same. None restarts it in any case.
     polish: trials to go on for after the first success, for a lower cost; None goes on to the end of the budget.
     settings: numbers that only this optimizer takes, such as {elite: 0.2}; see its class in `levade.optimizers`.
     changes: of the costs' weights on the way.

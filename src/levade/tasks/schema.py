@@ -43,6 +43,7 @@ def task_schema() -> Schema:
     engine = definitions["Physics"]["properties"]["engine"]
     del engine["type"]
     engine["enum"] = list(ENGINES)
+    task["properties"]["hardware"] = {"anyOf": [{"type": "boolean"}, task["properties"]["hardware"]]}
     definitions["StartChoice"] |= {"minProperties": 1, "maxProperties": 1}
     return {"$schema": DIALECT, "title": "levade task", **task, "$defs": definitions}
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from levade.costs import Criterion, clearance_of
 from levade.engines import Physics, Settled
 from levade.scenes import Scene
+from levade.tasks.demands import Demands
 from levade.tasks.parts import Change, Cost, HorizonRange, PolicyChoice, RobotChoice, Search, Stage, StartChoice
 from levade.tasks.regulation import Regulation
 from levade.tasks.robust import Robust
@@ -34,6 +35,8 @@ class Task:
     stages: in order; each changes the weights of the task's costs, and the last one should leave them as they are.
     robust: None looks for a motion of the nominal model alone.
     feedback: None runs candidates on perturbed models without feedback.
+    hardware: what a certificate asks for, if searches go on until one passes, as with ``levade solve --hardware``; None for one
+        search.
     """
 
     name: str
@@ -51,6 +54,7 @@ class Task:
     search: Search = Search()
     robust: Robust | None = None
     feedback: Regulation | None = None
+    hardware: Demands | None = None
 
     def __post_init__(self) -> None:
         check_name(self.name)

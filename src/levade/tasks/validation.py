@@ -156,7 +156,9 @@ def check_search(search: Search, costs: Mapping[str, Cost]) -> None:
     if not (math.isfinite(search.smoothness) and search.smoothness >= 0):
         raise LevadeError(f"search.smoothness: {search.smoothness} should be 0 or more, as a share of the horizon")
     if search.patience is not None and search.patience < 1:
-        raise LevadeError(f"search.patience: {search.patience} should be at least 1; leave it out to restart in any case")
+        raise LevadeError(
+            f"search.patience: {search.patience} should be at least 1; leave it out to restart in any case"
+        )
     if search.patience is not None and search.restart is None:
         raise LevadeError("search.patience: counts where there is a restart; give search.restart, too")
     if search.restart is not None and search.restart < 1:

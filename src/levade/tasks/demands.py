@@ -18,7 +18,8 @@ class Demands:
     is left of each limit, as a share of it.
     power: [W], the most of one joint. foot_force: the most on one foot, in weights of the robot. impact_speed: [m/s], the most
     with which a foot meets the scene. part_force: the most that the scene puts on any one part, feet and trunk among them, in
-    weights of the robot. trunk_acceleration: the most of the trunk, in g. self_collision: [m], how deep parts of the robot may enter each other.
+    weights of the robot. trunk_acceleration: the most of the trunk, in g. self_collision: [m], how deep parts of the robot may
+    enter each other.
 
     Robots' descriptions say nothing of power, forces and impacts yet, so nothing is demanded of them unless asked for.
     """
@@ -45,19 +46,3 @@ class Demands:
                 raise LevadeError(f"demand.{one.name}: {value} is not a number; null measures without judging")
         if self.share is not None and not 0 <= self.share <= 1:
             raise LevadeError(f"demand.share: {self.share} should be a share, 0 to 1; 0.95 is usual")
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """One criterion.
-
-    passed: None if it is not judged, and then reason says why. unknown: whether it would be judged if the robot's limit were
-    known, and not just assumed. value, required: with their unit.
-    """
-
-    name: str
-    passed: bool | None
-    value: str
-    required: str = ""
-    reason: str = ""
-    unknown: bool = False
