@@ -92,7 +92,10 @@ def row_of(arm: str, task: str, robot: str, seed: int, options: argparse.Namespa
                 found = pursue(made, seed=seed, threads=options.threads, directory=place, minutes=options.minutes)
             motion, trials = found.motion, found.trials
             row |= {"minutes": options.minutes, "stopped": found.stopped, "obstacles": obstacles(found)}
-            row["searches"] = [[part.name, part.trials, part.certificate.perturbed.share] for part in found.parts]
+            row["searches"] = [
+                [part.name, part.trials, None if part.certificate is None else part.certificate.perturbed.share]
+                for part in found.parts
+            ]
         else:
             objective = make_objective(made, threads=options.threads)
             solution = solve(objective, seed=seed)

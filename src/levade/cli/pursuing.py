@@ -9,6 +9,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.markup import escape
 
+from levade.checks import Certificate
 from levade.cli.checking import changed, verdict_table
 from levade.cli.display import Display
 from levade.cli.inspecting import tell_warnings
@@ -90,8 +91,8 @@ def summary(pursued: Pursued) -> dict[str, object]:
                 "seconds": round(part.seconds, 3),
                 "success": part.motion.result.success,
                 "horizon": part.motion.horizon,
-                "share": part.certificate.perturbed.share,
-                "failed": list(part.certificate.failed),
+                "share": None if part.certificate is None else part.certificate.perturbed.share,
+                "failed": None if part.certificate is None else list(part.certificate.failed),
             }
             for part in pursued.parts
         ],
@@ -119,14 +120,9 @@ class _Showing:
         self.close()
         if self._quiet:
             return
-        certificate, failed = part.certificate, ", ".join(part.certificate.failed)
-        found = f"[green]passes[/]: {certificate.perturbed.share:.1%} of perturbed robots"
-        if certificate.interrupted:
-            found = "was interrupted"
-        elif not certificate.passed:
-            found = f"fails {escape(failed)}"
+        found = "it is not within the limits" if part.certificate is None else _found(part.certificate)
         self._console.print(
-            f"{part.name}: {part.trials} trials, {part.seconds:.0f} s, T = {part.motion.horizon:.3g} s; the certificate {found}"
+            f"{part.name}: {part.trials} trials, {part.seconds:.0f} s, T = {part.motion.horizon:.3g} s; {found}"
         )
 
     def close(self) -> None:
@@ -134,6 +130,15 @@ class _Showing:
         if self._display is not None:
             self._display.__exit__(None, None, None)
             self._display = None
+
+
+def _found(certificate: Certificate) -> str:
+    """What came of a certificate, in markup."""
+    if certificate.interrupted:
+        return "the certificate was interrupted"
+    if certificate.passed:
+        return f"the certificate [green]passes[/]: {certificate.perturbed.share:.1%} of perturbed robots"
+    return f"the certificate fails {escape(', '.join(certificate.failed))}"
 
 
 def _tell_goal(console: Console, plan: Plan) -> None:

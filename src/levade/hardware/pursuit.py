@@ -21,7 +21,7 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -45,8 +45,14 @@ from levade.writing import write_text
 ASKED, PAGE = PURSUIT, "certificate.html"
 LIMITS, ROBUST, CLOSED = ("limits-1", "limits-2", "limits-3"), "robust", "feedback"
 
-_ON_LIMITS = 0.4
-"""Share of the time after which no further search within limits is begun."""
+_ON_LIMITS = (0.4, 0.75, 1.0)
+"""Shares of the time after which searches within limits, in order, end if they have not met them."""
+
+_ENOUGH = 0.4
+"""Share of the time after which no further one is begun once one has."""
+
+_MOST = 1000
+"""Demands that a motion without a certificate counts as failing: more than there are."""
 
 _APART = 1000
 """Between the seeds of searches that differ in nothing else."""
@@ -69,15 +75,15 @@ class Part:
         name: Its directory.
         motion: What it found.
         trials: Roll-outs that it made.
-        certificate: Of its motion.
         seconds: Duration of the search and of the check.
+        certificate: Of its motion; None of one that is not within the limits, where other searches go on.
     """
 
     name: str
     motion: Motion
     trials: int
-    certificate: Certificate
     seconds: float
+    certificate: Certificate | None
 
     @property
     def met(self) -> bool:
@@ -88,6 +94,8 @@ class Part:
     def rank(self) -> tuple[bool, int, float]:
         """Less is better: a whole certificate first, then what it fails, then the share of perturbed runs that fail."""
         certificate = self.certificate
+        if certificate is None:
+            return True, _MOST, 0.0
         return certificate.interrupted, len(certificate.failed), -certificate.perturbed.share
 
 
@@ -119,6 +127,7 @@ class Pursued:
     @property
     def certificate(self) -> Certificate:
         """Its certificate."""
+        assert self.best.certificate is not None
         return self.best.certificate
 
     @property
@@ -240,6 +249,15 @@ def _check_same(directory: Path, asked: Mapping[str, Any]) -> None:
         check_replaceable(directory)
 
 
+def _passes(part: Part) -> bool:
+    return part.certificate is not None and part.certificate.passed
+
+
+def _share(part: Part) -> float:
+    """Of perturbed robots, on which it holds."""
+    return 0.0 if part.certificate is None else part.certificate.perturbed.share
+
+
 class _Pursuit:
     def __init__(
         self,
@@ -260,25 +278,31 @@ class _Pursuit:
         self._begin, self._observe, self._tell, self._stopping = begin, observe, tell, stopping
         self._began = time.monotonic()
         self._parts: list[Part] = []
+        self._share = 1.0  # of the time, for a search that meets nothing
         self._stopped = ""
 
     def go(self) -> Pursued:
-        plan, task = self._plan, self._plan.within_limits()
+        plan = self._plan
         for number, name in enumerate(LIMITS):
             if self._is_there(ROBUST) and not self._is_there(name):
                 break  # an earlier call, with less time, went on without it
-            part = self._search(name, task, None, seed=self._seed + _APART * number)
-            if self._stopped or part.certificate.passed or self._late(_ON_LIMITS):
+            self._share = _ON_LIMITS[number]
+            part = self._search(name, plan.within_limits(number), None, seed=self._seed + _APART * number)
+            met = any(part.met for part in self._parts)
+            if self._stopped or _passes(part) or (met and self._late(_ENOUGH)):
                 break
-        met = [part for part in self._parts if part.met]
-        if met and not self._stopped and not self._best.certificate.passed:
-            around = max(met, key=lambda part: part.certificate.perturbed.share)
+        self._share = 1.0
+        candidates = [part for part in self._parts if part.met]
+        if candidates and not self._stopped and not _passes(self._best):
+            around = max(candidates, key=_share)
             for name, make in ((ROBUST, plan.robust), (CLOSED, plan.closed_loop)):
                 if name == CLOSED and not plan.can_close_the_loop:
                     break
                 around = self._search(name, make(around.motion.horizon), around.motion, seed=self._seed)
-                if self._stopped or around.certificate.passed or not around.met:
+                if self._stopped or _passes(around) or not around.met:
                     break
+        if self._best.certificate is None:
+            self._certify_best()
         return Pursued(plan, tuple(self._parts), self._best, self._directory, self._seed, self._stopped)
 
     def _is_there(self, name: str) -> bool:
@@ -299,8 +323,28 @@ class _Pursuit:
         began = time.monotonic()
         outcome = self._run(name, task, around, seed)
         motion = self._plan.certifiable(outcome.motion)
+        # what is not within the limits would only fail; the last that there is is certified all the same
+        hopeless = name in LIMITS and not motion.met and not self._stopped
+        part = Part(name, motion, outcome.solution.trials, time.monotonic() - began, None)
+        if not hopeless:
+            part = self._certified(part)
+        self._parts.append(part)
+        if self._tell is not None:
+            self._tell(part)
+        return part
+
+    def _certify_best(self) -> None:
+        """Certify the motion that comes nearest, where none is within the limits."""
+        nearest = min(range(len(self._parts)), key=lambda i: self._parts[i].motion.result.cost)
+        self._parts[nearest] = self._certified(self._parts[nearest])
+        if self._tell is not None:
+            self._tell(self._parts[nearest])
+
+    def _certified(self, part: Part) -> Part:
+        """The part with its certificate; written, if it is the best."""
+        began = time.monotonic()
         certificate = check(
-            motion,
+            part.motion,
             runs=self._runs,
             seed=self._seed,
             perturbation=self._plan.perturb,
@@ -310,12 +354,9 @@ class _Pursuit:
         )
         if certificate.interrupted:
             self._stopped = "interrupted"
-        part = Part(name, motion, outcome.solution.trials, certificate, time.monotonic() - began)
-        self._parts.append(part)
-        if part is self._best and not self._better_there(part):
-            self._keep(part)
-        if self._tell is not None:
-            self._tell(part)
+        part = replace(part, certificate=certificate, seconds=part.seconds + time.monotonic() - began)
+        if part.rank <= min((one.rank for one in self._parts), default=part.rank) and not self._better_there(part):
+            self._keep(part, certificate)
         return part
 
     def _run(self, name: str, task: Task, around: Motion | None, seed: int) -> Outcome:
@@ -347,6 +388,8 @@ class _Pursuit:
             self._stopped = "interrupted"
         elif self._end is not None and time.monotonic() > self._end and not generation.replayed:
             self._stopped, wish = "time", Stopped.INTERRUPTED
+        elif self._late(self._share) and generation.trials_to_success is None and not generation.replayed:
+            wish = Stopped.INTERRUPTED
         return wish
 
     def _better_there(self, part: Part) -> bool:
@@ -357,15 +400,16 @@ class _Pursuit:
         try:
             there = read_yaml(place)
             rank = (bool(there["interrupted"]), len(there["failed"]), -float(there["perturbed"]["share"]))
-            return there["demands"] == part.certificate.to_json()["demands"] and rank < part.rank
+            demands = None if part.certificate is None else part.certificate.to_json()["demands"]
+            return there["demands"] == demands and rank < part.rank
         except (LevadeError, LookupError, TypeError, ValueError):
             return False
 
-    def _keep(self, part: Part) -> None:
+    def _keep(self, part: Part, certificate: Certificate) -> None:
         place, room = self._directory, Remedy("make room, then go on", "resume", self._directory)
         with storing(place, then=room):
             part.motion.save(place / MOTION)
             write_text(place / TASK, task_to_yaml(part.motion.task, code=True))
-            content = {"motion": MOTION, **part.certificate.to_json()}
+            content = {"motion": MOTION, **certificate.to_json()}
             write_text(place / CERTIFICATE, json.dumps(content, ensure_ascii=False, indent=1) + "\n")
-            write_certificate(part.motion, part.certificate, place / PAGE, source=MOTION)
+            write_certificate(part.motion, certificate, place / PAGE, source=MOTION)

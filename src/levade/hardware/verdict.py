@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from levade.checks import Certificate, Margin
-from levade.hardware.pursuit import LIMITS, Part, Pursued
+from levade.hardware.pursuit import LIMITS, Pursued
 from levade.motions import Motion
 
 _SHARES = {"speed": "speed limit", "torque_speed": "torque-speed line", "linkage": "linkage's torque"}
@@ -26,11 +26,11 @@ def binding(certificate: Certificate) -> str:
 
 def obstacles(pursued: Pursued) -> list[str]:
     """What the best certificate fails, one line each, with what would have to give."""
-    part = pursued.best
-    failed = set(part.certificate.failed)
+    part, certificate = pursued.best, pursued.certificate
+    failed = set(certificate.failed)
     said = [
         _of_margin(name, margin, part.motion)
-        for name, margin in part.certificate.margins.items()
+        for name, margin in certificate.margins.items()
         if name.replace("_", " ") in failed
     ]
     missed = [name for name in pursued.plan.goal if not part.motion.meets(name)]
@@ -38,8 +38,8 @@ def obstacles(pursued: Pursued) -> list[str]:
         off = ", ".join(f"{name} {part.motion.result.errors[name]:+.3g}" for name in missed)
         said.append(f"the goal is missed within the limits ({off}): ask for less, or allow a longer horizon")
     if "perturbed" in failed and not (missed and part.name in LIMITS):
-        said.append(_of_perturbed(part))
-    others = [name for name in sorted(failed) if name != "perturbed" and name not in _names(part.certificate)]
+        said.append(_of_perturbed(certificate))
+    others = [name for name in sorted(failed) if name != "perturbed" and name not in _names(certificate)]
     if others and not (missed and part.name in LIMITS):
         said.append(f"it does not succeed with: {', '.join(others)}; its success depends on how contact is computed")
     return said
@@ -80,11 +80,11 @@ def _of_margin(name: str, margin: Margin, motion: Motion) -> str:
     return f"{margin.least} leaves {margin.value:.0%} of its {name.replace('_', ' ')} limit{asked}: a stronger joint"
 
 
-def _of_perturbed(part: Part) -> str:
-    found = part.certificate.perturbed
+def _of_perturbed(certificate: Certificate) -> str:
+    found = certificate.perturbed
     worst = max(found.errors, key=lambda name: found.errors[name]["missed"], default="")
     breaks = found.sensitivity[0].parameter if found.sensitivity else ""
-    wanted = part.certificate.demands.share or 0.0
+    wanted = certificate.demands.share or 0.0
     return (
         f"it succeeds on {found.share:.1%} of perturbed robots, and {wanted:.0%} are asked for: {worst} is missed most"
         f"{breaks and f', {breaks} matters most'}; a wider tolerance of {worst}, or a robot that is known better"

@@ -41,6 +41,8 @@ class Policy:
 
     horizon: T [s], rounded to a whole number of steps (at least one). timestep: [s]. hold_steps: rows after T.
     ends: where every reference comes from and goes to; None leaves that to the weights.
+    within: (2, joints) [rad], lower and upper ends between which every reference stays, at rest where it would go beyond;
+        infinite where a joint has none. None lets references go anywhere.
     Raises LevadeError if the groups do not cover every joint once, or a duration is not positive.
     """
 
@@ -50,6 +52,7 @@ class Policy:
     timestep: float
     hold_steps: int = 0
     ends: Ends | None = None
+    within: Array | None = None
 
     def __post_init__(self) -> None:
         for name, value in (("horizon", self.horizon), ("timestep", self.timestep)):
@@ -176,6 +179,10 @@ class Policy:
             velocity += added_rate
             position *= factor
             position += added
+        if self.within is not None:
+            lower, upper = self.within
+            velocity[(position < lower) | (position > upper)] = 0.0
+            np.clip(position, lower, upper, out=position)
 
     def initial_weights(self, posture: ArrayLike) -> Array:
         """Weights that keep a posture: see `hold`."""

@@ -6,6 +6,7 @@ policy = policy_from_dict(content)      # the same policy, to the bit
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -51,7 +52,24 @@ def policy_to_dict(policy: Policy) -> dict[str, Any]:
             "depart": ends.depart,
             "settle": ends.settle,
         },
+        "within": None
+        if policy.within is None
+        else [[_finite(end) for end in ends] for ends in policy.within.tolist()],
     }
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def _within(ends: Any) -> Array | None:
+    """Ends of ranges, of which a file has null where a joint has none."""
+    if ends is None:
+        return None
+    lower, upper = ends
+    return np.array(
+        [[-np.inf if end is None else end for end in lower], [np.inf if end is None else end for end in upper]]
+    )
 
 
 def policy_from_dict(content: Mapping[str, Any]) -> Policy:
@@ -77,12 +95,15 @@ def policy_from_dict(content: Mapping[str, Any]) -> Policy:
             ends=None
             if ends is None
             else Ends(_angles(ends["start"]), _angles(ends["goal"]), ends["depart"], ends["settle"]),
+            within=_within(content.get("within")),
         )
     except (LookupError, TypeError, ValueError, AttributeError) as error:
         raise LevadeError(f"policy: its tables cannot be read ({type(error).__name__}: {error})") from None
     for name, angles in (("start", policy.ends.start), ("goal", policy.ends.goal)) if policy.ends else ():
         if angles.shape != (policy.joints,):
             raise LevadeError(f"policy.ends.{name}: {angles.size} angles for {policy.joints} joints")
+    if policy.within is not None and policy.within.shape != (2, policy.joints):
+        raise LevadeError(f"policy.within: should be two ends for each of {policy.joints} joints")
     return policy
 
 

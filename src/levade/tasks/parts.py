@@ -104,6 +104,8 @@ class PolicyChoice:
         rest of the posture is the neutral one. A free one needs ``settle``.
     depart, settle: shares of the horizon in which every reference leaves what the joints were told last, and goes over to
         the goal; 0 leaves the ends to the weights. See `levade.policies.Ends`.
+    within_ranges: whether references stay within the joints' ranges, at rest where they would go beyond, as a drive that clamps
+        them has it.
     """
 
     kernels: int = 16
@@ -114,6 +116,7 @@ class PolicyChoice:
     goal: str | Mapping[str, float | str | tuple[float, float]] = "neutral"
     depart: float = 0.0
     settle: float = 0.0
+    within_ranges: bool = False
 
     @property
     def goal_is_free(self) -> bool:
