@@ -15,6 +15,7 @@ from levade.hardware import Plan
 from levade.hardware.plan import _miss, tolerance
 from levade.robots import Dimensions, Robot, dimensions, load_robot
 from levade.tasks import Change, Cost, HorizonRange, builtin_tasks, load_task, task_from_dict, task_to_yaml
+from levade.tasks.policy import make_policy
 from levade.trajectory import Trajectories
 
 NOMINAL = [name for name in builtin_tasks() if load_task(name).robust is None]
@@ -159,3 +160,22 @@ def test_a_cost_of_a_criterion_s_name_stays_beside_it(robot: Robot) -> None:
     costs = Plan.of(task, robot).within_limits().costs
     assert isinstance(costs["pitch"].term, Miss)
     assert costs["pitch (cost)"].weight == 2.0
+
+
+def test_references_stay_within_the_joints_ranges(robot: Robot) -> None:
+    """Self-righting asks -1.8 rad of a hip that ends at -0.785."""
+    task = Plan.of(load_task("self-righting"), robot).within_limits()
+    policy = make_policy(task, robot)
+    weights = 3.0 * np.random.default_rng(0).normal(size=(4, policy.size))
+    position = policy.reference(weights).position
+    assert (position >= robot.limits.lower).all()
+    assert (position <= robot.limits.upper).all()
+    loose = make_policy(load_task("self-righting"), robot)
+    assert (loose.reference(weights[:, : loose.size]).position < robot.limits.lower).any()
+
+
+def test_every_second_search_within_limits_is_another(robot: Robot) -> None:
+    first, second, third = (Plan.of(load_task("rearing"), robot).within_limits(number) for number in range(3))
+    assert first == third != second
+    assert second.costs["margins"].weight > first.costs["margins"].weight
+    assert second.success == first.success

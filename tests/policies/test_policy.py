@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import math
 import os
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,6 +16,7 @@ from hypothesis import strategies as st
 
 from levade.errors import LevadeError
 from levade.policies import Follower, GaussianKernels, Group, Policy, independent_joints, refine
+from levade.policies.tables import policy_from_dict, policy_to_dict
 
 # The paper's rearing on HyQ2Max: left leads right, front pair and hind pair, with one mirrored joint to make it hard.
 PAIRS = (
@@ -201,3 +204,28 @@ def test_horizon_is_rounded_to_whole_steps():
 def test_errors_say_what_would_be_right(call, message):
     with pytest.raises(LevadeError, match=message):
         call()
+
+
+def test_references_within_ranges_are_those_without_clamped_and_at_rest_at_the_ends():
+    lower, upper = np.full(12, -0.4), np.full(12, 0.3)
+    upper[4] = np.inf
+    free = rearing(hold_steps=5)
+    policy = replace(free, within=np.stack([lower, upper]))
+    weights = random_weights(policy)
+    reference, without = policy.reference(weights), free.reference(weights)
+    assert (without.position < lower).any()
+    assert (without.position > upper).any()
+    np.testing.assert_array_equal(reference.position, np.clip(without.position, lower, upper))
+    inside = (without.position >= lower) & (without.position <= upper)
+    np.testing.assert_array_equal(reference.velocity, np.where(inside, without.velocity, 0.0))
+    time = np.arange(1, 151) * 0.002
+    position, velocity = policy.at(weights, time)
+    np.testing.assert_allclose(position, reference.position[:, :150], atol=1e-12)
+    again = policy_from_dict(json.loads(json.dumps(policy_to_dict(policy))))
+    np.testing.assert_array_equal(again.reference(weights).position, reference.position)
+
+
+def test_policies_of_earlier_files_have_no_ranges():
+    content = policy_to_dict(rearing())
+    del content["within"]
+    assert policy_from_dict(content).within is None
