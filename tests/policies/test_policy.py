@@ -221,6 +221,7 @@ def test_references_within_ranges_are_those_without_clamped_and_at_rest_at_the_e
     time = np.arange(1, 151) * 0.002
     position, velocity = policy.at(weights, time)
     np.testing.assert_allclose(position, reference.position[:, :150], atol=1e-12)
+    np.testing.assert_allclose(velocity, reference.velocity[:, :150], atol=1e-9)
     again = policy_from_dict(json.loads(json.dumps(policy_to_dict(policy))))
     np.testing.assert_array_equal(again.reference(weights).position, reference.position)
 
