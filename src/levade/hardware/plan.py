@@ -121,9 +121,10 @@ class Plan:
         """The task on the nominal model, with limits as criteria, and its duration free up to `LONGEST`.
 
         Args:
-            number: Which of the searches for it, from 0: every second one aims no candidates. Aimed ones find rearing sooner (see
-                `_MARGINS_WEIGHT`; without them after 4376, 3594 and 3187 trials). Where a motion takes long to find, they are
-                in the way: rear-and-land, seeds 20 and 21, was 1.4 mm and 39 % beyond after 3600 trials without them.
+            number: Which of the searches for it, from 0. Every second one aims no candidates where the task's own search does, and
+                the other way round. Aimed ones find rearing sooner (see `_MARGINS_WEIGHT`; without them after 4376, 3594 and 3187
+                trials). Where a motion takes long to find, they are in the way: rear-and-land, seeds 20 and 21, was 1.4 mm and
+                39 % beyond after 3600 trials without them.
         """
         task = self.task
         horizon, demanding = task.horizon, self._demanding()
@@ -137,9 +138,7 @@ class Plan:
             horizon=horizon,
             stages=(Stage("within limits", hold=self._held),),
             search=replace(
-                demanding.search
-                if not heavy or demanding.search.optimizer != "cma-aimed"
-                else _unaimed(demanding.search),
+                _other(demanding.search) if number % 2 else demanding.search,
                 trials=6000,
                 restart=1200,
                 patience=600,
@@ -238,10 +237,13 @@ _OF_MARGINS = {
 """Quantity -> the same in `levade.costs.Margins`."""
 
 
-def _unaimed(search: Search) -> Search:
+def _other(search: Search) -> Search:
+    """The same without aimed candidates if it has some, and with the usual ones if it has none."""
     if search.optimizer != "cma-aimed":
         return search
-    return replace(search, settings={**search.settings, "aimed": 0})
+    aimed = search.settings.get("aimed", 1)
+    settings = {name: value for name, value in search.settings.items() if name != "aimed"}
+    return replace(search, settings={**settings, "aimed": 0} if aimed else settings)
 
 
 def _smooth(policy: PolicyChoice) -> PolicyChoice:
