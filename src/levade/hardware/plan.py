@@ -123,8 +123,8 @@ class Plan:
         Args:
             number: Which of the searches for it, from 0. Every second one aims no candidates where the task's own search does,
                 and the other way round. Aimed ones find rearing sooner (see `_MARGINS_WEIGHT`; without them after 4376, 3594
-                and 3187 trials). Where a motion takes long to find they are in the way: rear-and-land, seeds 20 and 21, was 1.4 mm
-                and 39 % beyond after 3600 trials without them.
+                and 3187 trials). Where a motion takes long to find they are in the way: rear-and-land, seeds 20 and 21, was
+                1.4 mm and 39 % beyond after 3600 trials without them.
         """
         task = self.task
         horizon, demanding = task.horizon, self._demanding()
