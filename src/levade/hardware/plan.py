@@ -247,7 +247,7 @@ def _other(search: Search) -> Search:
 
 
 def _smooth(policy: PolicyChoice) -> PolicyChoice:
-    policy = replace(policy, within_ranges=True)
+    policy = replace(policy, room=WANTED["angle"] if policy.room is None else policy.room)
     if policy.kernels <= _KERNELS and policy.time == "normalised":
         return policy
     return replace(policy, kernels=min(policy.kernels, _KERNELS), variance=_VARIANCE, time="normalised")

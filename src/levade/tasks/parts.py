@@ -104,8 +104,8 @@ class PolicyChoice:
         rest of the posture is the neutral one. A free one needs ``settle``.
     depart, settle: shares of the horizon in which every reference leaves what the joints were told last, and goes over to
         the goal; 0 leaves the ends to the weights. See `levade.policies.Ends`.
-    within_ranges: whether references stay within the joints' ranges, at rest where they would go beyond, as a drive that clamps
-        them has it.
+    room: how far references stay from the ends of the joints' ranges [rad], at rest where they would come nearer, as with a
+        drive that clamps them; at most a quarter of a range. None lets them go anywhere.
     """
 
     kernels: int = 16
@@ -116,7 +116,7 @@ class PolicyChoice:
     goal: str | Mapping[str, float | str | tuple[float, float]] = "neutral"
     depart: float = 0.0
     settle: float = 0.0
-    within_ranges: bool = False
+    room: float | None = None
 
     @property
     def goal_is_free(self) -> bool:

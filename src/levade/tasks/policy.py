@@ -38,8 +38,10 @@ def make_policy(task: Task, robot: Robot, *, start: Array | None = None) -> Poli
             ends = Ends(goal if start is None else start, goal, choice.depart, choice.settle)
     horizon = task.horizon.begin if isinstance(task.horizon, HorizonRange) else task.horizon
     policy = Policy(kernels, leg_groups(choice, robot), horizon, task.physics.timestep, task.hold_steps, ends)
-    if choice.within_ranges:
-        policy = replace(policy, within=np.stack([robot.limits.lower, robot.limits.upper]))
+    if choice.room is not None:
+        lower, upper = robot.limits.lower, robot.limits.upper
+        room = np.minimum(choice.room, (upper - lower) / 4)  # infinite where a joint has no range
+        policy = replace(policy, within=np.stack([lower + room, upper - room]))
     bounds = (task.horizon.minimum, task.horizon.maximum) if isinstance(task.horizon, HorizonRange) else None
     goal = None if free is None else _free_goal(policy, *free, robot)
     return policy if bounds is None and goal is None else FreePolicy(policy, bounds, goal)

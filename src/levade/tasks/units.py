@@ -59,6 +59,7 @@ _KEYS: dict[str, str] = {
     **dict.fromkeys(("com", "ground_height", "obstacle"), "a length"),
     **dict.fromkeys(("start_rate", "start_joint_velocity"), "an angular speed"),
     "latency": "a duration",
+    "room": "an angle",
     "start_velocity": "a speed",
 }
 _VELOCITIES = {

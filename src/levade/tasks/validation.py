@@ -53,6 +53,8 @@ def check_policy(policy: PolicyChoice) -> None:
         )
     if not 1 <= policy.kernels <= 1000:
         raise LevadeError(f"policy.kernels: {policy.kernels} should be 1 to 1000; the paper has 16")
+    if policy.room is not None and not (math.isfinite(policy.room) and policy.room >= 0):
+        raise LevadeError(f"policy.room: {policy.room} rad should be 0 or more; 0.05 is usual")
 
 
 def check_costs(costs: Mapping[str, Cost], success: Mapping[str, Criterion], hold: float) -> None:
