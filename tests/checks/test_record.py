@@ -4,15 +4,23 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from levade.checks.record import doubt
+from levade.checks import Demands
+from levade.checks.record import JUDGED, doubt
 from levade.errors import LevadeError
 from levade.motions import Motion
+
+DEMANDS = asdict(Demands())
+
+
+def test_what_the_stabiliser_is_counts(standing: Motion, changed: Callable[..., Motion]) -> None:
+    one = changed(standing, meta={"feedback": {"bound": 0.3}})
+    assert len({standing.checksum, one.checksum, changed(standing, meta={"feedback": {"bound": 0.4}}).checksum}) == 3
 
 
 def test_a_motion_keeps_its_checksum_in_every_file(standing: Motion, tmp_path: Path) -> None:
@@ -39,13 +47,17 @@ def test_any_other_number_has_another_checksum(standing: Motion, changed: Callab
         ({"passed": False, "failed": ["speed", "perturbed"]}, "it fails speed, perturbed"),
         ({"passed": False, "interrupted": True}, "its check was interrupted"),
         ({"checksum": "0" * 64}, "it is of another motion"),
+        ({"demands": {**DEMANDS, "share": None, "numerics": False}}, "it does not judge share, numerics"),
+        ({"demands": None}, f"it does not judge {', '.join(JUDGED)}"),
+        ({"perturbed": {"runs": 1}}, "it has 1 perturbed runs, and 100 are the least that say much"),
     ],
 )
 def test_a_certificate_vouches_for_the_motion_it_is_of(
     standing: Motion, tmp_path: Path, content: dict[str, object], reason: str | None
 ) -> None:
     place = tmp_path / "certificate.json"
-    place.write_text(json.dumps({"passed": True, "checksum": standing.checksum, **content}))
+    usual = {"passed": True, "checksum": standing.checksum, "demands": DEMANDS, "perturbed": {"runs": 500}}
+    place.write_text(json.dumps({**usual, **content}))
     assert doubt(place, standing) == reason
 
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+from dataclasses import asdict
 from pathlib import Path
 
 import pytest
 
+from levade.checks import Demands
 from levade.exports import FORMATS
 from levade.motions import Motion
 
@@ -92,7 +94,8 @@ def test_what_is_no_motion(tmp_path: Path, levade) -> None:
 
 
 def certificate(path: Path, motion: Path, **content: object) -> Path:
-    path.write_text(json.dumps({"passed": True, "checksum": Motion.load(motion).checksum, **content}))
+    usual = {"passed": True, "demands": asdict(Demands()), "perturbed": {"runs": 500}}
+    path.write_text(json.dumps({**usual, "checksum": Motion.load(motion).checksum, **content}))
     return path
 
 

@@ -83,11 +83,15 @@ def test_what_was_changed_after_compiling_counts() -> None:
     model.opt.timestep, model.opt.cone = 0.0005, mujoco.mjtCone.mjCONE_ELLIPTIC
     model.geom_solref[:, 0], model.geom_friction[1, 0], model.geom_condim[1] = 0.05, 0.3, 6
     model.dof_damping[:] = 0.7
+    model.jnt_limited[:] = not model.jnt_limited[0]
+    model.stat.meaninertia *= 2
     lean = Lean.of(model, xml, {})
     assert (lean.model.opt.timestep, lean.model.opt.cone) == (0.0005, mujoco.mjtCone.mjCONE_ELLIPTIC)
     for name in ("geom_solref", "geom_friction", "geom_condim"):
         np.testing.assert_array_equal(getattr(lean.model, name), getattr(model, name)[:2], err_msg=name)
     np.testing.assert_array_equal(lean.model.dof_damping, model.dof_damping)
+    np.testing.assert_array_equal(lean.model.jnt_limited, model.jnt_limited)
+    assert lean.model.stat.meaninertia == model.stat.meaninertia
 
 
 def test_values_of_shapes_are_those_that_are_left() -> None:

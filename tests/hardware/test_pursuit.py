@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,8 +11,9 @@ import numpy as np
 import pytest
 
 from levade.checks import Demands, check
+from levade.costs import Criterion
 from levade.errors import LevadeError
-from levade.hardware import Part, Pursued, binding, discard, is_pursuit, obstacles, pursue
+from levade.hardware import Part, Pursued, binding, discard, is_pursuit, obstacles, pursue, read_pursuit
 from levade.hardware.pursuit import ASKED, CERTIFICATE
 from levade.motions import Motion
 from levade.search import Generation, Stopped
@@ -120,3 +122,45 @@ def test_a_task_without_criteria_cannot_be_certified(tmp_path: Path) -> None:
     with pytest.raises(LevadeError, match="no success criteria to certify"):
         pursue(task, directory=tmp_path / "none")
     assert not (tmp_path / "none").exists()
+
+
+def test_a_page_that_is_not_levades_is_said_before_the_work(tmp_path: Path) -> None:
+    (tmp_path / "certificate.html").write_text("mine")
+    with pytest.raises(LevadeError, match=r"certificate\.html: is no report of levade's"):
+        pursue(standing(), directory=tmp_path, runs=RUNS)
+    assert [path.name for path in tmp_path.iterdir()] == ["certificate.html"]
+
+
+def test_what_was_demanded_and_chosen_is_kept(found: Pursued) -> None:
+    task, seed, demands = read_pursuit(found.directory)
+    assert (task, seed, demands) == (standing(), 0, Demands())
+    assert json.loads((found.directory / ASKED).read_text())["chosen"] == "limits-1"
+
+
+def test_a_search_that_was_not_chosen_is_not_gone_on_with(found: Pursued, tmp_path: Path) -> None:
+    """The second search passed while the first was cut short: a later call leaves the first alone."""
+    shutil.copytree(found.directory, tmp_path / "run")
+    content = json.loads((tmp_path / "run" / ASKED).read_text())
+    (tmp_path / "run" / ASKED).write_text(json.dumps({**content, "chosen": "limits-2"}))
+    again = pursue(standing(), directory=tmp_path / "run", runs=RUNS)
+    assert [part.name for part in again.parts] == ["limits-2"]
+    other = pursue(standing(), directory=tmp_path / "run", runs=RUNS, demands=Demands(share=0.9))  # chosen by others
+    assert [part.name for part in other.parts] == ["limits-1"]
+
+
+def test_where_none_is_within_the_limits_the_nearest_is_certified(tmp_path: Path) -> None:
+    """Interrupted in the second search: the first, which comes nearer, is what there is to show."""
+
+    def interrupted(name: str, generation: Generation) -> Stopped | None:
+        late = generation.generation == (3 if name == "limits-1" else 1)
+        return Stopped.INTERRUPTED if late and name == "limits-2" else None
+
+    task = standing()
+    changes = replace(
+        task, success={**task.success, "high": Criterion("height", minimum=9.0, at="max")}
+    )  # nothing does
+    seen = pursue(changes, directory=tmp_path, runs=RUNS, minutes=0.2, observe=interrupted)
+    assert not seen.passed
+    certified = [part for part in seen.parts if part.certificate is not None]
+    assert [part.name for part in certified] == [seen.best.name]
+    assert seen.best.motion.result.cost == min(part.motion.result.cost for part in seen.parts)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -102,3 +104,18 @@ def test_a_motion_of_any_duration_and_end_is_imitated(policy: Policy, decisions:
 def test_what_makes_no_sense_is_refused(policy: Policy, make, says: str) -> None:
     with pytest.raises(LevadeError, match=says):
         make(policy)
+
+
+def test_references_within_ranges_are_those_of_the_chosen_policy(
+    policy: Policy, decisions: np.ndarray, goal: FreeGoal
+) -> None:
+    """Where the end moves, too: what is simulated is what the file's policy says."""
+    ends = (tuple([-0.3] * policy.joints), tuple([0.3] * policy.joints))
+    free = FreePolicy(replace(policy, within=ends), (0.1, 0.5), goal)
+    reference = free.reference(decisions)
+    assert (np.abs(reference.position) <= 0.3).all()
+    assert (np.abs(reference.position) == 0.3).any()
+    for i in range(len(decisions)):
+        own, weights = free.chosen(decisions[i])
+        rows = own.horizon_steps + HOLD
+        np.testing.assert_allclose(reference.position[i, :rows], own.reference(weights[None]).position[0], atol=1e-13)

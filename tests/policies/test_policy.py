@@ -210,7 +210,7 @@ def test_references_within_ranges_are_those_without_clamped_and_at_rest_at_the_e
     lower, upper = np.full(12, -0.4), np.full(12, 0.3)
     upper[4] = np.inf
     free = rearing(hold_steps=5)
-    policy = replace(free, within=np.stack([lower, upper]))
+    policy = replace(free, within=(tuple(lower), tuple(upper)))
     weights = random_weights(policy)
     reference, without = policy.reference(weights), free.reference(weights)
     assert (without.position < lower).any()

@@ -104,6 +104,8 @@ def test_an_attempt_that_improves_goes_on() -> None:
     assert moves_of(task, *falling) == [GO_ON, GO_ON, GO_ON, GO_ON, RESTART, GO_ON]  # 5.5 is 8 % below 6.0
     assert moves_of(task, *[(8, 5.0)] * 3) == [GO_ON, GO_ON, RESTART]
     assert moves_of(make_task(restart=24), *falling[:3]) == [GO_ON, GO_ON, RESTART]
+    assert moves_of(task, *[(8, 0.0)] * 3) == moves_of(task, *[(8, -5.0)] * 3) == [GO_ON, GO_ON, RESTART]
+    assert moves_of(task, (8, -5.0), (8, -6.0), (8, -7.0)) == [GO_ON] * 3
     assert moves_of(make_task(restart=8, patience=16), (8, 5.0), (8, 5.0), (8, 5.0)) == [GO_ON, GO_ON, RESTART]
 
 

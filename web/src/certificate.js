@@ -148,7 +148,7 @@ function start({ runs, scene, limits: { horizon, end } }, { stage, controls, the
 }
 
 function words({ missed, differs, diverged }, k) {
-  if (k === 0) return "The motion on the model as it is. Beside it the runs that came out poorest of all perturbed ones.";
+  if (k === 0) return "The motion on the model as it is. Beside it the runs that came out poorest of all perturbed ones, drawn on the model's ground: theirs may lie and slope otherwise.";
   const off = missed.map(({ name, error }) => `${name.replaceAll("_", " ")} ${signed(error, 3)}`).join(", ");
   const robot = differs.map(({ name, value, unit }) => `${name.replaceAll("_", " ")} ${significant(value)}${unitText(unit)}`).join(", ");
   return `${diverged ? "The simulation broke down. " : off ? `It misses ${off}. ` : "It succeeds. "}What differs most on its robot: ${robot}.`;

@@ -7,6 +7,7 @@ import time
 
 from levade.bench.plan import Case
 from levade.bench.results import Result
+from levade.errors import LevadeError
 from levade.motions import versions
 from levade.search import Generation, Objective, Stopped, make_objective, solve
 from levade.tasks import Task
@@ -68,6 +69,10 @@ _latest: tuple[Task, Objective] | None = None
 def _objective(case: Case) -> Objective:
     """The latest one again, where the seed is all that has changed."""
     global _latest
+    if case.task.hardware is not None:
+        raise LevadeError(
+            f"hardware: the task {case.task.name} asks for a certificate, which a bench of searches does not look for"
+        )
     if _latest is None or _latest[0] != case.task:
         _latest = case.task, make_objective(case.task, threads=1)
     return _latest[1]

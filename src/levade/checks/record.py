@@ -15,6 +15,13 @@ CERTIFICATE = "certificate.json"
 """The file's usual name, beside the motion's."""
 
 
+JUDGED = (*("share", "numerics", "engines"), *("position", "speed", "torque", "torque_speed", "self_collision"))
+"""Demands that a certificate has to make to vouch for a motion."""
+
+FEWEST = 100
+"""Perturbed runs that it has to have."""
+
+
 def doubt(path: Path, motion: Motion) -> str | None:
     """Why a certificate's file does not vouch for a motion, in a few words; None if it does.
 
@@ -30,4 +37,13 @@ def doubt(path: Path, motion: Motion) -> str | None:
         return "its check was interrupted"
     if not content["passed"]:
         return f"it fails {', '.join(map(str, content.get('failed') or ()))}"
+    demands = content.get("demands") or {}
+    left_out = [
+        name for name in JUDGED if demands.get(name) is None or demands[name] is False
+    ]  # a margin of 0 is judged
+    if left_out:
+        return f"it does not judge {', '.join(left_out)}"
+    runs = content.get("perturbed", {}).get("runs", 0)
+    if runs < FEWEST:
+        return f"it has {runs} perturbed runs, and {FEWEST} are the least that say much"
     return None

@@ -210,13 +210,14 @@ def solve(
     from levade.search.run import PURSUIT
     from levade.tasks.files import asks_for_hardware
 
-    hardware = hardware or (task is not None and asks_for_hardware(task, changed))
+    flag, hardware = hardware, hardware or (task is not None and asks_for_hardware(task, changed))
     if hardware or (resume is not None and (resume / PURSUIT).is_file()):
         from levade.cli.pursuing import pursue_and_report
 
         beside = {"--watch": watch, "--from": begin, "--after": after, "--trials": trials, "--optimizer": optimizer}
         if extra := [name for name, value in beside.items() if value]:
-            raise LevadeError(f"--hardware: makes searches of its own; leave out {' and '.join(extra)}")
+            asks = "hardware, which the task asks for" if not flag and resume is None else "--hardware"
+            raise LevadeError(f"{asks}: makes searches of its own; leave out {' and '.join(extra)}")
         return pursue_and_report(
             task=task,
             robot=robot,

@@ -53,9 +53,11 @@ def check_motion(
     demands = changed(Demands(), demand, option="--demand")
     task = None if criteria is None else load_task(criteria, robot=motion.task.robot.name)
     place = nullcontext(None) if out is None else writing(out, instead="give a path that can: --out FILE")
+    sheet = nullcontext(None)
     if page is not None:
         check_page(page, instead="give a path that can: --page FILE")
-    with place as file:  # whatever cannot be written is said before the work
+        sheet = writing(page, instead="give a path that can: --page FILE")
+    with place as file, sheet as leaf:  # whatever cannot be written is said before the work
         with stop_between() as stopping:
             certificate = check(
                 motion,
@@ -75,13 +77,13 @@ def check_motion(
             _tell(make_console(), path, certificate, runs)
         if file is not None:
             file.write_text(json.dumps(content, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
-    if page is not None:
-        from levade.hardware import write_certificate  # only now: it brings searches and scenes with it
+        if leaf is not None:
+            from levade.hardware import certificate_page  # only now: it brings searches and scenes with it
 
-        judged = None if task is None else task.success
-        write_certificate(
-            motion, certificate, page, criteria=judged, source=str(path), instead="give a path that can: --page FILE"
-        )
+            judged = None if task is None else task.success
+            leaf.write_text(
+                certificate_page(motion, certificate, criteria=judged, source=str(path)), encoding="utf-8", newline="\n"
+            )
     return 0 if certificate.passed else 1
 
 

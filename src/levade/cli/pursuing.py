@@ -36,14 +36,15 @@ def pursue_and_report(
 ) -> int:
     """Exit status 0 if the certificate passes, else 1."""
     console = make_console(stderr=as_json)
+    before: Demands | None = None
     if resume_from is not None:
-        chosen, seed = read_pursuit(resume_from)
+        chosen, seed, before = read_pursuit(resume_from)
         place = resume_from
     else:
         assert task is not None
         chosen = load_task(task, robot=robot, changes=changes)
         place = directory or Path(chosen.name)
-    demands = changed(chosen.hardware or Demands(), demand, option="--demand")
+    demands = changed(before or chosen.hardware or Demands(), demand, option="--demand")
     loaded = chosen.robot.load()
     tell_warnings(console, loaded, chosen.robot.name)
     _tell_goal(console, Plan.of(chosen, loaded, demands))

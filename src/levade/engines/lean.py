@@ -21,6 +21,13 @@ _SAME = ("body_mass", "body_inertia", "body_ipos", "body_iquat", "body_parentid"
 """Fields that must not change when shapes go."""
 
 
+_SWITCHES = (
+    *("jnt_limited", "tendon_limited", "eq_active0", "body_sameframe"),
+    *(f"actuator_{name}" for name in ("ctrllimited", "forcelimited", "actlimited", "gaintype", "biastype", "dyntype")),
+)
+"""Integers and flags that are no addresses, and so may be taken from another model."""
+
+
 @dataclass(frozen=True, eq=False)
 class Lean:
     """A model to step.
@@ -73,3 +80,6 @@ def _take_over(lean: mujoco.MjModel, model: mujoco.MjModel, kept: NDArray[np.int
             own[...] = values
     for name in ("geom_contype", "geom_conaffinity", "geom_condim", "geom_priority", "geom_sameframe"):
         getattr(lean, name)[...] = getattr(model, name)[kept]
+    for name in _SWITCHES:
+        getattr(lean, name)[...] = getattr(model, name)
+    lean.stat.meaninertia = model.stat.meaninertia

@@ -6,7 +6,7 @@ pursued.motion                  # the motion with the best certificate
 obstacles(pursued)              # what it fails, and what would have to give
 """
 
-from levade.hardware.page import write_certificate
+from levade.hardware.page import certificate_page, write_certificate
 from levade.hardware.plan import Plan
 from levade.hardware.pursuit import Part, Pursued, discard, is_pursuit, pursue, read_pursuit
 from levade.hardware.verdict import binding, obstacles
@@ -16,6 +16,7 @@ __all__ = [
     "Plan",
     "Pursued",
     "binding",
+    "certificate_page",
     "discard",
     "is_pursuit",
     "obstacles",

@@ -19,6 +19,7 @@ from levade.checks import Certificate
 from levade.costs import Criterion
 from levade.engines import FOOT_CONTACT_FORCE
 from levade.engines.perturbation import PARAMETERS, labels
+from levade.errors import LevadeError
 from levade.motions import Motion, RecordedSimulation, run_again
 from levade.report.packing import pack
 from levade.report.page import assembled, save_page
@@ -59,11 +60,23 @@ def write_certificate(
         The page's path.
 
     Raises:
-        LevadeError: If the file cannot be written, or is there and is no page of levade.
+        LevadeError: If the certificate is of another motion or by other criteria, or the file cannot be written, or is there
+            and is no page of levade.
     """
+    text = certificate_page(motion, certificate, criteria=criteria, source=source)
+    return save_page(text, path, instead=instead)
+
+
+def certificate_page(
+    motion: Motion,
+    certificate: Certificate,
+    *,
+    criteria: Mapping[str, Criterion] | None = None,
+    source: str | None = None,
+) -> str:
+    """The page as text. Arguments as in `write_certificate`."""
     data = certificate_data(motion, certificate, criteria=criteria, source=source)
-    title = f"Certificate: {certificate.task} on {certificate.robot}"
-    return save_page(assembled(title, data, "certificate"), path, instead=instead)
+    return assembled(f"Certificate: {certificate.task} on {certificate.robot}", data, "certificate")
 
 
 def certificate_data(
@@ -74,6 +87,10 @@ def certificate_data(
     source: str | None = None,
 ) -> dict[str, Any]:
     """The page's data, JSON; web/src/certificate.js draws it. Arguments as in `write_certificate`."""
+    if certificate.checksum != motion.checksum:
+        raise LevadeError("certificate: it is of another motion; give the one that was checked")
+    if criteria is None and certificate.criteria != certificate.task:
+        raise LevadeError(f"certificate: it is by the criteria of {certificate.criteria}; give these")
     found = certificate.perturbed
     scene = scene_data(motion, rate=_RATE)
     return {
@@ -112,6 +129,7 @@ def limits_data(motion: Motion) -> dict[str, Any]:
     limits, names = motion.embodiment.limits, motion.joint_names
     angle, speed, torque = (motion[f"joint_{name}"] for name in ("position", "velocity", "torque"))
     half = (limits.upper - limits.lower) / 2
+    half[~(np.isfinite(half) & (half > 0))] = np.nan  # a share of a range that has one end only means nothing
     with np.errstate(invalid="ignore"):
         left: dict[str, Array] = {
             "speed": limits.speed_left(speed),

@@ -8,7 +8,7 @@ DIR/motion.npz          the motion with the best certificate so far
 DIR/certificate.json    its certificate
 DIR/certificate.html    the same to look at, with the runs that came out poorest
 DIR/task.yaml           its task, with every default filled in
-DIR/hardware.json       what was asked for: from it, the pursuit goes on where it stopped
+DIR/hardware.json       what was asked for, and which search is gone on from: by it, the pursuit goes on where it stopped
 DIR/limits-1, ...       the searches, each a run of its own (`levade.search.run`)
 
 First motions of the nominal model within its limits, several, since motions that look alike there differ widely on other
@@ -20,19 +20,19 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import Any
 
 from levade.checks import Certificate, check
 from levade.checks.record import CERTIFICATE
-from levade.document import read_yaml
+from levade.document import build, read_yaml
 from levade.errors import LevadeError, Remedy
 from levade.hardware.page import write_certificate
 from levade.hardware.plan import Plan
 from levade.locking import locked
 from levade.motions import Motion
+from levade.report.page import check_page
 from levade.robots import Robot
 from levade.search import Generation, Stopped, make_objective
 from levade.search.checkpoint import CHECKPOINT
@@ -183,35 +183,74 @@ def pursue(
         raise LevadeError(f"{minutes:g} should be a positive number of minutes; 5 is usual", field="minutes")
     if robot is None:
         robot = task.robot.load()
-    demands = demands or task.hardware
+    demands = demands or task.hardware or Demands()
     plan = Plan.of(task, robot, demands)
     if not plan.goal:
         raise LevadeError(f"hardware: the task {task.name} has no success criteria to certify; give it some")
-    asked = {"task": task_to_dict(task, code=True), "seed": seed}
+    check_page(directory / PAGE, instead="give another directory")
     with storing(directory / ASKED, then=Remedy("give another directory")):
         directory.mkdir(parents=True, exist_ok=True)
     if replace:
         discard(directory)
     else:
-        _check_same(directory, asked)
+        _check_same(directory, task, seed)
     with locked(directory, "pursuit"):
-        with storing(directory / ASKED, then=Remedy("give another directory")):
-            write_text(directory / ASKED, json.dumps(asked, ensure_ascii=False, indent=1) + "\n")
+        state = _State.of(directory, task, seed, demands)
+        state.write()
         end = None if minutes is None else time.monotonic() + 60 * minutes
-        return _Pursuit(plan, seed, threads, directory, end, demands, runs, begin, observe, tell, stopping).go()
+        return _Pursuit(plan, seed, threads, state, end, demands, runs, begin, observe, tell, stopping).go()
 
 
-def read_pursuit(directory: Path) -> tuple[Task, int]:
-    """What a pursuit in a directory was asked for: task and seed.
+@dataclass
+class _State:
+    """What hardware.json says: what was asked for, and which search within limits was chosen to go on from, by these demands.
+
+    A later call goes on from the same one, so that nothing that began around it is made again.
+    """
+
+    directory: Path
+    task: Task
+    seed: int
+    demands: Demands
+    chosen: str | None = None
+
+    @classmethod
+    def of(cls, directory: Path, task: Task, seed: int, demands: Demands) -> _State:
+        """The state of a pursuit, which may have begun in an earlier call."""
+        state = cls(directory, task, seed, demands)
+        if is_pursuit(directory):
+            content = read_yaml(directory / ASKED)
+            if content.get("demands") == asdict(demands) and content.get("chosen") in LIMITS:
+                state.chosen = content["chosen"]
+        return state
+
+    def write(self) -> None:
+        content = {
+            "task": task_to_dict(self.task, code=True),
+            "seed": self.seed,
+            "demands": asdict(self.demands),
+            "chosen": self.chosen,
+        }
+        with storing(self.directory / ASKED, then=Remedy("give another directory")):
+            write_text(self.directory / ASKED, json.dumps(content, ensure_ascii=False, indent=1) + "\n")
+
+
+def read_pursuit(directory: Path) -> tuple[Task, int, Demands | None]:
+    """What a pursuit in a directory was asked for: task, seed and demands; None for the usual ones.
 
     Raises:
         LevadeError: If there is none.
     """
-    content = read_yaml(directory / ASKED)
+    content, where = read_yaml(directory / ASKED), str(directory / ASKED)
     try:
-        return task_from_dict(content["task"], where=str(directory / ASKED)), int(content["seed"])
+        demands = content.get("demands")
+        return (
+            task_from_dict(content["task"], where=where, code=True),
+            int(content["seed"]),
+            None if demands is None else build(Demands, demands, where=f"{where}.demands"),
+        )
     except (KeyError, TypeError, ValueError):
-        raise LevadeError(f"{directory / ASKED}: is not what a pursuit wrote; start again") from None
+        raise LevadeError(f"{where}: is not what a pursuit wrote; start again") from None
 
 
 def is_pursuit(directory: Path) -> bool:
@@ -237,11 +276,12 @@ def discard(directory: Path) -> None:
             (directory / name).unlink(missing_ok=True)
 
 
-def _check_same(directory: Path, asked: Mapping[str, Any]) -> None:
+def _check_same(directory: Path, task: Task, seed: int) -> None:
     """Raise LevadeError if a directory holds another pursuit, a run, or files of neither."""
     remedies = (Remedy("write elsewhere", "elsewhere"), Remedy("replace it", "replace"))
     if is_pursuit(directory):
-        if read_yaml(directory / ASKED) != asked:
+        known, began, _ = read_pursuit(directory)
+        if (task_to_dict(known, code=True), began) != (task_to_dict(task, code=True), seed):
             raise LevadeError(f"{directory}: holds the pursuit of another task, robot or seed", remedies=remedies)
     elif (directory / CHECKPOINT).exists():
         raise LevadeError(f"{directory}: holds a run that is no pursuit for hardware", remedies=remedies)
@@ -264,16 +304,17 @@ class _Pursuit:
         plan: Plan,
         seed: int,
         threads: int,
-        directory: Path,
+        state: _State,
         end: float | None,
-        demands: Demands | None,
+        demands: Demands,
         runs: int,
         begin: Begin | None,
         observe: Observe | None,
         tell: Tell | None,
         stopping: Callable[[], bool],
     ) -> None:
-        self._plan, self._seed, self._threads, self._directory = plan, seed, threads, directory
+        self._plan, self._seed, self._threads, self._state = plan, seed, threads, state
+        self._directory = state.directory
         self._end, self._demands, self._runs = end, demands, runs
         self._begin, self._observe, self._tell, self._stopping = begin, observe, tell, stopping
         self._began = time.monotonic()
@@ -284,8 +325,8 @@ class _Pursuit:
     def go(self) -> Pursued:
         plan = self._plan
         for number, name in enumerate(LIMITS):
-            if self._is_there(ROBUST) and not self._is_there(name):
-                break  # an earlier call, with less time, went on without it
+            if self._state.chosen not in (None, name):
+                continue
             self._share = _ON_LIMITS[number]
             part = self._search(name, plan.within_limits(number), None, seed=self._seed + _APART * number)
             met = any(part.met for part in self._parts)
@@ -293,20 +334,23 @@ class _Pursuit:
                 break
         self._share = 1.0
         candidates = [part for part in self._parts if part.met]
-        if candidates and not self._stopped and not _passes(self._best):
-            around = max(candidates, key=_share)
+        if candidates and not self._stopped:
+            around = max(candidates, key=lambda part: (_passes(part), _share(part)))
+            self._choose(around)
             for name, make in ((ROBUST, plan.robust), (CLOSED, plan.closed_loop)):
-                if name == CLOSED and not plan.can_close_the_loop:
+                if _passes(around) or (name == CLOSED and not plan.can_close_the_loop):
                     break
                 around = self._search(name, make(around.motion.horizon), around.motion, seed=self._seed)
-                if self._stopped or _passes(around) or not around.met:
+                if self._stopped or not around.met:
                     break
         if self._best.certificate is None:
             self._certify_best()
         return Pursued(plan, tuple(self._parts), self._best, self._directory, self._seed, self._stopped)
 
-    def _is_there(self, name: str) -> bool:
-        return (self._directory / name / CHECKPOINT).is_file()
+    def _choose(self, part: Part) -> None:
+        if self._state.chosen is None:
+            self._state.chosen = part.name
+            self._state.write()
 
     def _late(self, share: float) -> bool:
         """Whether a share of the time is over."""
@@ -324,7 +368,7 @@ class _Pursuit:
         outcome = self._run(name, task, around, seed)
         motion = self._plan.certifiable(outcome.motion)
         # what is not within the limits would only fail; the last that there is is certified all the same
-        hopeless = name in LIMITS and not motion.met and not self._stopped
+        hopeless = name in LIMITS and not motion.met
         part = Part(name, motion, outcome.solution.trials, time.monotonic() - began, None)
         if not hopeless:
             part = self._certified(part)

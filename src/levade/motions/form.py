@@ -121,6 +121,7 @@ class PolicyForm(_Form):
     timestep: Timestep
     hold_steps: Annotated[int, Field(ge=0, le=10_000_000)]
     ends: EndsForm | None
+    within: Annotated[list[list[Number | None]], Field(min_length=2, max_length=2)] | None = None
 
 
 class FeedbackForm(_Form):

@@ -23,6 +23,7 @@ it needs none of levade:
 from __future__ import annotations
 
 import hashlib
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -137,16 +138,20 @@ class Motion:
 
     @cached_property
     def checksum(self) -> str:
-        """What tells this motion from others: SHA-256 of its model and arrays, in hexadecimal, the same in every file of it.
+        """What tells this motion from others: SHA-256, in hexadecimal, the same in every file of it.
 
-        What is said about the motion, such as its task, does not count.
+        Its model, its arrays, its limits and its stabiliser count. What else is said about it, such as its task, does not.
         """
-        found = hashlib.sha256(self.model_xml.encode())
+        told = {name: self.meta.get(name) for name in ("limits", "feedback", "timestep", "horizon_steps")}
+        parts = [json.dumps(told, sort_keys=True).encode(), self.model_xml.encode()]
         for name, content in sorted(self.assets.items()):
-            found.update(name.encode() + content)
+            parts += [name.encode(), content]
         for name, values in sorted(self.arrays.items()):
             whole = np.ascontiguousarray(values)
-            found.update(f"{name} {whole.dtype.str} {whole.shape}".encode() + whole.tobytes())
+            parts += [f"{name} {whole.dtype.str} {whole.shape}".encode(), whole.tobytes()]
+        found = hashlib.sha256()
+        for part in parts:
+            found.update(len(part).to_bytes(8, "big") + part)
         return found.hexdigest()
 
     def __contains__(self, name: object) -> bool:

@@ -41,7 +41,7 @@ class Policy:
 
     horizon: T [s], rounded to a whole number of steps (at least one). timestep: [s]. hold_steps: rows after T.
     ends: where every reference comes from and goes to; None leaves that to the weights.
-    within: (2, joints) [rad], lower and upper ends between which every reference stays, at rest where it would go beyond;
+    within: lower and upper ends [rad] of each joint, between which every reference stays, at rest where it would go beyond;
         infinite where a joint has none. None lets references go anywhere.
     Raises LevadeError if the groups do not cover every joint once, or a duration is not positive.
     """
@@ -52,7 +52,7 @@ class Policy:
     timestep: float
     hold_steps: int = 0
     ends: Ends | None = None
-    within: Array | None = None
+    within: tuple[tuple[float, ...], tuple[float, ...]] | None = None
 
     def __post_init__(self) -> None:
         for name, value in (("horizon", self.horizon), ("timestep", self.timestep)):
@@ -179,10 +179,19 @@ class Policy:
             velocity += added_rate
             position *= factor
             position += added
-        if self.within is not None:
-            lower, upper = self.within
-            velocity[(position < lower) | (position > upper)] = 0.0
-            np.clip(position, lower, upper, out=position)
+        self.clamp(position, velocity)
+
+    def clamp(self, position: Array, velocity: Array) -> None:
+        """Put references back between the ends of `within`, in place, at rest where they were beyond; (..., joints) each."""
+        if self._ends_of_ranges is None:
+            return
+        lower, upper = self._ends_of_ranges
+        velocity[(position < lower) | (position > upper)] = 0.0
+        np.clip(position, lower, upper, out=position)
+
+    @cached_property
+    def _ends_of_ranges(self) -> Array | None:
+        return None if self.within is None else np.array(self.within)
 
     def initial_weights(self, posture: ArrayLike) -> Array:
         """Weights that keep a posture: see `hold`."""

@@ -52,9 +52,7 @@ def policy_to_dict(policy: Policy) -> dict[str, Any]:
             "depart": ends.depart,
             "settle": ends.settle,
         },
-        "within": None
-        if policy.within is None
-        else [[_finite(end) for end in ends] for ends in policy.within.tolist()],
+        "within": None if policy.within is None else [[_finite(end) for end in ends] for ends in policy.within],
     }
 
 
@@ -62,14 +60,15 @@ def _finite(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
-def _within(ends: Any) -> Array | None:
+def _within(ends: Any) -> tuple[tuple[float, ...], tuple[float, ...]] | None:
     """Ends of ranges, of which a file has null where a joint has none."""
     if ends is None:
         return None
-    lower, upper = ends
-    return np.array(
-        [[-np.inf if end is None else end for end in lower], [np.inf if end is None else end for end in upper]]
+    lower, upper = (
+        tuple(without if end is None else float(end) for end in side)
+        for side, without in zip(ends, (-math.inf, math.inf), strict=True)
     )
+    return lower, upper
 
 
 def policy_from_dict(content: Mapping[str, Any]) -> Policy:
@@ -102,8 +101,12 @@ def policy_from_dict(content: Mapping[str, Any]) -> Policy:
     for name, angles in (("start", policy.ends.start), ("goal", policy.ends.goal)) if policy.ends else ():
         if angles.shape != (policy.joints,):
             raise LevadeError(f"policy.ends.{name}: {angles.size} angles for {policy.joints} joints")
-    if policy.within is not None and policy.within.shape != (2, policy.joints):
-        raise LevadeError(f"policy.within: should be two ends for each of {policy.joints} joints")
+    if policy.within is not None:
+        lower, upper = policy.within
+        if not len(lower) == len(upper) == policy.joints:
+            raise LevadeError(f"policy.within: should be two ends for each of {policy.joints} joints")
+        if not all(low <= high for low, high in zip(lower, upper, strict=True)):  # NaN is no end either
+            raise LevadeError("policy.within: a lower end is above the upper one, or no number")
     return policy
 
 

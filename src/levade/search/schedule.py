@@ -172,7 +172,8 @@ class Schedule:
         if patience is None:
             return False
         before = [lowest for trials, lowest in self._lowest if trials <= self._stage_trials - patience]
-        return not before or self._lowest[-1][1] <= (1.0 - _ENOUGH) * before[-1]
+        fallen = before[-1] - self._lowest[-1][1] if before else np.inf
+        return bool(fallen > 0 and (not before or fallen >= _ENOUGH * abs(before[-1])))
 
     def _in_vain(self, report: Report) -> bool:
         """Whether the last stage of a search from several starts used up its trials without a success, and the budget

@@ -41,7 +41,7 @@ def make_policy(task: Task, robot: Robot, *, start: Array | None = None) -> Poli
     if choice.room is not None:
         lower, upper = robot.limits.lower, robot.limits.upper
         room = np.minimum(choice.room, (upper - lower) / 4)  # infinite where a joint has no range
-        policy = replace(policy, within=np.stack([lower + room, upper - room]))
+        policy = replace(policy, within=(tuple((lower + room).tolist()), tuple((upper - room).tolist())))
     bounds = (task.horizon.minimum, task.horizon.maximum) if isinstance(task.horizon, HorizonRange) else None
     goal = None if free is None else _free_goal(policy, *free, robot)
     return policy if bounds is None and goal is None else FreePolicy(policy, bounds, goal)
