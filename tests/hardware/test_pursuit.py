@@ -11,10 +11,11 @@ import numpy as np
 import pytest
 
 from levade.checks import Demands, check
+from levade.checks.record import CERTIFICATE
 from levade.costs import Criterion
 from levade.errors import LevadeError
 from levade.hardware import Part, Pursued, binding, discard, is_pursuit, obstacles, pursue, read_pursuit
-from levade.hardware.pursuit import ASKED, CERTIFICATE
+from levade.hardware.state import ASKED
 from levade.motions import Motion
 from levade.search import Generation, Stopped
 from levade.search.checkpoint import CHECKPOINT

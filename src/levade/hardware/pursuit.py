@@ -21,15 +21,16 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Callable
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from levade.checks import Certificate, check
 from levade.checks.record import CERTIFICATE
-from levade.document import build, read_yaml
+from levade.document import read_yaml
 from levade.errors import LevadeError, Remedy
 from levade.hardware.page import write_certificate
 from levade.hardware.plan import Plan
+from levade.hardware.state import ASKED, CLOSED, LIMITS, PAGE, ROBUST, State, check_same, discard
 from levade.locking import locked
 from levade.motions import Motion
 from levade.report.page import check_page
@@ -37,13 +38,10 @@ from levade.robots import Robot
 from levade.search import Generation, Stopped, make_objective
 from levade.search.checkpoint import CHECKPOINT
 from levade.search.initial import initial_guess
-from levade.search.run import MOTION, PURSUIT, TASK, Outcome, check_replaceable, check_unlocked, read_run, resume, run
+from levade.search.run import MOTION, TASK, Outcome, read_run, resume, run
 from levade.search.storage import storing
-from levade.tasks import Demands, Task, task_from_dict, task_to_dict, task_to_yaml
+from levade.tasks import Demands, Task, task_to_dict, task_to_yaml
 from levade.writing import write_text
-
-ASKED, PAGE = PURSUIT, "certificate.html"
-LIMITS, ROBUST, CLOSED = ("limits-1", "limits-2", "limits-3"), "robust", "feedback"
 
 _ON_LIMITS = (0.4, 0.75, 1.0)
 """Shares of the time after which searches within limits, in order, end if they have not met them."""
@@ -193,100 +191,12 @@ def pursue(
     if replace:
         discard(directory)
     else:
-        _check_same(directory, task, seed)
+        check_same(directory, task, seed)
     with locked(directory, "pursuit"):
-        state = _State.of(directory, task, seed, demands)
+        state = State.of(directory, task, seed, demands)
         state.write()
         end = None if minutes is None else time.monotonic() + 60 * minutes
         return _Pursuit(plan, seed, threads, state, end, demands, runs, begin, observe, tell, stopping).go()
-
-
-@dataclass
-class _State:
-    """What hardware.json says: what was asked for, and which search within limits was chosen to go on from, by these demands.
-
-    A later call goes on from the same one, so that nothing that began around it is made again.
-    """
-
-    directory: Path
-    task: Task
-    seed: int
-    demands: Demands
-    chosen: str | None = None
-
-    @classmethod
-    def of(cls, directory: Path, task: Task, seed: int, demands: Demands) -> _State:
-        """The state of a pursuit, which may have begun in an earlier call."""
-        state = cls(directory, task, seed, demands)
-        if is_pursuit(directory):
-            content = read_yaml(directory / ASKED)
-            if content.get("demands") == asdict(demands) and content.get("chosen") in LIMITS:
-                state.chosen = content["chosen"]
-        return state
-
-    def write(self) -> None:
-        content = {
-            "task": task_to_dict(self.task, code=True),
-            "seed": self.seed,
-            "demands": asdict(self.demands),
-            "chosen": self.chosen,
-        }
-        with storing(self.directory / ASKED, then=Remedy("give another directory")):
-            write_text(self.directory / ASKED, json.dumps(content, ensure_ascii=False, indent=1) + "\n")
-
-
-def read_pursuit(directory: Path) -> tuple[Task, int, Demands | None]:
-    """What a pursuit in a directory was asked for: task, seed and demands; None for the usual ones.
-
-    Raises:
-        LevadeError: If there is none.
-    """
-    content, where = read_yaml(directory / ASKED), str(directory / ASKED)
-    try:
-        demands = content.get("demands")
-        return (
-            task_from_dict(content["task"], where=where, code=True),
-            int(content["seed"]),
-            None if demands is None else build(Demands, demands, where=f"{where}.demands"),
-        )
-    except (KeyError, TypeError, ValueError):
-        raise LevadeError(f"{where}: is not what a pursuit wrote; start again") from None
-
-
-def is_pursuit(directory: Path) -> bool:
-    """Whether a directory holds a pursuit."""
-    return (directory / ASKED).is_file()
-
-
-def discard(directory: Path) -> None:
-    """Forget the run or the searches that a directory holds, so that a new pursuit, or run, begins from nothing.
-
-    Raises:
-        LevadeError: If one of them goes on.
-    """
-    searches = [directory, *(directory / name for name in (*LIMITS, ROBUST, CLOSED))]
-    for search in searches:
-        check_unlocked(search)
-    with storing(directory, then=Remedy("give another directory")):
-        for search in searches:
-            (search / CHECKPOINT).unlink(missing_ok=True)
-        if (directory / CERTIFICATE).exists():  # and the motion that it is of
-            (directory / MOTION).unlink(missing_ok=True)
-        for name in (CERTIFICATE, PAGE, ASKED):
-            (directory / name).unlink(missing_ok=True)
-
-
-def _check_same(directory: Path, task: Task, seed: int) -> None:
-    """Raise LevadeError if a directory holds another pursuit, a run, or files of neither."""
-    remedies = (Remedy("write elsewhere", "elsewhere"), Remedy("replace it", "replace"))
-    if is_pursuit(directory):
-        known, began, _ = read_pursuit(directory)
-        if (task_to_dict(known, code=True), began) != (task_to_dict(task, code=True), seed):
-            raise LevadeError(f"{directory}: holds the pursuit of another task, robot or seed", remedies=remedies)
-    elif (directory / CHECKPOINT).exists():
-        raise LevadeError(f"{directory}: holds a run that is no pursuit for hardware", remedies=remedies)
-    else:
-        check_replaceable(directory)
 
 
 def _passes(part: Part) -> bool:
@@ -304,7 +214,7 @@ class _Pursuit:
         plan: Plan,
         seed: int,
         threads: int,
-        state: _State,
+        state: State,
         end: float | None,
         demands: Demands,
         runs: int,

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from levade.checks import Certificate, Margin
-from levade.hardware.pursuit import LIMITS, Pursued
+from levade.hardware.pursuit import Pursued
+from levade.hardware.state import LIMITS
 from levade.motions import Motion
 
 _SHARES = {"speed": "speed limit", "torque_speed": "torque-speed line", "linkage": "linkage's torque"}
