@@ -101,7 +101,7 @@ def test_out_of_time_it_ends_and_names_what_fails_with_what_would_have_to_give(t
         standing(), directory=tmp_path, runs=RUNS, minutes=0.002, demands=Demands(speed=1.0), tell=told.append
     )
     assert late.stopped == "time"
-    assert [part.name for part in told] == ["limits-1"]
+    assert [(part.name, part.certificate is None) for part in told] == [("limits-1", True), ("limits-1", False)]
     assert late.trials == late.motion.result.trials < 6000
     assert not late.passed
     (speed,) = (text for text in obstacles(late) if "speed limit" in text)
@@ -143,10 +143,20 @@ def test_a_search_that_was_not_chosen_is_not_gone_on_with(found: Pursued, tmp_pa
     shutil.copytree(found.directory, tmp_path / "run")
     content = json.loads((tmp_path / "run" / ASKED).read_text())
     (tmp_path / "run" / ASKED).write_text(json.dumps({**content, "chosen": "limits-2"}))
-    again = pursue(standing(), directory=tmp_path / "run", runs=RUNS)
-    assert [part.name for part in again.parts] == ["limits-2"]
-    other = pursue(standing(), directory=tmp_path / "run", runs=RUNS, demands=Demands(share=0.9))  # chosen by others
-    assert [part.name for part in other.parts] == ["limits-1"]
+
+    def first(demands: Demands | None) -> str:
+        """The search that a call begins with, and is stopped in."""
+        stopped = pursue(
+            standing(),
+            directory=tmp_path / "run",
+            runs=RUNS,
+            demands=demands,
+            observe=lambda name, generation: Stopped.INTERRUPTED,
+        )
+        return stopped.parts[0].name
+
+    assert first(None) == "limits-2"
+    assert first(Demands(share=0.9)) == "limits-1"  # it was chosen by other demands
 
 
 def test_where_none_is_within_the_limits_the_nearest_is_certified(tmp_path: Path) -> None:
