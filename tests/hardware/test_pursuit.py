@@ -175,3 +175,17 @@ def test_where_none_is_within_the_limits_the_nearest_is_certified(tmp_path: Path
     certified = [part for part in seen.parts if part.certificate is not None]
     assert [part.name for part in certified] == [seen.best.name]
     assert seen.best.motion.result.cost == min(part.motion.result.cost for part in seen.parts)
+
+
+def test_the_last_of_the_time_goes_to_the_search_that_came_nearest(tmp_path: Path) -> None:
+    told: list[Part] = []
+    task = standing()
+    impossible = replace(task, success={**task.success, "high": Criterion("height", minimum=9.0, at="max")})
+    late = pursue(impossible, directory=tmp_path, runs=RUNS, minutes=0.08, tell=told.append)
+    assert late.stopped == "time"
+    first, second, again, certified = told
+    assert (first.name, second.name) == ("limits-1", "limits-2")
+    assert again.name == min(first, second, key=lambda part: part.motion.result.cost).name
+    assert again.trials >= min(first.trials, second.trials)
+    assert certified.certificate is not None
+    assert not (tmp_path / "limits-3").exists()

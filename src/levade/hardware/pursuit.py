@@ -44,7 +44,8 @@ from levade.tasks import Demands, Task, task_to_dict, task_to_yaml
 from levade.writing import write_text
 
 _ON_LIMITS = (0.4, 0.75, 1.0)
-"""Shares of the time after which searches within limits, in order, end if they have not met them."""
+"""Shares of the time after which searches within limits, in order, end if they have not met them; the last share of it goes to
+the one that came nearest."""
 
 _ENOUGH = 0.4
 """Share of the time after which no further one is begun once one has."""
@@ -238,6 +239,10 @@ class _Pursuit:
             if self._state.chosen not in (None, name):
                 continue
             self._share = _ON_LIMITS[number]
+            if name == LIMITS[-1] and self._end is not None and not any(part.met for part in self._parts):
+                # the last of the time is worth more to the one that came nearest than to a new one
+                number = self._nearest
+                name = self._parts.pop(number).name
             part = self._search(name, plan.within_limits(number), None, seed=self._seed + _APART * number)
             met = any(part.met for part in self._parts)
             if self._stopped or _passes(part) or (met and self._late(_ENOUGH)):
@@ -287,9 +292,14 @@ class _Pursuit:
             self._tell(part)
         return part
 
+    @property
+    def _nearest(self) -> int:
+        """Which of the parts came nearest to the goal within the limits."""
+        return min(range(len(self._parts)), key=lambda i: self._parts[i].motion.result.cost)
+
     def _certify_best(self) -> None:
         """Certify the motion that comes nearest, where none is within the limits."""
-        nearest = min(range(len(self._parts)), key=lambda i: self._parts[i].motion.result.cost)
+        nearest = self._nearest
         self._parts[nearest] = self._certified(self._parts[nearest])
         if self._tell is not None:
             self._tell(self._parts[nearest])
