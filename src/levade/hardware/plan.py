@@ -119,8 +119,8 @@ class Plan:
         """The task on the nominal model, with limits as criteria, and its duration free up to `LONGEST`.
 
         Args:
-            number: Which of the searches for it, from 0. Every second one aims no candidates where the task's own search does,
-                and the other way round: aimed ones find short motions sooner, and are in the way where one takes long to find.
+            number: Which of the searches for it, from 0. The third one aims no candidates where the task's own search does, and
+                the other way round: aimed ones find short motions sooner, and are in the way where one takes long to find.
         """
         task = self.task
         horizon, demanding = task.horizon, self._demanding()
@@ -134,7 +134,7 @@ class Plan:
             horizon=horizon,
             stages=(Stage("within limits", hold=self._held),),
             search=replace(
-                _other(demanding.search) if number % 2 else demanding.search,
+                _other(demanding.search) if number == 2 else demanding.search,
                 trials=6000,
                 restart=1200,
                 patience=600,
