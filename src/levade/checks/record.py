@@ -30,7 +30,7 @@ def doubt(path: Path, motion: Motion) -> str | None:
     """
     content = read_yaml(path)
     if not isinstance(content, dict) or not isinstance(content.get("passed"), bool):
-        raise LevadeError(f"{path}: is no certificate; levade check MOTION --out FILE writes one")
+        raise LevadeError(f"{path}: is no certificate; levade check writes one")
     if content.get("checksum") != motion.checksum:
         return "it is of another motion"
     if content.get("interrupted"):
