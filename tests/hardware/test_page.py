@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -93,21 +92,10 @@ def test_other_files_are_not_replaced(motion: Motion, certificate: Certificate, 
 
 
 @pytest.fixture(scope="module")
-def opened(
-    browser: Any, motion: Motion, certificate: Certificate, tmp_path_factory: pytest.TempPathFactory
-) -> Iterator[Any]:
+def opened(offline: Any, motion: Motion, certificate: Certificate, tmp_path_factory: pytest.TempPathFactory) -> Any:
     """The page, opened from disk with the network off, and what it complained of."""
-    path = write_certificate(motion, certificate, tmp_path_factory.mktemp("page") / "certificate.html", source="m.npz")
-    context = browser.new_context(viewport={"width": 1280, "height": 900})
-    context.set_offline(True)
-    tab = context.new_page()
-    tab.complaints = []
-    tab.on("console", lambda message: message.type == "error" and tab.complaints.append(message.text))
-    tab.on("pageerror", lambda error: tab.complaints.append(str(error)))
-    tab.goto(path.as_uri())
-    tab.wait_for_selector("html[data-ready]")
-    yield tab
-    context.close()
+    place = tmp_path_factory.mktemp("page") / "certificate.html"
+    return offline(write_certificate(motion, certificate, place, source="m.npz"))
 
 
 def test_every_verdict_and_the_checksum_are_on_the_page(opened: Any, motion: Motion, certificate: Certificate) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -146,20 +145,9 @@ def test_a_report_that_cannot_be_written_is_one_line(solved: tuple[Motion, Path]
 
 
 @pytest.fixture(scope="module")
-def opened(browser: Any, solved: tuple[Motion, Path], tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
+def opened(offline: Any, solved: tuple[Motion, Path], tmp_path_factory: pytest.TempPathFactory) -> Any:
     """The page, opened from disk with the network off; what it asked for and complained of."""
-    path = write_page(solved[0], tmp_path_factory.mktemp("page") / "report.html", progress_csv=solved[1])
-    context = browser.new_context(viewport={"width": 1280, "height": 800})
-    context.set_offline(True)
-    tab = context.new_page()
-    tab.asked, tab.complaints = [], []
-    tab.on("request", lambda request: tab.asked.append(request.url))
-    tab.on("console", lambda message: message.type == "error" and tab.complaints.append(message.text))
-    tab.on("pageerror", lambda error: tab.complaints.append(str(error)))
-    tab.goto(path.as_uri())
-    tab.wait_for_selector("html[data-ready]")
-    yield tab
-    context.close()
+    return offline(write_page(solved[0], tmp_path_factory.mktemp("page") / "report.html", progress_csv=solved[1]))
 
 
 def cursor(tab: Any) -> float:
