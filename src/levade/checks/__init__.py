@@ -91,7 +91,6 @@ def check(
         versions=versions(simulation.engine.name),
         demands=demands,
         ranges=ranges,
-        runs=runs,
         perturbed=found,
         open_loop=None if feedback is None else without,
         numerics={} if cut else numerics(simulation),

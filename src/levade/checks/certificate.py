@@ -20,7 +20,7 @@ class Certificate:
     """What a check found. criteria: whose success criteria were used, the name of a task.
 
     checksum: of the motion (`levade.motions.Motion.checksum`). versions: of the libraries that decided the bits.
-    ranges: what the perturbed runs were drawn from. runs: how many were asked for.
+    ranges: what the perturbed runs were drawn from.
     perturbed, numerics: with the stabiliser, if the motion has one. open_loop: the perturbed runs without it, else None.
     interrupted: in the perturbed runs; then fewer of them were made, and nothing else.
     """
@@ -32,7 +32,6 @@ class Certificate:
     versions: Mapping[str, str]
     demands: Demands
     ranges: Perturbation
-    runs: int
     perturbed: Perturbed
     numerics: Mapping[str, Numeric]
     engines: Mapping[str, Replayed]

@@ -34,7 +34,7 @@ _SHOWN = 6
 """Of what a run's robot differs in."""
 
 _RATE = 60.0
-"""[Hz], at most so many poses a second of each run: there are several on one page."""
+"""Most poses of a run in a second [Hz]. A page has several runs."""
 
 
 def write_certificate(
@@ -170,7 +170,7 @@ def _poorest(
     whole = RecordedSimulation(motion, criteria=criteria)
     parts = round(motion.timestep / found.timestep)
     simulation = whole.divided(parts)
-    sample = certificate.ranges.draw(simulation.model, simulation.joints, n=certificate.runs, seed=found.seed)
+    sample = certificate.ranges.draw(simulation.model, simulation.joints, n=found.runs, seed=found.seed)
     done = run_again(
         simulation, sample, found.poorest, feedback=motion.feedback, seed=found.seed, record=[FOOT_CONTACT_FORCE]
     )
