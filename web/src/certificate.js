@@ -3,12 +3,14 @@
 
 import { bounds, createChart, linearScale, nearest, timeScale } from "./chart.js";
 import { createControls } from "./controls.js";
-import { el, fixed, significant, signed, svg, unpack } from "./dom.js";
+import { el, fixed, significant, signed, unpack } from "./dom.js";
 import { unpack as unpackAny } from "./player-data.js";
 import { createPlayer } from "./player.js";
+import { swatch } from "./plots.js";
+import { icon } from "./summary.js";
 import { createThemeButton } from "./theme.js";
 
-const MARKS = { true: ["good", "M3 8.5l3.2 3.3L13 4.6", "passed"], false: ["bad", "M4 4l8 8M12 4l-8 8", "failed"] };
+const MARKS = { true: ["good", "passed"], false: ["bad", "failed"] };
 const KINDS = { speed: "speed limit", torque_speed: "torque\u2013speed line", torque: "torque limit", range: "joint range" };
 const COLOURS = ["var(--x)", "var(--y)", "var(--z)", "var(--muted)"];
 const DASHES = ["", "dashed", "dashdot", "dotted"];
@@ -19,8 +21,8 @@ export function createCertificate(element, data) {
   const controls = el("div", { class: "controls" });
   const theme = createThemeButton();
   const said = el("p", { class: "note said", "aria-live": "polite" });
-  const choice = el("div", { class: "runs", role: "radiogroup", "aria-label": "Run" });
-  const player = el("div", { class: "player panel" }, stage, controls, el("div", { class: "which" }, choice, said));
+  const choice = el("div", { class: "layers", role: "radiogroup", "aria-label": "Run" });
+  const player = el("div", { class: "player panel" }, stage, controls, el("div", { class: "which options" }, choice, said));
   const main = el("main", {},
     el("div", { class: "top" }, el("div", { class: "place" }, player), el("div", { class: "panel" }, verdicts(data))),
     limits(data.limits),
@@ -44,21 +46,17 @@ function head({ task, robot, description, passed, interrupted, failed, unknown, 
     el("h1", {}, task.replaceAll("-", " "), el("span", {}, ` on ${robot}`)),
     description ? el("p", { class: "lead" }, description) : null,
     el("div", { class: "line facts" },
-      el("p", { class: `verdict ${passed ? "good" : "bad"}` }, mark(passed), el("strong", {}, passed ? "Passes" : "Does not pass"), el("span", {}, text)),
+      el("p", { class: `verdict ${passed ? "good" : "bad"}` }, icon(passed), el("strong", {}, passed ? "Passes" : "Does not pass"), el("span", {}, text)),
       el("dl", {}, facts.map(([name, value]) => el("div", {}, el("dt", {}, name), el("dd", {}, value))))));
-}
-
-function mark(passed) {
-  return svg("svg", { viewBox: "0 0 16 16", "aria-hidden": "true" }, svg("path", { d: MARKS[passed][1] }));
 }
 
 function verdicts({ verdicts, criteria, task }) {
   const rows = verdicts.map(({ name, passed, unknown, value, required, reason }) => {
-    const [cls, , word] = passed === null ? ["", "", unknown ? "unknown" : "not judged"] : MARKS[passed];
+    const [cls, word] = passed === null ? ["", unknown ? "unknown" : "not judged"] : MARKS[passed];
     return el("tr", {},
       el("th", { scope: "row" }, name, el("small", { class: "also" }, [value, reason].filter(Boolean).join("; "))),
       el("td", {}, required),
-      el("td", { class: `met ${cls}` }, passed === null ? null : mark(passed), word));
+      el("td", { class: `met ${cls}` }, passed === null ? null : icon(passed), word));
   });
   const heads = [["What was tried, and what came of it"], ["Required", "number"], ["Verdict", "number"]];
   return el("div", { class: "block" }, el("h2", {}, "Verdicts"),
@@ -76,7 +74,7 @@ function limits({ time, horizon, end, joints, kinds }) {
   const who = kinds.map(({ joint }) => unpackAny(joint));
   const outputs = kinds.map(() => el("output", { class: "who" }));
   const legend = el("span", { class: "legend" }, kinds.map(({ name }, k) => el("span", { class: "item" },
-    svg("svg", { class: "swatch", viewBox: "0 0 18 8", "aria-hidden": "true" }, svg("path", { class: `line ${DASHES[k]}`, stroke: COLOURS[k], d: "M0 4H18" })), el("span", {}, KINDS[name]), outputs[k])));
+    swatch(COLOURS[k], DASHES[k]), el("span", {}, KINDS[name]), outputs[k])));
   const scale = linearScale(...bounds(lines.map(({ y }) => y), 0.2, [0, 1]));
   const chart = createChart(body, { label: "share of each limit that is left", lines, height: 220, x: timeScale(horizon, end), y: scale, limits: [{ from: 0, to: -1 }], onSeek: (t) => set(t) });
   function set(t) {

@@ -79,7 +79,7 @@ function plot(grid, context, { title, unit, lines = [], digits = 3, legend = [],
   return context.add(chart);
 }
 
-function swatch(colour, dash = "") {
+export function swatch(colour, dash = "") {
   return svg("svg", { class: "swatch", viewBox: "0 0 18 8", "aria-hidden": "true" }, svg("path", { class: `line ${dash}`, stroke: colour, d: "M0 4H18" }));
 }
 

@@ -13,7 +13,7 @@ export function verdict({ success, verdict }) {
   return el("p", { class: `verdict ${success ? "good" : "bad"}` }, icon(success), el("strong", {}, success ? "Success" : "Not reached"), el("span", {}, verdict));
 }
 
-function icon(good) {
+export function icon(good) {
   return svg("svg", { viewBox: "0 0 16 16", "aria-hidden": "true" }, svg("path", { d: good ? "M3 8.5l3.2 3.3L13 4.6" : "M4 4l8 8M12 4l-8 8" }));
 }
 
