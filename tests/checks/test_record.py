@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from levade.checks import Demands
-from levade.checks.record import JUDGED, doubt
+from levade.checks.record import JUDGED, certificate_beside, doubt
 from levade.errors import LevadeError
 from levade.motions import Motion
 
@@ -67,3 +67,27 @@ def test_what_is_no_certificate_is_said(standing: Motion, tmp_path: Path, text: 
     place.write_text(text)
     with pytest.raises(LevadeError, match="certificate"):
         doubt(place, standing)
+
+
+@pytest.mark.parametrize(
+    ("content", "says"),
+    [
+        ({"passed": True, "failed": []}, "passes"),
+        ({"passed": False, "failed": ["torque_speed", "perturbed"]}, "fails torque speed, perturbed"),
+        ({"passed": False, "failed": []}, "ended early"),
+        ({"passed": True, "checksum": "0" * 64}, None),
+        ([], None),
+    ],
+)
+def test_a_motion_names_the_page_of_its_own_certificate(
+    standing: Motion, tmp_path: Path, content: dict[str, object] | list[object], says: str | None
+) -> None:
+    motion_file = tmp_path / "motion.npz"
+    certificate = {"checksum": standing.checksum, **content} if isinstance(content, dict) else content
+    (tmp_path / "certificate.json").write_text(json.dumps(certificate))
+    assert certificate_beside(motion_file, standing) is None  # there is no page yet
+    (tmp_path / "certificate.html").write_text("a page")
+    expected = None if says is None else {"page": "certificate.html", "says": says}
+    assert certificate_beside(motion_file, standing) == expected
+    (tmp_path / "certificate.json").write_text("{")
+    assert certificate_beside(motion_file, standing) is None

@@ -57,9 +57,9 @@ def test_a_success_says_that_it_holds_in_other_numbers(levade) -> None:
 @pytest.mark.parametrize(
     ("task", "robot", "command"),
     [
-        ("rearing", "hyq2max", "levade solve rearing-robust"),
-        ("rearing", "a b.xml", "levade solve rearing-robust --robot 'a b.xml'"),
-        ("leap", "hyq2max", "levade check runs/motion.npz"),
+        ("rearing", "hyq2max", "levade solve rearing --hardware"),
+        ("rearing", "a b.xml", "levade solve rearing --hardware --robot 'a b.xml'"),
+        ("leap", "hyq2max", "levade solve leap --hardware"),
         ("mine", "hyq2max", "levade check runs/motion.npz"),
     ],
 )

@@ -3,7 +3,7 @@
 import { el, fixed, significant } from "./dom.js";
 
 export function createProvenance(element, provenance) {
-  const { task, robot, seed, timestep, horizon, hold, engine, versions, trials, stopped, command, builtin, task_yaml: yaml, motion, written_by: writer } = provenance;
+  const { task, robot, seed, timestep, horizon, hold, engine, versions, trials, stopped, command, builtin, task_yaml: yaml, motion, certificate, written_by: writer } = provenance;
   const rows = [
     ["Task", task],
     ["Robot", robot],
@@ -12,6 +12,7 @@ export function createProvenance(element, provenance) {
     ["Simulation", `${engine}, steps of ${significant(timestep * 1e3)} ms, T = ${significant(horizon)} s${hold > 1e-9 ? `, hold ${fixed(hold, 1)} s` : ""}`],
     ["Versions", Object.entries(versions).map(([name, version]) => `${name} ${version}`).join(", ")],
     motion ? ["Motion file", motion] : null,
+    certificate ? ["Certificate", el("a", { href: certificate.page }, certificate.says)] : null,
   ].filter(Boolean);
   const code = el("code", {}, command);
   const copy = el("button", { type: "button", class: "copy", onclick: () => copied(copy, command) }, "Copy");

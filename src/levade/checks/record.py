@@ -11,8 +11,8 @@ from levade.document import read_yaml
 from levade.errors import LevadeError
 from levade.motions import Motion
 
-CERTIFICATE = "certificate.json"
-"""The file's usual name, beside the motion's."""
+CERTIFICATE, CERTIFICATE_PAGE = "certificate.json", "certificate.html"
+"""The files' usual names, beside the motion's."""
 
 
 JUDGED = (*("share", "numerics", "engines"), *("position", "speed", "torque", "torque_speed", "self_collision"))
@@ -20,6 +20,25 @@ JUDGED = (*("share", "numerics", "engines"), *("position", "speed", "torque", "t
 
 FEWEST = 100
 """Perturbed runs that it has to have."""
+
+
+def certificate_beside(motion_file: Path, motion: Motion) -> dict[str, str] | None:
+    """The page of the certificate that lies beside a motion's file, and what it says of the motion.
+
+    None where there is no such page or certificate, or where it is another motion's.
+    """
+    record, page = motion_file.with_name(CERTIFICATE), motion_file.with_name(CERTIFICATE_PAGE)
+    try:
+        content = read_yaml(record) if record.is_file() and page.is_file() else None
+    except LevadeError:  # a broken file beside a motion is no reason not to show the motion
+        return None
+    if not isinstance(content, dict) or content.get("checksum") != motion.checksum:
+        return None
+    failed = ", ".join(str(name).replace("_", " ") for name in content.get("failed") or ())
+    return {
+        "page": page.name,
+        "says": "passes" if content.get("passed") else f"fails {failed}" if failed else "ended early",
+    }
 
 
 def doubt(path: Path, motion: Motion) -> str | None:

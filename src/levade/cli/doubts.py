@@ -113,12 +113,9 @@ def _listed(names: Sequence[str]) -> str:
 
 
 def _next(motion: Motion, directory: Path) -> str:
-    """The command that looks for a better motion, or looks closer at this one."""
-    tasks = builtin_tasks()
-    robust = f"{motion.task_name}-robust"
-    if motion.task_name in tasks and robust in tasks:
-        robot = motion.task.robot.name
-        return f"levade solve {robust}" + (
-            "" if robot == load_task(robust).robot.name else f" --robot {shlex.quote(robot)}"
-        )
-    return f"levade check {shlex.quote(str(directory / 'motion.npz'))}"
+    """The command that looks for a motion that hardware can do, or looks closer at this one."""
+    task, robot = motion.task_name, motion.task.robot.name
+    if task not in builtin_tasks():
+        return f"levade check {shlex.quote(str(directory / 'motion.npz'))}"
+    usual = robot == load_task(task).robot.name
+    return f"levade solve {task} --hardware" + ("" if usual else f" --robot {shlex.quote(robot)}")

@@ -48,6 +48,7 @@ def report_path(motion: Path) -> Path:
 
 
 def _reports(motions: Mapping[Path, Motion]) -> list[Path]:
+    from levade.checks.record import certificate_beside  # only now: a page is not always asked for
     from levade.report.page import write_page
 
     return [
@@ -56,6 +57,7 @@ def _reports(motions: Mapping[Path, Motion]) -> list[Path]:
             report_path(path),
             progress_csv=progress_beside(path, motion),
             source=path.name,
+            certificate=certificate_beside(path, motion),
             instead="write none: --no-report",
         )
         for path, motion in motions.items()

@@ -6,7 +6,7 @@ import json
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from levade.checks.record import CERTIFICATE
+from levade.checks.record import CERTIFICATE, CERTIFICATE_PAGE
 from levade.document import build, read_yaml
 from levade.errors import LevadeError, Remedy
 from levade.search.checkpoint import CHECKPOINT
@@ -15,7 +15,7 @@ from levade.search.storage import storing
 from levade.tasks import Demands, Task, task_from_dict, task_to_dict
 from levade.writing import write_text
 
-ASKED, PAGE = PURSUIT, "certificate.html"
+ASKED, PAGE = PURSUIT, CERTIFICATE_PAGE
 LIMITS, ROBUST, CLOSED = ("limits-1", "limits-2", "limits-3"), "robust", "feedback"
 
 

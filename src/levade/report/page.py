@@ -11,6 +11,7 @@ from __future__ import annotations
 import html
 import json
 import math
+from collections.abc import Mapping
 from importlib.resources import files
 from pathlib import Path
 from typing import Any, Literal
@@ -53,6 +54,7 @@ def write_page(
     *,
     progress_csv: str | Path | None = None,
     source: str | None = None,
+    certificate: Mapping[str, str] | None = None,
     instead: str = "give another path",
 ) -> Path:
     """Write a motion's page.
@@ -62,6 +64,7 @@ def write_page(
         path: Where to write.
         progress_csv: Progress of the motion's search; without it there is no plot of the cost.
         source: The motion's file, as the page should call it.
+        certificate: Page of the motion's certificate, relative to this one, and what it says, as `page` and `says`.
         instead: What else could be done, for the message of an error.
 
     Returns:
@@ -71,7 +74,8 @@ def write_page(
         LevadeError: If the file cannot be written, or is there and is no page of levade.
     """
     check_page(Path(path), instead=instead)
-    return save_page(page(motion, progress_csv=progress_csv, source=source), path, instead=instead)
+    text = page(motion, progress_csv=progress_csv, source=source, certificate=certificate)
+    return save_page(text, path, instead=instead)
 
 
 def save_page(text: str, path: str | Path, *, instead: str) -> Path:
@@ -86,10 +90,20 @@ def save_page(text: str, path: str | Path, *, instead: str) -> Path:
     return path
 
 
-def page(motion: Motion, *, progress_csv: str | Path | None = None, source: str | None = None) -> str:
-    """The page as text."""
+def page(
+    motion: Motion,
+    *,
+    progress_csv: str | Path | None = None,
+    source: str | None = None,
+    certificate: Mapping[str, str] | None = None,
+) -> str:
+    """The page as text; see `write_page`."""
     progress = None if progress_csv is None else read_progress(progress_csv)
-    provenance = provenance_data(motion) | {"written_by": f"levade {__version__}", "motion": source}
+    provenance = provenance_data(motion) | {
+        "written_by": f"levade {__version__}",
+        "motion": source,
+        "certificate": None if certificate is None else dict(certificate),
+    }
     data = {
         "summary": summary_data(motion),
         "series": series_data(motion, progress),
