@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import mujoco
@@ -109,8 +110,36 @@ def test_power_is_torque_times_speed_and_forces_carry_the_robot(standing: Motion
     assert standing["foot_contact_force"][:, :, 2].sum(axis=1).mean() == pytest.approx(weight, rel=0.01)
     assert weight <= sum(mean.values()) < 1.1 * weight  # feet press sideways, too
     assert found["foot_force"].failed
-    assert found["flow_or_current"].passed is None
-    assert "neither" in found["flow_or_current"].reason
+
+
+def test_what_heats_and_what_all_joints_take_at_once(standing: Motion) -> None:
+    torque, speed = standing["joint_torque"], standing["joint_velocity"]
+    found = margins(RecordedSimulation(standing), Demands(torque_rms=0.99, robot_power=1e-6))
+    rms = [math.sqrt(sum(x * x for x in column) / len(column)) for column in torque.T.tolist()]
+    limit = standing.embodiment.limits.torque
+    assert list(found["torque_rms"].values.values()) == pytest.approx((1 - np.array(rms) / limit).tolist())
+    assert found["torque_rms"].passed is False
+    rows = zip(torque.tolist(), speed.tolist(), strict=True)
+    driving = max(sum(max(t * v, 0.0) for t, v in zip(*row, strict=True)) for row in rows)
+    assert found["robot_power"].value == pytest.approx(driving)
+    assert found["robot_power"].passed is False
+
+
+def test_flow_is_displacement_times_speed(standing: Motion, changed: Change) -> None:
+    """At 12 rad/s and 20 MPa a hip takes 120 / 20e6 m3/rad * 12 rad/s = 4.32 l/min, and all twelve joints 88.6 l/min."""
+    speed = np.zeros_like(standing["joint_velocity"])
+    speed[30], speed[31, :2] = 12.0, -6.0
+    moving = changed(standing, joint_velocity=speed)
+    found = margins(RecordedSimulation(moving), Demands(flow=5.0, pump_flow=80.0))
+    assert found["flow"].values["lf_haa"] == pytest.approx(4.32)
+    assert found["flow"].values["lf_hfe"] == pytest.approx(8.82)
+    assert found["flow"].failed == tuple(name for name in moving.joint_names if not name.endswith("haa"))
+    assert found["pump_flow"].value == pytest.approx(4 * (4.32 + 8.82 + 9.0))
+    assert found["pump_flow"].passed is False
+    other = {**moving.meta["task"], "robot": {**moving.meta["task"]["robot"], "actuation": "ideal"}}
+    none = margins(RecordedSimulation(changed(moving, {"task": other})), Demands(flow=5.0))["flow"]
+    assert (none.value, none.passed) == (None, None)
+    assert "supply pressure" in none.reason
 
 
 def test_a_foot_that_falls_lands_at_the_speed_of_free_fall(standing: Motion, changed: Change) -> None:

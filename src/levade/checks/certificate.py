@@ -137,7 +137,10 @@ class Certificate:
         ]
 
 
-MEASURED = ("power", "foot_force", "impact_speed", "part_force", "trunk_acceleration", "self_collision")
+MEASURED = (
+    *("power", "robot_power", "flow", "pump_flow"),
+    *("foot_force", "impact_speed", "part_force", "trunk_acceleration", "self_collision"),
+)
 """Margins that are measured against the most that is allowed; of the others, the least that is left is required."""
 
 

@@ -13,12 +13,15 @@ from levade.checks.contacts import landings, poses, scene_forces
 from levade.embodiment import TorqueCurve
 from levade.errors import LevadeError
 from levade.motions import RecordedSimulation
+from levade.robots import PID, Robot
 from levade.tasks import Demands
 
 _ROUNDING = 1e-6
 """Of a limit: a torque that the engine holds at its limit is at it, not beyond."""
 GRAVITY = 9.81
 """[m/s2], for forces in weights of the robot."""
+_LITRES_PER_MINUTE = 60e3
+"""In a cubic metre per second."""
 
 
 @dataclass(frozen=True)
@@ -81,11 +84,18 @@ def margins(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margi
             demands.power,
             more=_energy(torque * speed, simulation.timestep),
         ),
-        "flow_or_current": Margin(
-            "", reason="the robot's description has neither cylinders nor motor constants to compute it from"
+        "robot_power": _most(
+            "W", {"robot": float(np.maximum(torque * speed, 0.0).sum(axis=1).max())}, demands.robot_power
+        ),
+        "torque_rms": _least(
+            "share of limit",
+            joints,
+            _left(np.sqrt(np.square(torque).mean(axis=0)), limits.torque),
+            demands.torque_rms,
+            assumed=limits.assumed_torque,
         ),
     }
-    return found | _contacts(simulation, demands) | _impacts(simulation, demands)
+    return found | _flow(simulation, demands) | _contacts(simulation, demands) | _impacts(simulation, demands)
 
 
 def _left(most: Array, limit: Array) -> Array:
@@ -198,16 +208,48 @@ def _linkage(simulation: RecordedSimulation, required: float | None) -> Margin:
     return replace(margin, passed=None, reason="the task does not ask for the linkage (robot: {linkage: true})")
 
 
+def _flow(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margin]:
+    """Oil that hydraulic joints take, and all of them at once.
+
+    A drive that delivers its torque limit at the supply's pressure displaces their ratio per radian, or more, by its losses.
+    """
+    motion, limits = simulation.motion, simulation.embodiment.limits
+    robot = _description(simulation)
+    actuation = robot if isinstance(robot, str) else robot.actuation
+    pressure = None if isinstance(actuation, str | PID) else actuation.supply_pressure
+    if pressure is None:
+        reason = (
+            robot if isinstance(robot, str) else "the robot's description gives no supply pressure to compute it from"
+        )
+        return {name: Margin("l/min", required=getattr(demands, name), reason=reason) for name in ("flow", "pump_flow")}
+    flow = _LITRES_PER_MINUTE * np.abs(motion["joint_velocity"]) * limits.torque / pressure
+    whole = flow.sum(axis=1)
+    peaks = dict(zip(simulation.embodiment.joint_names, flow.max(axis=0).tolist(), strict=True))
+    return {
+        "flow": _most("l/min", peaks, demands.flow),
+        "pump_flow": _most(
+            "l/min", {"pump": float(whole.max())}, demands.pump_flow, more={"mean": float(whole.mean())}
+        ),
+    }
+
+
 def _curves(simulation: RecordedSimulation) -> Mapping[int, TorqueCurve] | str:
     """The linkage's curves from the robot's description, or why there are none."""
+    robot = _description(simulation, linkage=True)
+    return robot if isinstance(robot, str) else robot.limits.torque_curves
+
+
+def _description(simulation: RecordedSimulation, *, linkage: bool = False) -> Robot | str:
+    """The robot as its description has it now, or why there is none of use."""
     try:
-        robot = replace(simulation.task.robot, linkage=True).load()
+        robot = replace(simulation.task.robot, linkage=linkage).load()
     except LevadeError as error:
         text = str(error)
-        return "the robot has no linkage" if "linkage" in text else f"the robot's description cannot be read: {text}"
+        none = linkage and "linkage" in text
+        return "the robot has no linkage" if none else f"the robot's description cannot be read: {text}"
     if robot.joint_names != simulation.embodiment.joint_names:
         return "the robot's description has other joints than the motion"
-    return robot.limits.torque_curves
+    return robot
 
 
 def _energy(power: Array, timestep: float) -> dict[str, float]:

@@ -56,6 +56,7 @@ class DCMotor:
     kp: (joints,) [Nm/rad]. kd: (joints,) [Nm s/rad]. torque: (joints,) [Nm], the most it ever delivers.
     stall_torque: (joints,) [Nm] and no_load_speed: (joints,) [rad/s], the ends of the line.
     time_constant: [s], first-order lag from commanded to delivered torque; 0 for none.
+    supply_pressure: [Pa], of a hydraulic drive; None for others. The engine does not see it.
     """
 
     name: str
@@ -65,6 +66,7 @@ class DCMotor:
     stall_torque: Array
     no_load_speed: Array
     time_constant: float
+    supply_pressure: float | None = None
 
     def attach(self, spec: mujoco.MjSpec, joint_names: Sequence[str], *, gain_scale: float = 1.0) -> None:
         """Add one actuator per joint to ``spec``, in the order given and named after its joint."""

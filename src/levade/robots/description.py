@@ -72,7 +72,10 @@ class PIDForm(_Form):
 
 
 class DCMotorForm(_Form):
-    """As `PIDForm`, and stall_torque [Nm], no_load_speed [rad/s], time_constant [s]: see `levade.robots.actuation`."""
+    """As `PIDForm`, and stall_torque [Nm], no_load_speed [rad/s], time_constant [s]: see `levade.robots.actuation`.
+
+    supply_pressure: [Pa], of hydraulic drives.
+    """
 
     kind: Literal["dcmotor"]
     kp: PerJoint | None = None
@@ -81,6 +84,7 @@ class DCMotorForm(_Form):
     stall_torque: PerJoint
     no_load_speed: PerJoint
     time_constant: NotNegative = 0.0
+    supply_pressure: Positive | None = None
 
 
 ActuationForm = Annotated[PIDForm | DCMotorForm, Field(discriminator="kind")]

@@ -197,7 +197,7 @@ def find_actuation(
     stall, no_load = values("stall_torque"), values("no_load_speed")
     assert stall is not None
     assert no_load is not None
-    return DCMotor(name, kps, kds, torques, stall, no_load, chosen.time_constant)
+    return DCMotor(name, kps, kds, torques, stall, no_load, chosen.time_constant, chosen.supply_pressure)
 
 
 def _gains(

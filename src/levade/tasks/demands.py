@@ -16,12 +16,15 @@ class Demands:
     variant, and in every other engine that is there.
     position: [rad], the least distance from the end of a joint's range. speed, torque, torque_speed, linkage: the least that
     is left of each limit, as a share of it.
-    power: [W], the most of one joint. foot_force: the most on one foot, in weights of the robot. impact_speed: [m/s], the most
-    with which a foot meets the scene. part_force: the most that the scene puts on any one part, feet and trunk among them, in
-    weights of the robot. trunk_acceleration: the most of the trunk, in g. self_collision: [m], how deep parts of the robot may
-    enter each other.
+    torque_rms: the least that is left of each torque limit by the root mean square over the motion, which is what heats.
+    power: [W], the most of one joint. robot_power: [W], the most of all joints that drive, at once. flow: [l/min], the most of
+    a hydraulic joint. pump_flow: [l/min], the most of all at once.
+    foot_force: the most on one foot, in weights of the robot. impact_speed: [m/s], the most with which a foot meets the scene.
+    part_force: the most that the scene puts on any one part, feet and trunk among them, in weights of the robot.
+    trunk_acceleration: the most of the trunk, in g. self_collision: [m], how deep parts of the robot may enter each other.
 
-    Robots' descriptions say nothing of power, forces and impacts yet, so nothing is demanded of them unless asked for.
+    Robots' descriptions say nothing of what heats, of power, flow, forces and impacts, so nothing is demanded of them unless
+    asked for.
     """
 
     share: float | None = 0.95
@@ -32,7 +35,11 @@ class Demands:
     torque: float | None = 0.0
     torque_speed: float | None = 0.0
     linkage: float | None = 0.0
+    torque_rms: float | None = None
     power: float | None = None
+    robot_power: float | None = None
+    flow: float | None = None
+    pump_flow: float | None = None
     foot_force: float | None = None
     impact_speed: float | None = None
     part_force: float | None = None
