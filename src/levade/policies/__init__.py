@@ -13,6 +13,7 @@ from levade.policies.groups import Follower, Group, independent_joints
 from levade.policies.kernels import GaussianKernels
 from levade.policies.policy import Policy, refine
 from levade.policies.protocol import JointPolicy
+from levade.policies.slew import Slew
 from levade.policies.smoothness import smoothness, smoothness_factor
 from levade.policies.tables import policy_from_dict, policy_to_dict
 
@@ -25,6 +26,7 @@ __all__ = [
     "Group",
     "JointPolicy",
     "Policy",
+    "Slew",
     "independent_joints",
     "policy_from_dict",
     "policy_to_dict",

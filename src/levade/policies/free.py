@@ -193,8 +193,8 @@ class FreePolicy:
         for steps in np.unique(lengths):
             trials = np.flatnonzero(lengths == steps)
             policy = self._at(int(steps))
-            # what moves the end is added before references are put back between the ends of ranges
-            plain = policy if moved is None or policy.within is None else replace(policy, within=None)
+            # what moves the end is added before references are held back
+            plain = policy if moved is None or not policy.bounded else replace(policy, within=None, slew=None)
             one = plain.reference(decisions[trials, : policy.size], hold_steps=hold)
             position[trials, : one.steps], velocity[trials, : one.steps] = one.position, one.velocity
             if moved is not None and policy.ends is not None:
@@ -202,9 +202,10 @@ class FreePolicy:
                 position[trials, : one.steps] += share * moved[trials, None]
                 velocity[trials, : one.steps] += rate / (steps * self.timestep) * moved[trials, None]
             if plain is not policy:
-                clamped, at_rest = position[trials, : one.steps], velocity[trials, : one.steps]
-                policy.clamp(clamped, at_rest)
-                position[trials, : one.steps], velocity[trials, : one.steps] = clamped, at_rest
+                bounded, rate = position[trials, :steps], velocity[trials, :steps]
+                policy.bound(bounded, rate)
+                position[trials, :steps], velocity[trials, :steps] = bounded, rate
+                position[trials, steps : one.steps] = bounded[:, -1:]
             position[trials, one.steps :] = position[trials, one.steps - 1][:, None]
         horizons = None if self.horizon is None else lengths
         return JointReference(position, velocity, self.timestep, self.horizon_steps, horizons=horizons)

@@ -19,6 +19,7 @@ from levade.errors import LevadeError
 from levade.policies.ends import Ends
 from levade.policies.groups import Group, expansion
 from levade.policies.kernels import GaussianKernels
+from levade.policies.slew import Slew
 from levade.trajectory import JointReference
 
 # Singular values of the basis below this share of the largest are left out of a fit: with kernels that overlap almost
@@ -43,6 +44,7 @@ class Policy:
     ends: where every reference comes from and goes to; None leaves that to the weights.
     within: lower and upper ends [rad] of each joint, between which every reference stays, at rest where it would go beyond;
         infinite where a joint has none. None lets references go anywhere.
+    slew: how fast references may be. None lets them be as fast as the weights say.
     Raises LevadeError if the groups do not cover every joint once, or a duration is not positive.
     """
 
@@ -53,6 +55,7 @@ class Policy:
     hold_steps: int = 0
     ends: Ends | None = None
     within: tuple[tuple[float, ...], tuple[float, ...]] | None = None
+    slew: Slew | None = None
 
     def __post_init__(self) -> None:
         for name, value in (("horizon", self.horizon), ("timestep", self.timestep)):
@@ -124,6 +127,7 @@ class Policy:
         position = np.empty((n, steps, self.joints))
         velocity = np.empty((n, steps, self.joints))
         self._evaluate(weights, self.basis, self._blend, position[:, :rows], velocity[:, :rows])
+        self.bound(position[:, :rows], velocity[:, :rows])
         position[:, rows:] = position[:, rows - 1 : rows]
         velocity[:, rows:] = 0.0
         return JointReference(position, velocity, self.timestep, rows)
@@ -143,11 +147,26 @@ class Policy:
             LevadeError: If the weights have another shape or are not finite.
         """
         weights = self._checked(weights)
+        if self.slew is not None:
+            return self._between_rows(self.slew, weights, np.asarray(time, dtype=np.float64))
         horizon = self.horizon_steps * self.timestep
         position = np.empty((len(weights), len(time), self.joints))
         velocity = np.empty_like(position)
         self._evaluate(weights, self.kernels.basis(time, horizon), self._blend_at(time / horizon), position, velocity)
+        self.bound(position, velocity)
         return position, velocity
+
+    def _between_rows(self, slew: Slew, weights: Array, time: Array) -> tuple[Array, Array]:
+        """As `at`, where the speed is bounded: straight between the rows of `reference`, from what joints were told last."""
+        rows = self.reference(weights, hold_steps=0)
+        n, joints = len(weights), self.joints
+        position = np.concatenate([np.broadcast_to(np.array(slew.start), (n, 1, joints)), rows.position], axis=1)
+        velocity = np.concatenate([rows.velocity[:, :1], rows.velocity], axis=1)
+        place = np.clip(time / self.timestep, 0.0, self.horizon_steps)
+        left = np.minimum(place.astype(np.intp), self.horizon_steps - 1)
+        share = (place - left)[:, None]
+        between = [one[:, left] + share * (one[:, left + 1] - one[:, left]) for one in (position, velocity)]
+        return between[0], between[1]
 
     def _evaluate(
         self,
@@ -179,15 +198,25 @@ class Policy:
             velocity += added_rate
             position *= factor
             position += added
-        self.clamp(position, velocity)
 
-    def clamp(self, position: Array, velocity: Array) -> None:
-        """Put references back between the ends of `within`, in place, at rest where they were beyond; (..., joints) each."""
-        if self._ends_of_ranges is None:
-            return
-        lower, upper = self._ends_of_ranges
-        velocity[(position < lower) | (position > upper)] = 0.0
-        np.clip(position, lower, upper, out=position)
+    def bound(self, position: Array, velocity: Array) -> None:
+        """Put references back between the ends of `within`, at rest where they were beyond, and slow them to `slew`.
+
+        Args:
+            position: At the end of each step up to the horizon [rad], shape (n, rows, joints); written to.
+            velocity: [rad/s], of the same shape; written to.
+        """
+        if self._ends_of_ranges is not None:
+            lower, upper = self._ends_of_ranges
+            velocity[(position < lower) | (position > upper)] = 0.0
+            np.clip(position, lower, upper, out=position)
+        if self.slew is not None:
+            self.slew.limit(position, velocity, self.timestep)
+
+    @property
+    def bounded(self) -> bool:
+        """Whether references are held back at all."""
+        return self.within is not None or self.slew is not None
 
     @cached_property
     def _ends_of_ranges(self) -> Array | None:

@@ -18,6 +18,7 @@ from levade.policies.ends import Ends
 from levade.policies.groups import Follower, Group
 from levade.policies.kernels import GaussianKernels
 from levade.policies.policy import Policy
+from levade.policies.slew import Slew
 
 
 def policy_to_dict(policy: Policy) -> dict[str, Any]:
@@ -53,6 +54,9 @@ def policy_to_dict(policy: Policy) -> dict[str, Any]:
             "settle": ends.settle,
         },
         "within": None if policy.within is None else [[_finite(end) for end in ends] for ends in policy.within],
+        "slew": None
+        if policy.slew is None
+        else {"speed": [_finite(speed) for speed in policy.slew.speed], "start": list(policy.slew.start)},
     }
 
 
@@ -69,6 +73,13 @@ def _within(ends: Any) -> tuple[tuple[float, ...], tuple[float, ...]] | None:
         for side, without in zip(ends, (-math.inf, math.inf), strict=True)
     )
     return lower, upper
+
+
+def _slew(table: Any) -> Slew | None:
+    if table is None:
+        return None
+    speed = tuple(math.inf if one is None else float(one) for one in table["speed"])
+    return Slew(speed, tuple(float(angle) for angle in table["start"]))
 
 
 def policy_from_dict(content: Mapping[str, Any]) -> Policy:
@@ -95,6 +106,7 @@ def policy_from_dict(content: Mapping[str, Any]) -> Policy:
             if ends is None
             else Ends(_angles(ends["start"]), _angles(ends["goal"]), ends["depart"], ends["settle"]),
             within=_within(content.get("within")),
+            slew=_slew(content.get("slew")),
         )
     except (LookupError, TypeError, ValueError, AttributeError) as error:
         raise LevadeError(f"policy: its tables cannot be read ({type(error).__name__}: {error})") from None
@@ -107,6 +119,11 @@ def policy_from_dict(content: Mapping[str, Any]) -> Policy:
             raise LevadeError(f"policy.within: should be two ends for each of {policy.joints} joints")
         if not all(low <= high for low, high in zip(lower, upper, strict=True)):  # NaN is no end either
             raise LevadeError("policy.within: a lower end is above the upper one, or no number")
+    if policy.slew is not None:
+        if not len(policy.slew.speed) == len(policy.slew.start) == policy.joints:
+            raise LevadeError(f"policy.slew: should be a speed and a start for each of {policy.joints} joints")
+        if not (all(speed > 0 for speed in policy.slew.speed) and all(map(math.isfinite, policy.slew.start))):
+            raise LevadeError("policy.slew: a speed is not positive, or a start is no number")
     return policy
 
 

@@ -69,7 +69,7 @@ _ORDER = (
     *("name", "description", "robot", "scene", "physics", "start", "horizon", "hold"),
     *("policy", "costs", "stages", "success", "search", "robust", "feedback", "hardware"),
 )
-_LATER = (("hardware",), ("policy", "room"), ("search", "patience"))
+_LATER = (("hardware",), ("policy", "room"), ("policy", "slew"), ("search", "patience"))
 """Keys that were not there when runs with a checksum were first made, and are null by default."""
 _SEQUENCE = "tag:yaml.org,2002:seq"
 

@@ -106,6 +106,8 @@ class PolicyChoice:
         the goal; 0 leaves the ends to the weights. See `levade.policies.Ends`.
     room: how far references stay from the ends of the joints' ranges [rad], at rest where they would come nearer, as with a
         drive that clamps them; at most a quarter of a range. None lets them go anywhere.
+    slew: share of the joints' speed limits that references keep to, which otherwise begin early what is too sudden: see
+        `levade.policies.Slew`. None lets them be as fast as the weights say.
     """
 
     kernels: int = 16
@@ -117,6 +119,7 @@ class PolicyChoice:
     depart: float = 0.0
     settle: float = 0.0
     room: float | None = None
+    slew: float | None = None
 
     @property
     def goal_is_free(self) -> bool:

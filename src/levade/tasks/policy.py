@@ -10,7 +10,7 @@ import numpy as np
 
 from levade.arrays import Array
 from levade.errors import LevadeError, did_you_mean, located
-from levade.policies import Ends, Follower, FreeGoal, FreePolicy, GaussianKernels, Group, Policy
+from levade.policies import Ends, Follower, FreeGoal, FreePolicy, GaussianKernels, Group, Policy, Slew
 from levade.robots import Leg, Robot, mirror_signs
 from levade.tasks.parts import FREE, HorizonRange, PolicyChoice
 from levade.tasks.task import Task
@@ -42,6 +42,10 @@ def make_policy(task: Task, robot: Robot, *, start: Array | None = None) -> Poli
         lower, upper = robot.limits.lower, robot.limits.upper
         room = np.minimum(choice.room, (upper - lower) / 4)  # infinite where a joint has no range
         policy = replace(policy, within=(tuple((lower + room).tolist()), tuple((upper - room).tolist())))
+    if choice.slew is not None:
+        speed = choice.slew * robot.limits.velocity
+        told = goal_posture(choice, robot) if start is None else start
+        policy = replace(policy, slew=Slew(tuple(speed.tolist()), tuple(np.asarray(told, dtype=float).tolist())))
     bounds = (task.horizon.minimum, task.horizon.maximum) if isinstance(task.horizon, HorizonRange) else None
     goal = None if free is None else _free_goal(policy, *free, robot)
     return policy if bounds is None and goal is None else FreePolicy(policy, bounds, goal)

@@ -55,6 +55,8 @@ def check_policy(policy: PolicyChoice) -> None:
         raise LevadeError(f"policy.kernels: {policy.kernels} should be 1 to 1000; the paper has 16")
     if policy.room is not None and not (math.isfinite(policy.room) and policy.room >= 0):
         raise LevadeError(f"policy.room: {policy.room} rad should be 0 or more; 0.05 is usual")
+    if policy.slew is not None and not (math.isfinite(policy.slew) and policy.slew > 0):
+        raise LevadeError(f"policy.slew: {policy.slew} should be a share of speed limits above 0; 0.9 is usual")
 
 
 def check_costs(costs: Mapping[str, Cost], success: Mapping[str, Criterion], hold: float) -> None:
