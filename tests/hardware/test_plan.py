@@ -45,6 +45,9 @@ def test_every_nominal_task_has_one(name: str, robot: Robot) -> None:
     assert robust.robust is not None
     assert robust.robust.success == plan.goal
     assert isinstance(within.horizon, HorizonRange)
+    nearer = plan.nearer(99.0)
+    assert nearer.horizon == replace(within.horizon, initial=within.horizon.maximum)
+    assert (nearer.success, set(nearer.costs)) == (within.success, set(within.costs))
     if not isinstance(task.horizon, HorizonRange):
         assert within.horizon.minimum == task.horizon
 

@@ -61,6 +61,12 @@ _MARGINS_WEIGHT, _ROBUST_MARGINS_WEIGHT = 0.02, 0.2
 _GOALS = (Orientation, Position, Posture, LinearVelocity, AngularVelocity, Miss, Margins)
 """Terms that the criteria, and the margins, replace."""
 
+_REFERENCES_ROOM = 0.2
+"""[rad] that references leave to the ends of ranges: a joint that is pushed gives way by its torque over its gain."""
+
+_NEAR, _NEAR_MARGINS_WEIGHT = 0.3, 0.1
+"""Factor on the step, and weight of the margins, of a search around a motion that is nearly within the limits."""
+
 _SMOOTHNESS = 0.15
 """Correlation length of neighbouring kernels, as in tasks with few of them."""
 
@@ -142,6 +148,20 @@ class Plan:
                 modes=None,
                 smoothness=_SMOOTHNESS,
             ),
+        )
+
+    def nearer(self, horizon: float) -> Task:
+        """As `within_limits`, around a motion that nearly does it, of this duration [s]."""
+        task = self.within_limits()
+        free = task.horizon
+        assert isinstance(free, HorizonRange)
+        margins = replace(task.costs["margins"], weight=_NEAR_MARGINS_WEIGHT)
+        return replace(
+            task,
+            costs={**task.costs, "margins": margins},
+            horizon=replace(free, initial=min(max(horizon, free.minimum), free.maximum)),
+            stages=(Stage("nearer", step=_NEAR, hold=self._held),),
+            search=replace(task.search, restart=None, patience=None),
         )
 
     def robust(self, horizon: float) -> Task:
@@ -243,7 +263,7 @@ def _other(search: Search) -> Search:
 
 
 def _smooth(policy: PolicyChoice) -> PolicyChoice:
-    policy = replace(policy, room=WANTED["angle"] if policy.room is None else policy.room)
+    policy = replace(policy, room=_REFERENCES_ROOM if policy.room is None else policy.room)
     if policy.kernels <= _KERNELS and policy.time == "normalised":
         return policy
     return replace(policy, kernels=min(policy.kernels, _KERNELS), variance=_VARIANCE, time="normalised")

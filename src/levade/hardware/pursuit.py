@@ -12,8 +12,8 @@ DIR/hardware.json       what was asked for, and which search is gone on from: by
 DIR/limits-1, ...       the searches, each a run of its own (`levade.search.run`)
 
 First motions of the nominal model within its limits, several, since motions that look alike there differ widely on other
-robots; around the one that holds on most of these a robust search, and around what that finds one with feedback. A search that
-is needed no more is not made.
+robots; the last search for one is around the nearest, if none is within them. Around the one that holds on most robots a robust
+search, and around what that finds one with feedback. A search that is needed no more is not made.
 """
 
 from __future__ import annotations
@@ -44,8 +44,7 @@ from levade.tasks import Demands, Task, task_to_dict, task_to_yaml
 from levade.writing import write_text
 
 _ON_LIMITS = (0.4, 0.75, 1.0)
-"""Shares of the time after which searches within limits, in order, end if they have not met them; the last share of it goes to
-the one that came nearest."""
+"""Shares of the time after which searches within limits, in order, end if they have not met them."""
 
 _ENOUGH = 0.4
 """Share of the time after which no further one is begun once one has."""
@@ -238,12 +237,11 @@ class _Pursuit:
         for number, name in enumerate(LIMITS):
             if self._state.chosen not in (None, name):
                 continue
-            self._share = _ON_LIMITS[number]
-            if name == LIMITS[-1] and self._end is not None and not any(part.met for part in self._parts):
-                # the last of the time is worth more to the one that came nearest than to a new one
-                number = self._nearest
-                name = self._parts.pop(number).name
-            part = self._search(name, plan.within_limits(number), None, seed=self._seed + _APART * number)
+            self._share, near = _ON_LIMITS[number], None
+            if name == LIMITS[-1] and not any(part.met for part in self._parts):
+                near = self._parts[self._nearest].motion  # the last one is worth more around it than anywhere else
+            task = plan.within_limits(number) if near is None else plan.nearer(near.horizon)
+            part = self._search(name, task, near, seed=self._seed + _APART * number)
             met = any(part.met for part in self._parts)
             if self._stopped or _passes(part) or (met and self._late(_ENOUGH)):
                 break
@@ -295,7 +293,10 @@ class _Pursuit:
     @property
     def _nearest(self) -> int:
         """Which of the parts came nearest to the goal within the limits."""
-        return min(range(len(self._parts)), key=lambda i: self._parts[i].motion.result.cost)
+        costs = self._plan.within_limits().costs
+        terms = [part.motion.result.cost_terms for part in self._parts]
+        # by the same weights: a search around a nearly good motion has others
+        return min(range(len(terms)), key=lambda i: sum(costs[name].weight * terms[i][name] for name in costs))
 
     def _certify_best(self) -> None:
         """Certify the motion that comes nearest, where none is within the limits."""
