@@ -55,8 +55,9 @@ rearing met every limit with one of three seeds with its own sixteen kernels, an
 _DURATION_WEIGHT = 0.5
 """Of a duration as long as the task says: what is quick leaves a robot that differs from the model less time to fall."""
 
-_MARGINS_WEIGHT, _ROBUST_MARGINS_WEIGHT = 0.02, 0.2
-"""On the nominal model, and on perturbed ones, where the misses of the goal that remain are many times as large."""
+_MARGINS_WEIGHT, _ROBUST_MARGINS_WEIGHT = 0.5, 0.2
+"""On the nominal model, and on perturbed ones. Margins weigh so much that a search stays within the limits on its way to the goal:
+one that finds the goal first, beyond them, seldom comes back."""
 
 _GOALS = (Orientation, Position, Posture, LinearVelocity, AngularVelocity, Miss, Margins)
 """Terms that the criteria, and the margins, replace."""
@@ -64,8 +65,8 @@ _GOALS = (Orientation, Position, Posture, LinearVelocity, AngularVelocity, Miss,
 _REFERENCES_ROOM = 0.2
 """[rad] that references leave to the ends of ranges: a joint that is pushed gives way by its torque over its gain."""
 
-_NEAR, _NEAR_MARGINS_WEIGHT = 0.3, 0.1
-"""Factor on the step, and weight of the margins, of a search around a motion that is nearly within the limits."""
+_NEAR = 0.3
+"""Factor on the step of a search around a motion that is nearly within the limits."""
 
 _SMOOTHNESS = 0.15
 """Correlation length of neighbouring kernels, as in tasks with few of them."""
@@ -155,10 +156,8 @@ class Plan:
         task = self.within_limits()
         free = task.horizon
         assert isinstance(free, HorizonRange)
-        margins = replace(task.costs["margins"], weight=_NEAR_MARGINS_WEIGHT)
         return replace(
             task,
-            costs={**task.costs, "margins": margins},
             horizon=replace(free, initial=min(max(horizon, free.minimum), free.maximum)),
             stages=(Stage("nearer", step=_NEAR, hold=self._held),),
             search=replace(task.search, restart=None, patience=None),

@@ -293,10 +293,7 @@ class _Pursuit:
     @property
     def _nearest(self) -> int:
         """Which of the parts came nearest to the goal within the limits."""
-        costs = self._plan.within_limits().costs
-        terms = [part.motion.result.cost_terms for part in self._parts]
-        # by the same weights: a search around a nearly good motion has others
-        return min(range(len(terms)), key=lambda i: sum(costs[name].weight * terms[i][name] for name in costs))
+        return min(range(len(self._parts)), key=lambda i: self._parts[i].motion.result.cost)
 
     def _certify_best(self) -> None:
         """Certify the motion that comes nearest, where none is within the limits."""
