@@ -56,7 +56,7 @@ _DURATION_WEIGHT = 0.5
 """Of a duration as long as the task says: what is quick leaves a robot that differs from the model less time to fall."""
 
 _MARGINS_WEIGHT, _ROBUST_MARGINS_WEIGHT = 0.5, 0.2
-"""On the nominal model, and on perturbed ones. Margins weigh so much that a search stays within the limits on its way to the goal:
+"""On the nominal model, and on perturbed ones. Margins weigh so much that a search keeps to the limits on its way to the goal:
 one that finds the goal first, beyond them, seldom comes back."""
 
 _GOALS = (Orientation, Position, Posture, LinearVelocity, AngularVelocity, Miss, Margins)
