@@ -129,12 +129,10 @@ class Plan:
             number: Which of the searches for it, from 0. The third one aims no candidates where the task's own search does, and
                 the other way round: aimed ones find short motions sooner, and are in the way where one takes long to find.
         """
-        task = self.task
-        horizon, demanding = task.horizon, self._demanding()
-        usual = horizon.begin if isinstance(horizon, HorizonRange) else horizon
+        horizon, demanding = self.task.horizon, self._demanding()
         if not isinstance(horizon, HorizonRange):
             horizon = HorizonRange(horizon, LONGEST * horizon, _BEGIN * horizon)
-        costs = {"duration": Cost(Duration(), _DURATION_WEIGHT / usual), **demanding.costs}
+        costs = {"duration": Cost(Duration(), _DURATION_WEIGHT / self.task.usual_horizon), **demanding.costs}
         return replace(
             demanding,
             costs=costs,

@@ -87,6 +87,11 @@ class Task:
         return clearance_of(looking)
 
     @property
+    def usual_horizon(self) -> float:
+        """T [s]; where a search for it begins, if it is free."""
+        return self.horizon.begin if isinstance(self.horizon, HorizonRange) else self.horizon
+
+    @property
     def horizon_steps(self) -> int:
         """Rows up to the horizon; up to the longest where the search finds it."""
         longest = self.horizon.maximum if isinstance(self.horizon, HorizonRange) else self.horizon
