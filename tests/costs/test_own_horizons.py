@@ -34,6 +34,7 @@ TERMS = {
     "torque": TorqueLimitExcess(),
     "speed": SpeedLimitExcess(),
     "contact": GroundContact(("trunk", "hip"), measure="impulse", over="all"),
+    "blow": GroundContact(("trunk", "hip"), measure="peak"),
     "margins": Margins(angle=0.1, speed=0.2),
     "at the horizon": Position(x=0.1, z=0.5),
     "at the end": Orientation(pitch=0.2, at="end"),

@@ -163,6 +163,10 @@ def test_contact_is_time_or_impulse_over_the_bodies(make):
     np.testing.assert_allclose(GroundContact(("trunk",))(t), [5 * DT, 0])
     np.testing.assert_allclose(GroundContact(("trunk", "hip"), over="all")(t), [10 * DT, 2 * DT])
     np.testing.assert_allclose(GroundContact(("trunk", "hip"), "impulse")(t), [5 * 150 * DT, 0])
+    np.testing.assert_allclose(GroundContact(("trunk", "hip"), "peak")(t), [100, 0])
+    np.testing.assert_allclose(GroundContact(("trunk",), "peak", over="all")(t), [50, 10])
+    force[1, 4] = np.nan  # a trial that broke down has no peak
+    assert np.isnan(GroundContact(("trunk", "hip"), "peak")(t)).tolist() == [False, True]
 
 
 def test_within_the_limits_nothing_is_exceeded(make):
@@ -189,6 +193,7 @@ ALL = [
     Orientation(roll=0.0, yaw=1.0),
     Orientation(0.0, 0.0, 0.0, at="hold"),
     GroundContact(("trunk", "hip"), "impulse"),
+    GroundContact(("trunk", "hip"), "peak"),
     Margins(angle=0.1, speed=0.1),
 ]
 

@@ -18,28 +18,28 @@ CONTACT_FORCE = 1e-9
 
 @dataclass(frozen=True)
 class GroundContact:
-    """Contact of the named bodies with the ground and the obstacles, summed over the bodies.
+    """Contact of the named bodies with the ground and the obstacles.
 
-    measure: "time" in contact [s], each body on its own, or the "impulse" of the contact forces [Ns], which also tells
-        a touch from a blow.
+    measure: "time" in contact [s], each body on its own; the "impulse" of the contact forces [Ns], which also tells a touch
+        from a blow; or the "peak", the largest force on any of the bodies [N]. Time and impulse are sums over the bodies.
     over: the motion proper, or the hold as well.
     Raises LevadeError if the contact force of a body was not recorded.
     """
 
-    unit: ClassVar[str] = "s, or Ns for the impulse"
+    unit: ClassVar[str] = "s, Ns for the impulse, N for the peak"
 
     bodies: tuple[str, ...]
-    measure: Literal["time", "impulse"] = "time"
+    measure: Literal["time", "impulse", "peak"] = "time"
     over: Over = "horizon"
 
     def __post_init__(self) -> None:
         if not self.bodies:
             raise LevadeError("ground_contact.bodies: no bodies; name those that should stay off the ground")
-        if self.measure not in ("time", "impulse"):
-            raise LevadeError(f"ground_contact.measure: {self.measure!r} is unknown; time or impulse")
+        if self.measure not in ("time", "impulse", "peak"):
+            raise LevadeError(f"ground_contact.measure: {self.measure!r} is unknown; time, impulse or peak")
 
     def __call__(self, trajectories: Trajectories) -> Array:
-        """(n,) [s] or [Ns]."""
+        """(n,) [s], [Ns] or [N]."""
         rows = rows_over(trajectories, self.over)
         total = np.zeros(trajectories.n)
         for body in self.bodies:
@@ -48,6 +48,10 @@ class GroundContact:
                 hint = did_you_mean(body, recorded) if recorded else "no body's contact force was recorded"
                 raise LevadeError(f"ground_contact.bodies: the contact force of {body} was not recorded; {hint}")
             force = recorded[body][:, rows]
+            if self.measure == "peak":
+                counted = trajectories.counted(rows)
+                total = np.maximum(total, (force if counted is None else np.where(counted, force, 0.0)).max(axis=1))
+                continue
             if self.measure == "time":
                 # a force that is not a number must not pass for no contact
                 force = np.where(np.isfinite(force), force > CONTACT_FORCE, np.nan)

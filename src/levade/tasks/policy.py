@@ -36,7 +36,9 @@ def make_policy(task: Task, robot: Robot, *, start: Array | None = None) -> Poli
         goal = goal_posture(choice, robot)
         with located("policy."):
             ends = Ends(goal if start is None else start, goal, choice.depart, choice.settle)
-    policy = Policy(kernels, leg_groups(choice, robot), task.usual_horizon, task.physics.timestep, task.hold_steps, ends)
+    policy = Policy(
+        kernels, leg_groups(choice, robot), task.usual_horizon, task.physics.timestep, task.hold_steps, ends
+    )
     if choice.room is not None:
         lower, upper = robot.limits.lower, robot.limits.upper
         room = np.minimum(choice.room, (upper - lower) / 4)  # infinite where a joint has no range
