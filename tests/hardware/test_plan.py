@@ -45,6 +45,10 @@ def test_every_nominal_task_has_one(name: str, robot: Robot) -> None:
     assert robust.robust is not None
     assert robust.robust.success == plan.goal
     assert isinstance(within.horizon, HorizonRange)
+    finer = plan.finer(0.5, feedback=False)
+    assert (finer.success, finer.costs, finer.horizon) == (robust.success, robust.costs, robust.horizon)
+    assert finer.robust == replace(robust.robust, validation=120)
+    assert plan.finer(0.5, feedback=True).feedback == plan.closed_loop(0.5).feedback
     nearer = plan.nearer(99.0)
     assert nearer.horizon == replace(within.horizon, initial=within.horizon.maximum)
     assert (nearer.success, set(nearer.costs)) == (within.success, set(within.costs))

@@ -12,9 +12,11 @@ import pytest
 
 from levade.checks import Demands, check
 from levade.checks.record import CERTIFICATE
+from levade.checks.statistics import wilson
 from levade.costs import Criterion
 from levade.errors import LevadeError
 from levade.hardware import Part, Pursued, binding, discard, is_pursuit, obstacles, pursue, read_pursuit
+from levade.hardware.pursuit import _sure
 from levade.hardware.state import ASKED
 from levade.motions import Motion
 from levade.search import Generation, Stopped
@@ -60,6 +62,19 @@ def test_the_motion_leaves_something_of_every_limit(found: Pursued) -> None:
     assert (motion["joint_position"] >= limits.lower).all()
     assert (motion["joint_position"] <= limits.upper).all()
     assert (np.abs(motion["joint_velocity"]) < limits.velocity).all()
+
+
+@pytest.mark.parametrize(
+    ("successes", "runs", "sure"),
+    [(475, 500, False), (484, 500, False), (485, 500, True), (12, 12, True), (474, 500, False)],
+)
+def test_what_barely_passes_is_not_sure(found: Pursued, successes: int, runs: int, sure: bool) -> None:
+    """Wilson's interval: of 500 runs, 485 are the least of which the lower end is 95 %."""
+    low, high = wilson(successes, runs)
+    seen = replace(found.certificate.perturbed, successes=successes, runs=runs, low=low, high=high)
+    part = replace(found.best, certificate=replace(found.certificate, perturbed=seen))
+    assert _sure(part) is sure
+    assert not _sure(replace(part, certificate=None))
 
 
 def test_called_again_it_searches_no_more(found: Pursued) -> None:

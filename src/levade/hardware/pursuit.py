@@ -13,7 +13,8 @@ DIR/limits-1, ...       the searches, each a run of its own (`levade.search.run`
 
 First motions of the nominal model within its limits, several, since motions that look alike there differ widely on other
 robots; the last search for one is around the nearest, if none is within them. Around the one that holds on most robots a robust
-search, and around what that finds one with feedback. A search that is needed no more is not made.
+search, and around what that finds one with feedback. What then holds on nearly enough robots, or on so few more that other ones
+could say otherwise, is searched around once more, finely. A search that is needed no more is not made.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ from levade.document import read_yaml
 from levade.errors import LevadeError, Remedy
 from levade.hardware.page import write_certificate
 from levade.hardware.plan import Plan
-from levade.hardware.state import ASKED, CLOSED, LIMITS, PAGE, ROBUST, State, check_same, discard
+from levade.hardware.state import ASKED, CLOSED, FINER, LIMITS, PAGE, ROBUST, State, check_same, discard
 from levade.locking import locked
 from levade.motions import Motion
 from levade.report.page import check_page
@@ -199,8 +200,13 @@ def pursue(
         return _Pursuit(plan, seed, threads, state, end, demands, runs, begin, observe, tell, stopping).go()
 
 
-def _passes(part: Part) -> bool:
-    return part.certificate is not None and part.certificate.passed
+def _sure(part: Part) -> bool:
+    """Whether its certificate passes, and would with other runs: by the lower end of the share's interval, or all do."""
+    found = part.certificate
+    if found is None or not found.passed:
+        return False
+    share, runs = found.demands.share, found.perturbed
+    return share is None or runs.low >= share or runs.successes == runs.runs
 
 
 def _share(part: Part) -> float:
@@ -243,19 +249,29 @@ class _Pursuit:
             task = plan.within_limits(number) if near is None else plan.nearer(near.horizon)
             part = self._search(name, task, near, seed=self._seed + _APART * number)
             met = any(part.met for part in self._parts)
-            if self._stopped or _passes(part) or (met and self._late(_ENOUGH)):
+            if self._stopped or _sure(part) or (met and self._late(_ENOUGH)):
                 break
         self._share = 1.0
         candidates = [part for part in self._parts if part.met]
         if candidates and not self._stopped:
-            around = max(candidates, key=lambda part: (_passes(part), _share(part)))
+            around = max(candidates, key=lambda part: (_sure(part), _share(part)))
             self._choose(around)
             for name, make in ((ROBUST, plan.robust), (CLOSED, plan.closed_loop)):
-                if _passes(around) or (name == CLOSED and not plan.can_close_the_loop):
+                if _sure(around) or (name == CLOSED and not plan.can_close_the_loop):
                     break
                 around = self._search(name, make(around.motion.horizon), around.motion, seed=self._seed)
                 if self._stopped or not around.met:
                     break
+            best = self._best
+            if (
+                not self._stopped
+                and not _sure(best)
+                and best.certificate
+                and best.certificate.failed in ((), ("perturbed",))
+            ):
+                closed = best.motion.stabiliser is not None
+                task = plan.finer(best.motion.horizon, feedback=closed)
+                self._search(FINER, task, best.motion, seed=self._seed + _APART)
         if self._best.certificate is None:
             self._certify_best()
         return Pursued(plan, tuple(self._parts), self._best, self._directory, self._seed, self._stopped)

@@ -16,7 +16,7 @@ from levade.tasks import Demands, Task, task_from_dict, task_to_dict
 from levade.writing import write_text
 
 ASKED, PAGE = PURSUIT, CERTIFICATE_PAGE
-LIMITS, ROBUST, CLOSED = ("limits-1", "limits-2", "limits-3"), "robust", "feedback"
+LIMITS, ROBUST, CLOSED, FINER = ("limits-1", "limits-2", "limits-3"), "robust", "feedback", "finer"
 
 
 @dataclass
@@ -82,7 +82,7 @@ def discard(directory: Path) -> None:
     Raises:
         LevadeError: If one of them goes on.
     """
-    searches = [directory, *(directory / name for name in (*LIMITS, ROBUST, CLOSED))]
+    searches = [directory, *(directory / name for name in (*LIMITS, ROBUST, CLOSED, FINER))]
     for search in searches:
         check_unlocked(search)
     with storing(directory, then=Remedy("give another directory")):
