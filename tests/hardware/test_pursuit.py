@@ -21,7 +21,7 @@ from levade.hardware.state import ASKED
 from levade.motions import Motion
 from levade.search import Generation, Stopped
 from levade.search.checkpoint import CHECKPOINT
-from levade.tasks import Task, load_task
+from levade.tasks import HorizonRange, Task, load_task
 
 pytestmark = pytest.mark.slow
 
@@ -202,7 +202,9 @@ def test_the_last_search_within_limits_is_around_the_nearest(tmp_path: Path) -> 
     assert [part.name for part in told[:3]] == ["limits-1", "limits-2", "limits-3"]
     nearest = min(first, second, key=lambda part: part.motion.result.cost)
     assert third.motion.task.stages[0].name == "nearer"
-    assert third.motion.task.horizon.initial == pytest.approx(nearest.motion.horizon)
+    begun = third.motion.task.horizon
+    assert isinstance(begun, HorizonRange)
+    assert begun.initial == pytest.approx(nearest.motion.horizon)
     steps = [np.abs(part.motion["weights"] - nearest.motion["weights"]).max() for part in (first, second, third)]
     assert sorted(steps)[0] == 0.0
     assert sorted(steps)[1] == steps[2]  # it is nearer to that one than the other is
