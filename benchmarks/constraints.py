@@ -36,10 +36,10 @@ UNKNOWN = 1e3
 class _WithLimits:
     """CMA-ES that is told of limits beside the cost; the last columns of the errors are theirs, 1 at the limit."""
 
-    limits = 4
+    SETTINGS = ("limits",)
 
-    def __init__(self, space: SearchSpace, *, seed: int | tuple[int, ...]) -> None:
-        self._cma = CMAES(space, seed=seed)
+    def __init__(self, space: SearchSpace, *, seed: int | tuple[int, ...], limits: int) -> None:
+        self._cma, self._limits = CMAES(space, seed=seed), int(limits)
 
     @property
     def population(self) -> int:
@@ -63,7 +63,7 @@ class _WithLimits:
         pass
 
     def tell(self, cost: Array, errors: Array) -> None:
-        beyond = np.nan_to_num(errors[:, -self.limits :], nan=UNKNOWN) - 1.0  # at most 0 within the limit
+        beyond = np.nan_to_num(errors[:, -self._limits :], nan=UNKNOWN) - 1.0  # at most 0 within the limit
         self._cma.tell(self.with_limits(cost, beyond))
 
     def with_limits(self, cost: Array, beyond: Array) -> Array:
@@ -81,8 +81,8 @@ class Ranked(_WithLimits):
 class Lagrangian(_WithLimits):
     """The library's multipliers, updated along the best candidate of each generation."""
 
-    def __init__(self, space: SearchSpace, *, seed: int | tuple[int, ...]) -> None:
-        super().__init__(space, seed=seed)
+    def __init__(self, space: SearchSpace, *, seed: int | tuple[int, ...], limits: int) -> None:
+        super().__init__(space, seed=seed, limits=limits)
         self._multipliers = AugmentedLagrangian(space.dimensions)
         self._multipliers.logging = 0
 
@@ -97,14 +97,17 @@ class Lagrangian(_WithLimits):
 def task_of(name: str, robot: str, arm: str, trials: int) -> Task:
     """The plan's search within limits, with an arm's way to keep to them."""
     task = load_task(name, robot=robot)
-    within = Plan.of(task, task.robot.load()).within_limits()
+    plan = Plan.of(task, task.robot.load())
+    within = plan.within_limits()
     search = replace(within.search, trials=trials, polish=0)
     costs = dict(within.costs)
     if arm in WEIGHTS:
         costs["margins"] = replace(costs["margins"], weight=WEIGHTS[arm])
     else:
         del costs["margins"]
-        search = replace(search, optimizer=Ranked if arm == "ranking" else Lagrangian, settings={})
+        search = replace(
+            search, optimizer=Ranked if arm == "ranking" else Lagrangian, settings={"limits": len(plan.limits)}
+        )
     return replace(within, costs=costs, search=search)
 
 
@@ -120,7 +123,9 @@ def main() -> None:
     parser.add_argument("--table", action="store_true")
     options = parser.parse_args()
     if options.table:
-        print(table([json.loads(line) for line in options.out.read_text().splitlines()]))
+        print(
+            table([json.loads(line) for line in options.out.read_text().splitlines()] if options.out.exists() else [])
+        )
         return
     for name in options.tasks:
         for seed in options.seeds:

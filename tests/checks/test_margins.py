@@ -138,7 +138,7 @@ def test_flow_is_displacement_times_speed(standing: Motion, changed: Change) -> 
     assert found["pump_flow"].passed is False
     other = {**moving.meta["task"], "robot": {**moving.meta["task"]["robot"], "actuation": "ideal"}}
     none = margins(RecordedSimulation(changed(moving, {"task": other})), Demands(flow=5.0))["flow"]
-    assert (none.value, none.passed) == (None, None)
+    assert (none.value, none.passed, none.unknown) == (None, None, moving.joint_names)
     assert "supply pressure" in none.reason
 
 

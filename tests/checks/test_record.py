@@ -73,7 +73,7 @@ def test_what_is_no_certificate_is_said(standing: Motion, tmp_path: Path, text: 
     ("content", "says"),
     [
         ({"passed": True, "failed": []}, "passes"),
-        ({"passed": False, "failed": ["torque_speed", "perturbed"]}, "fails torque speed, perturbed"),
+        ({"passed": False, "failed": ["torque speed", "perturbed"]}, "fails torque speed, perturbed"),
         ({"passed": False, "failed": []}, "ended early"),
         ({"passed": True, "checksum": "0" * 64}, None),
         ([], None),

@@ -55,17 +55,18 @@ def test_a_success_says_that_it_holds_in_other_numbers(levade) -> None:
 
 
 @pytest.mark.parametrize(
-    ("task", "robot", "command"),
+    ("task", "robot", "directory", "command"),
     [
-        ("rearing", "hyq2max", "levade solve rearing --hardware"),
-        ("rearing", "a b.xml", "levade solve rearing --hardware --robot 'a b.xml'"),
-        ("leap", "hyq2max", "levade solve leap --hardware"),
-        ("mine", "hyq2max", "levade check runs/motion.npz"),
+        ("rearing", "hyq2max", "runs", "levade solve rearing --hardware"),
+        ("rearing", "hyq2max", "rearing", "levade solve rearing --hardware --out rearing-hardware"),
+        ("rearing", "a b.xml", "runs", "levade solve rearing --hardware --robot 'a b.xml'"),
+        ("leap", "hyq2max", "runs", "levade solve leap --hardware"),
+        ("mine", "hyq2max", "runs", "levade check runs/motion.npz"),
     ],
 )
 @pytest.mark.slow
 def test_what_fails_at_half_the_step_is_said_with_the_next_command(
-    unmet: Path, capsys: pytest.CaptureFixture[str], task: str, robot: str, command: str
+    unmet: Path, capsys: pytest.CaptureFixture[str], task: str, robot: str, directory: str, command: str
 ) -> None:
     motion = Motion.load(unmet / "motion.npz")
     content = {**motion.meta["task"], "name": task}
@@ -73,7 +74,7 @@ def test_what_fails_at_half_the_step_is_said_with_the_next_command(
     one = Numeric(True, False, 0.002, {}, "policy", {})
     found = {"half time step": replace(one, success=False), "other contact cone": one}
     changed = replace(motion, meta={**motion.meta, "task": content})
-    tell_numerics(make_console(), found, changed, Path("runs"))
+    tell_numerics(make_console(), found, changed, Path(directory))
     assert capsys.readouterr().out == (
         f"It does not succeed at half the time step: its success may depend on how contact is computed. Next: {command}\n"
     )

@@ -205,7 +205,23 @@ def test_the_last_search_within_limits_is_around_the_nearest(tmp_path: Path) -> 
     begun = third.motion.task.horizon
     assert isinstance(begun, HorizonRange)
     assert begun.initial == pytest.approx(nearest.motion.horizon)
-    steps = [np.abs(part.motion["weights"] - nearest.motion["weights"]).max() for part in (first, second, third)]
-    assert sorted(steps)[0] == 0.0
-    assert sorted(steps)[1] == steps[2]  # it is nearer to that one than the other is
+    other = second if nearest is first else first
+    apart = [np.abs(part.motion["weights"] - nearest.motion["weights"]).max() for part in (third, other)]
+    assert apart[0] < apart[1]
     assert certified.certificate is not None
+    # with more time, it goes on: where it was, although the nearest of the others may now be another
+    seen: dict[str, list[bool]] = {}
+
+    def observe(name: str, generation: Generation) -> None:
+        seen.setdefault(name, []).append(generation.replayed)
+
+    more = pursue(impossible, directory=tmp_path, runs=RUNS, minutes=0.12, observe=observe)
+    assert list(seen) == ["limits-1", "limits-2", "limits-3"]
+    assert all(flags[0] for flags in seen.values())
+    assert more.parts[2].motion.task.horizon == begun
+    # and a pursuit that was gone on from it goes on from it, without the others
+    content = json.loads((tmp_path / ASKED).read_text())
+    (tmp_path / ASKED).write_text(json.dumps({**content, "chosen": "limits-3"}))
+    alone = pursue(impossible, directory=tmp_path, runs=RUNS, observe=lambda name, generation: Stopped.INTERRUPTED)
+    assert [part.name for part in alone.parts] == ["limits-3"]
+    assert alone.parts[0].motion.task.horizon == begun

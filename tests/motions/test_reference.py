@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from levade.checks import numerics
+from levade.errors import LevadeError
 from levade.motions import Motion, RecordedSimulation, ReferenceCurve
 from levade.policies import FreePolicy, policy_from_dict, policy_to_dict
 from levade.report.series import policy_names
@@ -33,6 +34,28 @@ def test_references_at_half_the_step_are_the_policys_own(moving: Motion) -> None
     kernels = np.exp(-((time[:, None] - np.linspace(0, 1, 16)) ** 2) / 0.02)
     expected = (kernels / kernels.sum(axis=1, keepdims=True)) @ weights[1]
     assert np.allclose(fine.position[0, :300, 1], expected, atol=1e-9)
+
+
+@pytest.mark.slow
+def test_what_keeps_to_a_speed_is_the_same_curve_at_every_step(tmp_path: Path) -> None:
+    """At shorter steps the bound is not applied once more: straight between the rows of the motion."""
+    changes = ["search.population=4", "search.trials=4", "search.step=0.4", "hold=0.05", "policy.slew=0.3"]
+    objective = make_objective(load_task("rearing", changes=changes), threads=1)
+    record(objective, solve(objective, seed=3), seed=3).save(tmp_path / "motion.npz")
+    motion = Motion.load(tmp_path / "motion.npz")
+    recorded, curve = motion.reference, ReferenceCurve.of(motion)
+    fine = curve.divided(4)
+    assert curve.source == "policy"
+    np.testing.assert_allclose(fine.position[:, 3::4], recorded.position, atol=1e-12)
+    np.testing.assert_allclose(fine.velocity[:, 3::4], recorded.velocity, atol=1e-9)
+    halfway = (recorded.position[0, :149] + recorded.position[0, 1:150]) / 2
+    np.testing.assert_allclose(fine.position[0, 5:600:4], halfway, atol=1e-12)
+    speed = np.abs(np.diff(recorded.position[0], axis=0)) / motion.timestep
+    assert 0.3 * 12 * 0.999 < speed.max() <= 0.3 * 12 * 1.000001  # it is a bound that binds
+    broken = {**motion.meta, "policy": {**motion.meta["policy"], "slew": {"speed": [-1.0] * 12, "start": [0.0] * 12}}}
+    replace(motion, meta=broken).save(tmp_path / "broken.npz")
+    with pytest.raises(LevadeError, match="slew"):
+        Motion.load(tmp_path / "broken.npz")
 
 
 @pytest.mark.slow

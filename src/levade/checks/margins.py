@@ -57,7 +57,7 @@ def margins(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margi
     motion, limits = simulation.motion, simulation.embodiment.limits
     joints = simulation.embodiment.joint_names
     angle, speed, torque = (motion[f"joint_{name}"] for name in ("position", "velocity", "torque"))
-    power = np.abs(torque * speed)
+    power, energy = np.abs(torque * speed), _energy(torque * speed, simulation.timestep)
     at_limit = (np.abs(torque) >= limits.torque * (1 - 1e-9)).mean(axis=0)
     found = {
         "position": _least("rad", joints, limits.angle_left(angle).min(axis=0), demands.position),
@@ -82,11 +82,9 @@ def margins(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margi
             "W",
             dict(zip(joints, power.max(axis=0).tolist(), strict=True)),
             demands.power,
-            more=_energy(torque * speed, simulation.timestep),
+            more=energy,
         ),
-        "robot_power": _most(
-            "W", {"robot": float(np.maximum(torque * speed, 0.0).sum(axis=1).max())}, demands.robot_power
-        ),
+        "robot_power": _most("W", {"robot": energy["robot_peak"]}, demands.robot_power),
         "torque_rms": _least(
             "share of limit",
             joints,
@@ -221,7 +219,13 @@ def _flow(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margin]
         reason = (
             robot if isinstance(robot, str) else "the robot's description gives no supply pressure to compute it from"
         )
-        return {name: Margin("l/min", required=getattr(demands, name), reason=reason) for name in ("flow", "pump_flow")}
+        return {
+            name: Margin("l/min", required=asked, unknown=() if asked is None else names, reason=reason)
+            for name, asked, names in (
+                ("flow", demands.flow, simulation.embodiment.joint_names),
+                ("pump_flow", demands.pump_flow, ("pump",)),
+            )
+        }
     flow = _LITRES_PER_MINUTE * np.abs(motion["joint_velocity"]) * limits.torque / pressure
     whole = flow.sum(axis=1)
     peaks = dict(zip(simulation.embodiment.joint_names, flow.max(axis=0).tolist(), strict=True))

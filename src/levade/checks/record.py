@@ -34,7 +34,7 @@ def certificate_beside(motion_file: Path, motion: Motion) -> dict[str, str] | No
         return None
     if not isinstance(content, dict) or content.get("checksum") != motion.checksum:
         return None
-    failed = ", ".join(str(name).replace("_", " ") for name in content.get("failed") or ())
+    failed = ", ".join(map(str, content.get("failed") or ()))
     return {
         "page": page.name,
         "says": "passes" if content.get("passed") else f"fails {failed}" if failed else "ended early",

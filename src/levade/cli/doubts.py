@@ -117,5 +117,9 @@ def _next(motion: Motion, directory: Path) -> str:
     task, robot = motion.task_name, motion.task.robot.name
     if task not in builtin_tasks():
         return f"levade check {shlex.quote(str(directory / 'motion.npz'))}"
-    usual = robot == load_task(task).robot.name
-    return f"levade solve {task} --hardware" + ("" if usual else f" --robot {shlex.quote(robot)}")
+    words = ["levade", "solve", task, "--hardware"]
+    if robot != load_task(task).robot.name:
+        words += ["--robot", robot]
+    if directory == Path(task):  # where this run is, and the pursuit would go
+        words += ["--out", f"{task}-hardware"]
+    return shlex.join(words)

@@ -63,7 +63,7 @@ _GOALS = (Orientation, Position, Posture, LinearVelocity, AngularVelocity, Miss,
 """Terms that the criteria, and the margins, replace."""
 
 _REFERENCES_ROOM = 0.2
-"""[rad] that references leave to the ends of ranges: a joint that is pushed gives way by its torque over its gain."""
+"""[rad] that references leave to the ends of ranges: a joint that is pushed gives way, at its torque limit by as much."""
 
 _NEAR = 0.3
 """Factor on the step of a search around a motion that is nearly within the limits."""

@@ -209,6 +209,14 @@ def _sure(part: Part) -> bool:
     return share is None or runs.low >= share or runs.successes == runs.runs
 
 
+def _nearly(part: Part) -> bool:
+    """Whether nothing but the share of perturbed runs is in its way, and that may yet be enough, by its interval."""
+    found = part.certificate
+    if found is None or set(found.failed) - {"perturbed"}:
+        return False
+    return found.demands.share is None or found.perturbed.high >= found.demands.share
+
+
 def _share(part: Part) -> float:
     """Of perturbed robots, on which it holds."""
     return 0.0 if part.certificate is None else part.certificate.perturbed.share
@@ -243,10 +251,8 @@ class _Pursuit:
         for number, name in enumerate(LIMITS):
             if self._state.chosen not in (None, name):
                 continue
-            self._share, near = _ON_LIMITS[number], None
-            if name == LIMITS[-1] and not any(part.met for part in self._parts):
-                near = self._parts[self._nearest].motion  # the last one is worth more around it than anywhere else
-            task = plan.within_limits(number) if near is None else plan.nearer(near.horizon)
+            self._share = _ON_LIMITS[number]
+            task, near = self._last_within_limits() if name == LIMITS[-1] else (plan.within_limits(number), None)
             part = self._search(name, task, near, seed=self._seed + _APART * number)
             met = any(part.met for part in self._parts)
             if self._stopped or _sure(part) or (met and self._late(_ENOUGH)):
@@ -263,18 +269,26 @@ class _Pursuit:
                 if self._stopped or not around.met:
                     break
             best = self._best
-            if (
-                not self._stopped
-                and not _sure(best)
-                and best.certificate
-                and best.certificate.failed in ((), ("perturbed",))
-            ):
-                closed = best.motion.stabiliser is not None
-                task = plan.finer(best.motion.horizon, feedback=closed)
+            if not self._stopped and not _sure(best) and _nearly(best):
+                task = plan.finer(best.motion.horizon, feedback=best.motion.stabiliser is not None)
                 self._search(FINER, task, best.motion, seed=self._seed + _APART)
         if self._best.certificate is None:
             self._certify_best()
         return Pursued(plan, tuple(self._parts), self._best, self._directory, self._seed, self._stopped)
+
+    def _last_within_limits(self) -> tuple[Task, Motion | None]:
+        """The last search within limits, and what it begins around: the one that is there already, if it is of this plan."""
+        other = self._plan.within_limits(len(LIMITS) - 1)
+        directory = self._directory / LIMITS[-1]
+        if (directory / CHECKPOINT).is_file():
+            known, _ = read_run(directory)
+            for task in (other, self._plan.nearer(known.usual_horizon)):
+                if task_to_dict(task, code=True) == task_to_dict(known, code=True):
+                    return task, None
+        if not self._parts or any(part.met for part in self._parts):
+            return other, None
+        near = self._parts[self._nearest].motion  # it is worth more around this one than anywhere else
+        return self._plan.nearer(near.horizon), near
 
     def _choose(self, part: Part) -> None:
         if self._state.chosen is None:

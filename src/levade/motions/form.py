@@ -110,6 +110,13 @@ class EndsForm(_Form):
     settle: Number
 
 
+class SlewForm(_Form):
+    """See `levade.policies.Slew`."""
+
+    speed: list[Positive | None]
+    start: list[Number]
+
+
 class PolicyForm(_Form):
     """See `levade.policies.policy_to_dict`."""
 
@@ -122,6 +129,7 @@ class PolicyForm(_Form):
     hold_steps: Annotated[int, Field(ge=0, le=10_000_000)]
     ends: EndsForm | None
     within: Annotated[list[list[Number | None]], Field(min_length=2, max_length=2)] | None = None
+    slew: SlewForm | None = None
 
 
 class FeedbackForm(_Form):

@@ -85,7 +85,7 @@ class ReferenceCurve:
             return recorded
         rows, step = recorded.horizon_steps, recorded.timestep / parts
         hold_steps = (recorded.steps - rows) * parts
-        if self.policy is not None:
+        if self.policy is not None and self.policy.slew is None:  # a slower reference is that of the motion's own rows
             # whole steps of the file: a horizon that is rounded to other steps would be another one
             horizon = rows * recorded.timestep
             fine = replace(self.policy, timestep=step, horizon=horizon, hold_steps=hold_steps)

@@ -44,7 +44,8 @@ class Policy:
     ends: where every reference comes from and goes to; None leaves that to the weights.
     within: lower and upper ends [rad] of each joint, between which every reference stays, at rest where it would go beyond;
         infinite where a joint has none. None lets references go anywhere.
-    slew: how fast references may be. None lets them be as fast as the weights say.
+    slew: how fast references may be. None lets them be as fast as the weights say. One that starts beyond the ends of
+        `within` is back between them as soon as this lets it; so are followers that start elsewhere than their leaders.
     Raises LevadeError if the groups do not cover every joint once, or a duration is not positive.
     """
 
@@ -133,7 +134,7 @@ class Policy:
         return JointReference(position, velocity, self.timestep, rows)
 
     def at(self, weights: Array, time: Array) -> tuple[Array, Array]:
-        """Evaluate eq. 3 at any instants.
+        """Evaluate eq. 3 at any instants; with `slew`, straight between the rows of `reference`.
 
         Args:
             weights: Policy weights [rad], shape (n, size).

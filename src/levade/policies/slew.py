@@ -45,8 +45,8 @@ class Slew:
             timestep: Time step [s].
         """
         start, step = np.array(self.start), np.array(self.speed) * timestep
-        fastest = np.abs(np.diff(position, axis=1, prepend=np.broadcast_to(start, position[:, :1].shape))).max(axis=1)
-        trials, joints = np.nonzero(fastest > step + _ROUNDING)
+        furthest = np.abs(np.diff(position, axis=1, prepend=np.broadcast_to(start, position[:, :1].shape))).max(axis=1)
+        trials, joints = np.nonzero(furthest > step + _ROUNDING)
         if not len(trials):
             return
         asked = position[trials, :, joints]
@@ -56,9 +56,9 @@ class Slew:
         limited = np.clip(limited, asked[:, -1:] - left, asked[:, -1:] + left)
         limited = np.clip(limited, first - ramp, first + ramp)
         rate = np.diff(limited, axis=1, prepend=first) / timestep
-        same = np.abs(limited - asked) <= _ROUNDING
+        same, fastest = np.abs(limited - asked) <= _ROUNDING, np.array(self.speed)[joints, None]
         position[trials, :, joints] = np.where(same, asked, limited)
-        velocity[trials, :, joints] = np.where(same, velocity[trials, :, joints], rate)
+        velocity[trials, :, joints] = np.clip(np.where(same, velocity[trials, :, joints], rate), -fastest, fastest)
 
 
 def _above(x: Array, ramp: Array) -> Array:
