@@ -161,7 +161,7 @@ def summary(rows: list[dict[str, Any]]) -> str:
 def as_table(rows: list[dict[str, Any]]) -> str:
     """Markdown: a line for each task and robot, certificates of the arms beside one another."""
     lines = [
-        "| task | robot | seed | arm | certificate | holds on | T [s] | trials | minutes | CPU [s] | nearest limit |",
+        "| task | robot | seed | arm | certificate | holds on | T [s] | trials | time [s] | CPU [s] | nearest limit |",
         "|---|---|--:|---|---|--:|--:|--:|--:|--:|---|",
     ]
     for row in sorted(rows, key=lambda row: (row["robot"], row["task"], row["seed"], ARMS.index(row["arm"]))):
@@ -170,8 +170,9 @@ def as_table(rows: list[dict[str, Any]]) -> str:
             lines.append(f"{lead} refused | | | | | | {row['refused'].split(':', 1)[-1].strip()} |")
             continue
         verdict = "**passes**" if row["passed"] else "fails " + ", ".join(row["failed"])
-        minutes = row.get("minutes", "")
-        numbers = f"{row['share']:.1%} | {row['horizon']:.2f} | {row['trials']} | {minutes} | {row['cpu']:.0f}"
+        numbers = (
+            f"{row['share']:.1%} | {row['horizon']:.2f} | {row['trials']} | {row['seconds']:.0f} | {row['cpu']:.0f}"
+        )
         lines.append(f"{lead} {verdict}{' (feedback)' * row['feedback']} | {numbers} | {row['binding']} |")
     return "\n".join(lines)
 

@@ -62,7 +62,7 @@ def test_no_reference_is_faster_and_those_without_a_bound_are_as_they_were(weigh
 def test_it_is_the_nearest_curve_that_keeps_to_the_speed() -> None:
     """Half the most by which any two instants are too far apart is what every such curve has to miss, and it misses no more."""
     random, rest = np.random.default_rng(3), 60
-    for _ in range(20):
+    for _ in range(5):
         middle = np.cumsum(random.normal(size=40)) * 0.05
         asked = np.concatenate([np.zeros(rest), middle, np.full(rest, middle[-1])])  # so that the ends do not count
         position = asked[None, :, None].copy()

@@ -60,6 +60,7 @@ def test_lines_are_those_of_the_sources(name: str, joint: str, speed: float, tor
     assert line(name, joint, speed) == pytest.approx(torque, rel=0.01, abs=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "torque", "velocity"),
     [

@@ -274,7 +274,8 @@ def _other(search: Search) -> Search:
 
 
 def _smooth(policy: PolicyChoice) -> PolicyChoice:
-    if policy.initial == "interpolate":  # it begins where the joints are; what weak servos were told is a blow to strong ones
+    # a straight line begins where the joints are; what weak servos were told last is a blow to strong ones
+    if policy.initial == "interpolate":
         policy = replace(policy, depart=0.0)
     policy = replace(policy, room=_REFERENCES_ROOM if policy.room is None else policy.room)
     if policy.kernels <= _KERNELS and policy.time == "normalised":
