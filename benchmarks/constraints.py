@@ -146,7 +146,7 @@ def table(rows: list[dict]) -> str:
         "| way | " + " | ".join(f"{task}: trials of each seed, median" for task in tasks) + " |",
         "|---|" + "---|" * len(tasks),
     ]
-    for arm in ARMS:
+    for arm in (arm for arm in ARMS if any(row["arm"] == arm for row in rows)):
         cells = []
         for task in tasks:
             mine = sorted(
