@@ -33,38 +33,21 @@ UNKNOWN = 1e3
 """Violation of a trial that broke down."""
 
 
-class _WithLimits:
+class _WithLimits(CMAES):
     """CMA-ES that is told of limits beside the cost; the last columns of the errors are theirs, 1 at the limit."""
 
     SETTINGS = ("limits",)
 
     def __init__(self, space: SearchSpace, *, seed: int | tuple[int, ...], limits: int) -> None:
-        self._cma, self._limits = CMAES(space, seed=seed), int(limits)
-
-    @property
-    def population(self) -> int:
-        return self._cma.population
-
-    @property
-    def step(self) -> float:
-        return self._cma.step
-
-    @property
-    def mean(self) -> Array:
-        return self._cma.mean
-
-    def ask(self) -> Array:
-        return self._cma.ask()
-
-    def scale_step(self, factor: float) -> None:
-        self._cma.scale_step(factor)
+        super().__init__(space, seed=seed)
+        self._limits = int(limits)
 
     def forget_costs(self, changed: object) -> None:
-        pass
+        """Nothing is remembered."""
 
     def tell(self, cost: Array, errors: Array) -> None:
         beyond = np.nan_to_num(errors[:, -self._limits :], nan=UNKNOWN) - 1.0  # at most 0 within the limit
-        self._cma.tell(self.with_limits(cost, beyond))
+        super().tell(self.with_limits(cost, beyond))
 
     def with_limits(self, cost: Array, beyond: Array) -> Array:
         raise NotImplementedError
