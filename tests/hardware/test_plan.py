@@ -42,6 +42,8 @@ def test_every_nominal_task_has_one(name: str, robot: Robot) -> None:
             assert (one.tolerance or 0.0) >= (criterion.tolerance or 0.0)
     assert set(plan.limits) == {"angle_margin", "speed_margin", "torque_speed_margin", "self_distance"}
     assert robust.horizon == 0.5
+    assert robust.policy == within.policy
+    assert plan.closed_loop(0.5, task.policy).policy == task.policy  # of the motion that it is around
     assert robust.robust is not None
     assert robust.robust.success == plan.goal
     assert isinstance(within.horizon, HorizonRange)
@@ -49,7 +51,7 @@ def test_every_nominal_task_has_one(name: str, robot: Robot) -> None:
     assert (finer.success, finer.costs, finer.horizon) == (robust.success, robust.costs, robust.horizon)
     assert finer.robust == replace(robust.robust, validation=120)
     assert plan.finer(0.5, feedback=True).feedback == plan.closed_loop(0.5).feedback
-    nearer = plan.nearer(99.0)
+    nearer = plan.nearer(0, 99.0)
     assert nearer.horizon == replace(within.horizon, initial=within.horizon.maximum)
     assert (nearer.success, set(nearer.costs)) == (within.success, set(within.costs))
     if not isinstance(task.horizon, HorizonRange):
@@ -181,11 +183,24 @@ def test_references_stay_within_the_joints_ranges(robot: Robot) -> None:
     assert (loose.reference(weights[:, : loose.size]).position < robot.limits.lower).any()
 
 
-def test_the_third_search_within_limits_is_another(robot: Robot) -> None:
+def test_the_searches_within_limits_differ(robot: Robot) -> None:
     first, second, third = (Plan.of(load_task("rearing"), robot).within_limits(number) for number in range(3))
-    assert first == second != third
-    assert (first.search.settings, third.search.settings) == ({}, {"aimed": 0})
-    assert (third.costs, third.success) == (first.costs, first.success)
+    assert [one.search.settings for one in (first, second, third)] == [{}, {"aimed": 0}, {"aimed": 0}]
+    assert first.success == second.success == third.success
+    assert (third.costs, third.policy) == (first.costs, first.policy)
+    assert {name for name in first.costs if first.costs[name] != second.costs[name]} == {"margins"}
     task = load_task("self-righting")
     settings = [Plan.of(task, robot).within_limits(number).search.settings for number in range(3)]
-    assert settings == [{"aimed": 0}, {"aimed": 0}, {}]
+    assert settings == [{"aimed": 0}, {}, {}]
+
+
+def test_the_second_search_has_narrow_kernels_and_leaves_the_start_slowly(robot: Robot) -> None:
+    jump, rearing, slow = (load_task(name) for name in ("squat-jump", "rearing", "rearing-slow"))
+    first, second = (Plan.of(jump, robot).within_limits(number).policy for number in range(2))
+    assert (second.kernels, second.variance) == (jump.policy.kernels, jump.policy.variance)
+    assert (first.kernels, second.room) == (6, first.room)
+    assert (first.depart, second.depart) == (0.1, 0.3)
+    assert Plan.of(rearing, robot).within_limits(1).policy.kernels == 10  # of 16
+    departs = [Plan.of(task, robot).within_limits(1).policy.depart for task in (rearing, slow)]
+    assert departs == [rearing.policy.depart, slow.policy.depart]
+    assert Plan.of(jump, robot).nearer(1, 1.5).policy == second

@@ -52,6 +52,14 @@ _KERNELS, _VARIANCE = 6, 0.02
 rearing met every limit with one of three seeds with its own sixteen kernels, and with three of four with five wide ones.
 """
 
+RUN_UP = 1
+"""Number of the search within limits that begins at a rough motion."""
+
+_NARROW, _DEPART, _RUN_UP_MARGINS_WEIGHT = (10, 0.004), 0.3, 2.0
+"""There: the most kernels and their variance if the task has more, the least share of the horizon in which references leave the
+start, and the weight of margins. With the start left within a tenth, HyQ2Max jumps at once, from standing, and its knees are too
+slow for that; from a crouch they are not."""
+
 _DURATION_WEIGHT = 0.5
 """Of a duration as long as the task says: what is quick leaves a robot that differs from the model less time to fall."""
 
@@ -129,10 +137,14 @@ class Plan:
         """The task on the nominal model, with limits as criteria, and its duration free up to `LONGEST`.
 
         Args:
-            number: Which of the searches for it, from 0. The third one aims no candidates where the task's own search does, and
-                the other way round: aimed ones find short motions sooner, and are in the way where one takes long to find.
+            number: Which of the searches for it, from 0. The second one is for what takes a run-up: narrow kernels, the start left
+                slowly, limits that weigh more; it begins at a rough motion (`levade.hardware.starts`). It and the third one
+                aim no candidates where the task's own search does, and the other way round: aimed ones find short motions
+                sooner, and are in the way where one takes long to find.
         """
-        horizon, demanding = self.task.horizon, self._demanding()
+        run_up = number == RUN_UP
+        horizon = self.task.horizon
+        demanding = self._demanding(_RUN_UP_MARGINS_WEIGHT if run_up else _MARGINS_WEIGHT)
         if not isinstance(horizon, HorizonRange):
             horizon = HorizonRange(horizon, LONGEST * horizon, _BEGIN * horizon)
         costs = {"duration": Cost(Duration(), _DURATION_WEIGHT / self.task.usual_horizon), **demanding.costs}
@@ -140,21 +152,22 @@ class Plan:
             demanding,
             costs=costs,
             horizon=horizon,
+            policy=_with_run_up(self.task.policy, demanding.policy) if run_up else demanding.policy,
             stages=(Stage("within limits", hold=self._held),),
             search=replace(
-                _other(demanding.search) if number == 2 else demanding.search,
+                _other(demanding.search) if number else demanding.search,
                 trials=6000,
-                restart=1200,
-                patience=600,
+                restart=None if run_up else 1200,
+                patience=None if run_up else 600,
                 polish=240,
                 modes=None,
                 smoothness=_SMOOTHNESS,
             ),
         )
 
-    def nearer(self, horizon: float) -> Task:
-        """As `within_limits`, around a motion that nearly does it, of this duration [s]."""
-        task = self.within_limits()
+    def nearer(self, number: int, horizon: float) -> Task:
+        """As `within_limits`, around a motion of that search that nearly is, of this duration [s]."""
+        task = self.within_limits(number)
         free = task.horizon
         assert isinstance(free, HorizonRange)
         return replace(
@@ -164,12 +177,18 @@ class Plan:
             search=replace(task.search, restart=None, patience=None),
         )
 
-    def robust(self, horizon: float) -> Task:
-        """The task on perturbed models, at one duration [s]: they reach the goal, the nominal model keeps the limits too."""
-        search = self.task.search
+    def robust(self, horizon: float, policy: PolicyChoice | None = None) -> Task:
+        """The task on perturbed models: they reach the goal, the nominal model keeps the limits, too.
+
+        Args:
+            horizon: Duration [s].
+            policy: That of the motion to begin around. Defaults to that of the first search within limits.
+        """
+        search, demanding = self.task.search, self._demanding(_ROBUST_MARGINS_WEIGHT)
         return replace(
-            self._demanding(_ROBUST_MARGINS_WEIGHT),
+            demanding,
             horizon=horizon,
+            policy=policy or demanding.policy,
             stages=(Stage("robust", step=0.3, hold=self._held),),
             search=Search(
                 optimizer="cma",
@@ -191,13 +210,13 @@ class Plan:
             ),
         )
 
-    def closed_loop(self, horizon: float) -> Task:
+    def closed_loop(self, horizon: float, policy: PolicyChoice | None = None) -> Task:
         """The same, with feedback while perturbed models are simulated."""
-        return replace(self.robust(horizon), feedback=Regulation())
+        return replace(self.robust(horizon, policy), feedback=Regulation())
 
-    def finer(self, horizon: float, *, feedback: bool) -> Task:
+    def finer(self, horizon: float, policy: PolicyChoice | None = None, *, feedback: bool) -> Task:
         """As one of these, in small steps and judged on more models: what tells 93 % from 97 %."""
-        task = self.closed_loop(horizon) if feedback else self.robust(horizon)
+        task = (self.closed_loop if feedback else self.robust)(horizon, policy)
         assert task.robust is not None
         return replace(
             task,
@@ -271,6 +290,15 @@ def _other(search: Search) -> Search:
     aimed = search.settings.get("aimed", 1)
     settings = {name: value for name, value in search.settings.items() if name != "aimed"}
     return replace(search, settings={**settings, "aimed": 0} if aimed else settings)
+
+
+def _with_run_up(own: PolicyChoice, smooth: PolicyChoice) -> PolicyChoice:
+    """Narrow kernels, for quick moves in the middle of a long motion; what leaves the start soon is a quick move, too."""
+    kernels, variance = _NARROW
+    if own.time == "normalised" and own.kernels <= kernels:
+        kernels, variance = own.kernels, own.variance
+    depart = max(smooth.depart, _DEPART) if smooth.depart else 0.0
+    return replace(smooth, kernels=kernels, variance=variance, time="normalised", depart=depart)
 
 
 def _smooth(policy: PolicyChoice) -> PolicyChoice:

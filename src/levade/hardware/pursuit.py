@@ -30,7 +30,8 @@ from levade.checks.record import CERTIFICATE
 from levade.document import read_yaml
 from levade.errors import LevadeError, Remedy
 from levade.hardware.page import write_certificate
-from levade.hardware.plan import Plan
+from levade.hardware.plan import RUN_UP, Plan
+from levade.hardware.starts import rough_start
 from levade.hardware.state import ASKED, CLOSED, FINER, LIMITS, PAGE, ROBUST, State, check_same, discard
 from levade.locking import locked
 from levade.motions import Motion
@@ -49,6 +50,12 @@ _ON_LIMITS = (0.4, 0.75, 1.0)
 
 _ENOUGH = 0.4
 """Share of the time after which no further one is begun once one has."""
+
+_ON_ROBUST = 0.7
+"""Share of the time after which a robust search ends that has not met its demands, where one with feedback can follow."""
+
+_BALANCED = 0.25
+"""Share of perturbed robots, below which no motion is robust by itself: one that falls over needs feedback, and at once."""
 
 _MOST = 1000
 """Demands that a motion without a certificate counts as failing: more than there are."""
@@ -262,16 +269,22 @@ class _Pursuit:
         if candidates and not self._stopped:
             around = max(candidates, key=lambda part: (_sure(part), _share(part)))
             self._choose(around)
+            closing = plan.can_close_the_loop
             for name, make in ((ROBUST, plan.robust), (CLOSED, plan.closed_loop)):
-                if _sure(around) or (name == CLOSED and not plan.can_close_the_loop):
+                if _sure(around) or (name == CLOSED and not closing):
                     break
-                around = self._search(name, make(around.motion.horizon), around.motion, seed=self._seed)
+                if name == ROBUST and closing and _share(around) < _BALANCED:
+                    continue
+                self._share = _ON_ROBUST if name == ROBUST and closing else 1.0
+                near = around.motion
+                around = self._search(name, make(near.horizon, near.task.policy), near, seed=self._seed)
                 if self._stopped or not around.met:
                     break
-            best = self._best
+            self._share, best = 1.0, self._best
             if not self._stopped and not _sure(best) and _nearly(best):
-                task = plan.finer(best.motion.horizon, feedback=best.motion.stabiliser is not None)
-                self._search(FINER, task, best.motion, seed=self._seed + _APART)
+                near = best.motion
+                task = plan.finer(near.horizon, near.task.policy, feedback=near.stabiliser is not None)
+                self._search(FINER, task, near, seed=self._seed + _APART)
         if self._best.certificate is None:
             self._certify_best()
         return Pursued(plan, tuple(self._parts), self._best, self._directory, self._seed, self._stopped)
@@ -282,13 +295,14 @@ class _Pursuit:
         directory = self._directory / LIMITS[-1]
         if (directory / CHECKPOINT).is_file():
             known, _ = read_run(directory)
-            for task in (other, self._plan.nearer(known.usual_horizon)):
+            nearer = (self._plan.nearer(number, known.usual_horizon) for number in range(len(LIMITS) - 1))
+            for task in (other, *nearer):
                 if task_to_dict(task, code=True) == task_to_dict(known, code=True):
                     return task, None
         if not self._parts or any(part.met for part in self._parts):
             return other, None
-        near = self._parts[self._nearest].motion  # it is worth more around this one than anywhere else
-        return self._plan.nearer(near.horizon), near
+        near = self._parts[self._nearest]  # it is worth more around this one than anywhere else
+        return self._plan.nearer(LIMITS.index(near.name), near.motion.horizon), near.motion
 
     def _choose(self, part: Part) -> None:
         if self._state.chosen is None:
@@ -322,8 +336,14 @@ class _Pursuit:
 
     @property
     def _nearest(self) -> int:
-        """Which of the parts came nearest to the goal within the limits."""
-        return min(range(len(self._parts)), key=lambda i: self._parts[i].motion.result.cost)
+        """Which of the parts came nearest to the goal within the limits, by the costs of the first search."""
+        weights = {name: cost.weight for name, cost in self._plan.within_limits().costs.items()}
+
+        def cost(i: int) -> float:
+            terms = self._parts[i].motion.result.cost_terms
+            return sum(weight * terms.get(name, 0.0) for name, weight in weights.items())
+
+        return min(range(len(self._parts)), key=cost)
 
     def _certify_best(self) -> None:
         """Certify the motion that comes nearest, where none is within the limits."""
@@ -360,6 +380,8 @@ class _Pursuit:
                 self._told(name, task)
                 return resume(directory, objective=objective, observe=lambda one: self._watch(name, one))
         guess = None if around is None else initial_guess(objective.policy, around)
+        if guess is None and name == LIMITS[RUN_UP]:
+            guess = rough_start(objective, seed=seed)
         self._told(name, task)
         return run(
             objective,

@@ -1,0 +1,83 @@
+"""Where a search within limits may begin: at the best of many rough motions through postures of the legs.
+
+    guess = rough_start(objective, seed=0)      # an InitialGuess: the search tries nothing of it again but the best
+
+A search around standing finds what is near to standing. A jump begins with a crouch, which costs before it gains: no small step
+leads there. So the legs are shortened and stretched at random, to each kernel's own length, over durations at random.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from levade.arrays import Array
+from levade.policies import FreePolicy, JointPolicy, Policy
+from levade.robots import Robot
+from levade.search import Objective
+from levade.search.evaluation import Trials
+from levade.search.initial import AROUND, InitialGuess
+
+ROUGH = 120
+"""Rough motions to choose from; half of them are drawn as a search from nothing draws its first candidates."""
+
+_SPREAD = 0.1
+"""[rad] Standard deviation of what is added to postures."""
+
+_TAG = 1_919_907_432
+"""Keeps its random numbers apart from those of the search."""
+
+
+def rough_start(objective: Objective, *, seed: int) -> InitialGuess:
+    """Try rough motions and return the best.
+
+    Args:
+        objective: Of the search that is to begin there.
+        seed: Seed of that search.
+
+    Returns:
+        The best one's weights, shape (1, d).
+    """
+    generator = np.random.default_rng((seed, _TAG))
+    space = objective.space
+    drawn = space.candidates(space.step * generator.standard_normal((ROUGH // 2, space.dimensions)))
+    through = through_postures(objective.policy, objective.simulation.robot, ROUGH - ROUGH // 2, generator)
+    tried = drawn if through is None else np.concatenate([through, drawn])
+    evaluation = objective.evaluate(Trials(tried, hold_steps=0, seed=seed))
+    cost = evaluation.cost({name: cost.weight for name, cost in objective.task.costs.items()})
+    return InitialGuess(tried[[int(np.argmin(cost))]], step=AROUND)
+
+
+def through_postures(policy: JointPolicy, robot: Robot, n: int, generator: np.random.Generator) -> Array | None:
+    """Decisions of motions whose legs are as long at each kernel as chance says, between crouched and stretched.
+
+    In half of them all legs that have weights of their own are equally long.
+
+    Args:
+        policy: What turns decisions into references.
+        robot: Its robot.
+        n: How many.
+        generator: Of random numbers.
+
+    Returns:
+        Decisions, shape (n, d). None if the policy has no kernels or the robot no such postures.
+    """
+    inner = policy.policy if isinstance(policy, FreePolicy) else policy
+    if not isinstance(inner, Policy) or not {"crouched", "stretched"} <= set(robot.postures):
+        return None
+    crouched, neutral, stretched = (inner.project(robot.posture(name)) for name in ("crouched", "neutral", "stretched"))
+    group = np.repeat(np.arange(len(inner.groups)), [len(one.leader) for one in inner.groups])
+    kernels = inner.kernels.kernels
+    length = generator.uniform(-1.0, 1.0, (n, len(inner.groups), kernels))
+    length[: n // 2] = length[: n // 2, :1]
+    extended = length[:, group]  # (n, independent joints, kernels), from -1, crouched, over 0, neutral, to 1, stretched
+    towards = np.where(extended < 0, (crouched - neutral)[:, None], (stretched - neutral)[:, None])
+    weights = neutral[:, None] + np.abs(extended) * towards + _SPREAD * generator.standard_normal(extended.shape)
+    flat = weights.reshape(n, inner.size)
+    if not isinstance(policy, FreePolicy):
+        return flat
+    shortest, longest = policy.bounds
+    steps = np.exp(generator.uniform(math.log(shortest), math.log(longest), n))
+    steps = np.clip(np.rint(steps), shortest, longest).astype(int)
+    return np.concatenate([policy.decision(row[None], steps=int(k)) for row, k in zip(flat, steps, strict=True)])
