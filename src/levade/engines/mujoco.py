@@ -216,7 +216,9 @@ def _in_parts(
         now, broken = simulate(batch, batch.state[:going].copy(), ctrl[:going, part], fields)
         before = np.flatnonzero(diverged[:going])
         for name, values in now.items():
-            whole = out.setdefault(name, np.zeros((n, ctrl.shape[1], *values.shape[2:]), values.dtype))
+            if name not in out:
+                out[name] = np.zeros((n, ctrl.shape[1], *values.shape[2:]), values.dtype)
+            whole = out[name]
             whole[:going, part] = values
             whole[before, part] = whole[before, part.start - 1][:, None]
         diverged[:going] |= broken
