@@ -56,9 +56,9 @@ RUN_UP = 1
 """Number of the search within limits that begins at a rough motion."""
 
 _NARROW, _DEPART, _RUN_UP_MARGINS_WEIGHT = (10, 0.004), 0.3, 2.0
-"""There: the most kernels and their variance if the task has more, the least share of the horizon in which references leave the
-start, and the weight of margins. With the start left within a tenth, HyQ2Max jumps at once, from standing, and its knees are too
-slow for that; from a crouch they are not."""
+"""There: the most kernels and their variance if the task has more, the least share of the horizon in which references leave
+the start, and the weight of margins. With the start left within a tenth, HyQ2Max jumps at once, from standing, and its knees
+are too slow for that; from a crouch they are not."""
 
 _DURATION_WEIGHT = 0.5
 """Of a duration as long as the task says: what is quick leaves a robot that differs from the model less time to fall."""
@@ -137,10 +137,10 @@ class Plan:
         """The task on the nominal model, with limits as criteria, and its duration free up to `LONGEST`.
 
         Args:
-            number: Which of the searches for it, from 0. The second one is for what takes a run-up: narrow kernels, the start left
-                slowly, limits that weigh more; it begins at a rough motion (`levade.hardware.starts`). It and the third one
-                aim no candidates where the task's own search does, and the other way round: aimed ones find short motions
-                sooner, and are in the way where one takes long to find.
+            number: Which of the searches for it, from 0. The second one is for what takes a run-up: narrow kernels, the start
+                left slowly, limits that weigh more; it begins at a rough motion (`levade.hardware.starts`). It and the third
+                one aim no candidates where the task's own search does, and the other way round: aimed ones find short
+                motions sooner, and are in the way where one takes long to find.
         """
         run_up = number == RUN_UP
         horizon = self.task.horizon

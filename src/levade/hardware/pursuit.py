@@ -12,9 +12,10 @@ DIR/hardware.json       what was asked for, and which search is gone on from: by
 DIR/limits-1, ...       the searches, each a run of its own (`levade.search.run`)
 
 First motions of the nominal model within its limits, several, since motions that look alike there differ widely on other
-robots; the last search for one is around the nearest, if none is within them. Around the one that holds on most robots a robust
-search, and around what that finds one with feedback. What then holds on nearly enough robots, or on so few more that other ones
-could say otherwise, is searched around once more, finely. A search that is needed no more is not made.
+robots: the second search begins at the best of many rough motions, and the last is around the nearest motion, if none is within
+the limits. Around the one that holds on most robots a robust search, and around what that finds one with feedback; at once,
+where open loop holds on few. What then holds on nearly enough robots, or on so few more that other ones could say otherwise, is
+searched around once more, finely. A search that is needed no more is not made.
 """
 
 from __future__ import annotations
@@ -45,7 +46,7 @@ from levade.search.storage import storing
 from levade.tasks import Demands, Task, task_to_dict, task_to_yaml
 from levade.writing import write_text
 
-_ON_LIMITS = (0.4, 0.75, 1.0)
+_ON_LIMITS = (0.25, 0.6, 1.0)
 """Shares of the time after which searches within limits, in order, end if they have not met them."""
 
 _ENOUGH = 0.4
@@ -56,6 +57,9 @@ _ON_ROBUST = 0.7
 
 _BALANCED = 0.25
 """Share of perturbed robots, below which no motion is robust by itself: one that falls over needs feedback, and at once."""
+
+_FEW = 100
+"""Perturbed runs that a certificate begins with: it is over with these if they leave no hope for the share that is demanded."""
 
 _MOST = 1000
 """Demands that a motion without a certificate counts as failing: more than there are."""
@@ -174,7 +178,7 @@ def pursue(
         minutes: Time for all of it; the searches end with the best so far, and a later call goes on. None gives all the time
             that their trials take.
         demands: What the certificate asks for. Defaults to what the task says, or else to `levade.tasks.Demands`.
-        runs: Perturbed runs of each certificate.
+        runs: Perturbed runs of each certificate, at most: one is over after `_FEW` that leave no hope.
         replace: Whether to replace what the directory holds, and begin from nothing.
         begin: See `Begin`.
         observe: See `Observe`.
@@ -355,21 +359,28 @@ class _Pursuit:
     def _certified(self, part: Part) -> Part:
         """The part with its certificate; written, if it is the best."""
         began = time.monotonic()
-        certificate = check(
-            part.motion,
-            runs=self._runs,
-            seed=self._seed,
-            perturbation=self._plan.perturb,
-            demands=self._demands,
-            threads=self._threads,
-            stopping=self._stopping,
-        )
+        certificate = self._check(part.motion, min(_FEW, self._runs))
+        share = self._demands.share
+        hope = share is None or certificate.perturbed.high >= share
+        if hope and not certificate.interrupted and certificate.perturbed.runs < self._runs:
+            certificate = self._check(part.motion, self._runs)
         if certificate.interrupted:
             self._stopped = "interrupted"
         part = replace(part, certificate=certificate, seconds=part.seconds + time.monotonic() - began)
         if part.rank <= min((one.rank for one in self._parts), default=part.rank) and not self._better_there(part):
             self._keep(part, certificate)
         return part
+
+    def _check(self, motion: Motion, runs: int) -> Certificate:
+        return check(
+            motion,
+            runs=runs,
+            seed=self._seed,
+            perturbation=self._plan.perturb,
+            demands=self._demands,
+            threads=self._threads,
+            stopping=self._stopping,
+        )
 
     def _run(self, name: str, task: Task, around: Motion | None, seed: int) -> Outcome:
         directory = self._directory / name
