@@ -29,7 +29,7 @@ from levade.costs import (
     TorqueLimitExcess,
 )
 from levade.costs.success import QUANTITIES
-from levade.document import CONTROL, build, kind_of, parse_yaml, read_text, read_yaml
+from levade.document import CONTROL, build, kind_of, parse_yaml, read_text
 from levade.errors import LevadeError, did_you_mean
 from levade.optimizers import ALIASES, canonical
 from levade.robots import Dimensions, Robot, dimensions, load_robot
@@ -41,7 +41,7 @@ from levade.tasks.code import (
     measure_to_dict,
     missing_code,
 )
-from levade.tasks.files import find, with_folder, with_goal, with_heights
+from levade.tasks.files import find, read_task, with_goal, with_heights
 from levade.tasks.parts import Cost, RobotChoice, Search
 from levade.tasks.task import Task
 from levade.tasks.units import is_number, measure_of, to_si
@@ -99,7 +99,7 @@ def load_task(name_or_path: str | Path, *, robot: str | Robot | None = None, cha
     """
     made, name = (robot, robot.name) if isinstance(robot, Robot) else (None, robot)
     path = find(str(name_or_path))
-    content = with_folder(read_yaml(path), path.parent)
+    content = read_task(path)
     with_robot = [change for change in changes if change.partition("=")[0].startswith("robot.")]
     if name is not None or with_robot:  # first, as numbers in units of the robot are those of this one
         content["robot"] = _other_robot(content.get("robot"), name, with_robot, where=str(path))

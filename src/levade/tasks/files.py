@@ -1,4 +1,4 @@
-"""Files of tasks: the built-in ones, and what a task file names, a terrain or what to end like.
+"""Files of tasks: the built-in ones, and what a task file names: a task to extend, a terrain, or what to end like.
 
 A path in a task file is relative to the task file. A run's ``task.yaml`` is complete: it has heights and angles, and no paths.
 """
@@ -18,6 +18,12 @@ from levade.errors import LevadeError, did_you_mean, located
 from levade.scenes import read_heights
 
 _BUILT_IN = Path(__file__).parent / "data"
+
+EXTENDS = "extends"
+"""Key of a task file that names another task, which has what this one leaves out."""
+
+MERGED = ("scene", "physics", "policy", "costs", "success", "search", "robust", "feedback")
+"""Tables of a task file of which one that extends another names only what it changes."""
 
 
 def builtin_tasks() -> dict[str, Path]:
@@ -44,7 +50,7 @@ def asks_for_hardware(name_or_path: str, changes: Sequence[str]) -> bool:
     Raises:
         LevadeError: If its file cannot be read.
     """
-    asked = None if name_or_path in builtin_tasks() else read_yaml(find(name_or_path)).get("hardware")
+    asked = None if name_or_path in builtin_tasks() else read_task(find(name_or_path)).get("hardware")
     for change in changes:
         name, _, text = change.partition("=")
         if name == "hardware":
@@ -52,12 +58,58 @@ def asks_for_hardware(name_or_path: str, changes: Sequence[str]) -> bool:
     return asked not in (None, False)
 
 
+def read_task(path: Path, *, seen: tuple[Path, ...] = ()) -> dict[str, Any]:
+    """Read the tables of a task file, filled up from those of the task that it extends.
+
+    A table changes the keys that it names, and a key that is null in ``costs`` or ``success`` is taken out of them. All else, a
+    whole cost, criterion or start among them, replaces what the other task has.
+
+    Args:
+        path: The file. Paths in it are relative to it; those in the result are seen from here.
+        seen: The files that extend it, for a clear message where they go in a circle.
+
+    Raises:
+        LevadeError: If a file cannot be read, or the task extends itself.
+    """
+    content = _with_folder(read_yaml(path), path.parent)
+    if EXTENDS not in content:
+        return content
+    named = content.pop(EXTENDS)
+    with located(f"{path}: {EXTENDS}: "):
+        if not isinstance(named, str):
+            raise LevadeError(f"should be the name or the file of a task, is {kind_of(named)}")
+        other = find(str(path.parent / named) if _is_beside(path.parent, named) else named)
+    seen = (*seen, path.resolve())
+    if other.resolve() in seen:
+        names = " extends ".join(one.name for one in (*seen, other))
+        raise LevadeError(f"{path}: {EXTENDS}: {names}, in a circle; begin from a task of its own")
+    if not isinstance(content.get("name"), str):
+        raise LevadeError(f"{path}: name: is missing; a task that extends {named} has a name of its own")
+    return _extended(read_task(other, seen=seen), content)
+
+
+def _extended(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
+    """The tables of a task with another one's changes."""
+    content = {**base, **changes}
+    for name in MERGED:
+        ours, theirs = changes.get(name), base.get(name)
+        if not (isinstance(ours, Mapping) and isinstance(theirs, Mapping)):
+            continue
+        table = {**{key: value for key, value in theirs.items() if key not in ours}, **ours}
+        if name == "search" and "optimizer" in ours and "settings" not in ours:
+            table.pop("settings", None)  # they are the other optimizer's
+        if name in ("costs", "success"):
+            table = {key: value for key, value in table.items() if value is not None}
+        content[name] = table
+    return content
+
+
 def _is_path(text: str) -> bool:
     """Whether a text is the path of a file, there or not, and no name of a built-in task."""
     return Path(text).suffix in (".yaml", ".yml", ".npz") or "/" in text or "\\" in text
 
 
-def with_folder(content: dict[str, Any], folder: Path) -> dict[str, Any]:
+def _with_folder(content: dict[str, Any], folder: Path) -> dict[str, Any]:
     """The tables of a task file in a folder, the paths in them as seen from here."""
     content = dict(content)
     for part, key, name in (("scene", "terrain", "file"), ("policy", "goal", "like")):
@@ -98,7 +150,7 @@ def with_goal(policy: Any, where: str) -> Any:
 
 def _start_of_task(name_or_path: str) -> Any:
     """The posture in which a task starts; None if it does not start standing."""
-    start = read_yaml(find(name_or_path)).get("start", {"settled": {}})
+    start = read_task(find(name_or_path)).get("start", {"settled": {}})
     settled = start.get("settled", {}) if isinstance(start, Mapping) and len(start) < 2 else None
     if not isinstance(settled, Mapping) or (start and "settled" not in start):
         return None

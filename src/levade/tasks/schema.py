@@ -19,6 +19,7 @@ from levade.costs import Criterion
 from levade.costs.success import QUANTITIES
 from levade.engines import ENGINES
 from levade.tasks.document import TERMS
+from levade.tasks.files import EXTENDS
 from levade.tasks.parts import HorizonRange
 from levade.tasks.task import Task
 from levade.tasks.units import PLURALS, ROBOT_UNITS, UNITS, measured
@@ -45,7 +46,19 @@ def task_schema() -> Schema:
     engine["enum"] = list(ENGINES)
     task["properties"]["hardware"] = {"anyOf": [{"type": "boolean"}, task["properties"]["hardware"]]}
     definitions["StartChoice"] |= {"minProperties": 1, "maxProperties": 1}
+    _extending(task)
     return {"$schema": DIALECT, "title": "levade task", **task, "$defs": definitions}
+
+
+def _extending(task: Schema) -> None:
+    """Let a task that extends another one leave out what it does not change, and take a cost or a criterion out by null."""
+    task["properties"][EXTENDS] = {"type": "string", "description": "A task, or its file, that has what is left out."}
+    task |= {"if": {"required": [EXTENDS]}, "then": {"required": ["name"]}, "else": {"required": task.pop("required")}}
+    for name in ("costs", "success"):
+        table = task["properties"][name]
+        for key, value in table["properties"].items():
+            table["properties"][key] = {"anyOf": [value, {"type": "null"}]}
+        table["additionalProperties"] = {"anyOf": [table["additionalProperties"], {"type": "null"}]}
 
 
 def _costs(definitions: dict[str, Schema]) -> Schema:

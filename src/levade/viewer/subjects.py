@@ -14,7 +14,7 @@ from levade.robots import Robot, builtin_robots, find_package_robot, load_robot
 from levade.search.run import MOTION, TASK
 from levade.tasks import Task, builtin_tasks, load_task
 
-_KINDS = {"task": ("costs", "success", "horizon", "policy"), "robot": ("legs", "model", "trunk", "postures")}
+_KINDS = {"task": ("costs", "success", "horizon", "policy", "extends"), "robot": ("legs", "model", "trunk", "postures")}
 """Kind -> keys that only its YAML has."""
 
 

@@ -1,0 +1,131 @@
+"""Tasks that extend others: they have what they say, and of all else what the other task has."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+import yaml
+
+from levade.costs import Miss
+from levade.errors import LevadeError
+from levade.tasks import builtin_tasks, load_task
+from levade.tasks.files import asks_for_hardware
+from levade.tasks.schema import task_schema
+from levade.viewer.subjects import find
+
+HIGHER = """
+name: higher
+extends: squat-jump
+costs:
+  apex: {term: miss, weight: 5, quantity: height, minimum: 1.2, at: max}
+  straight: null
+success:
+  apex: {quantity: height, minimum: 1.1, at: max}
+  straight: null
+"""
+
+
+def written(path: Path, text: str) -> str:
+    path.write_text(text, encoding="utf-8")
+    return str(path)
+
+
+def test_it_has_what_it_says_and_the_rest_of_the_other(tmp_path: Path) -> None:
+    task, other = load_task(written(tmp_path / "higher.yaml", HIGHER)), load_task("squat-jump")
+    assert task.costs["apex"].weight == 5
+    assert isinstance(task.costs["apex"].term, Miss)
+    assert task.costs["apex"].term.scale == Miss("height", minimum=1.2).scale  # replaced as a whole
+    assert task.success["apex"].minimum == 1.1
+    for ours, theirs in ((task.costs, other.costs), (task.success, other.success)):
+        assert ours.keys() == theirs.keys() - {"straight"}
+        assert all(ours[name] == theirs[name] for name in ours.keys() - {"apex"})
+    assert replace(task, name=other.name, costs=other.costs, success=other.success) == other
+
+
+def test_nothing_but_a_name_is_the_other_task_on_any_robot(tmp_path: Path, quadruped: type[Any]) -> None:
+    """In the units of the robot that is asked for, not of the other task's."""
+    path = written(tmp_path / "same.yaml", "name: same\nextends: self-righting\n")
+    for robot in ("hyq2max", written(tmp_path / "toy.urdf", quadruped().urdf())):
+        ours, theirs = load_task(path, robot=robot), load_task("self-righting", robot=robot)
+        assert replace(ours, name=theirs.name) == theirs
+
+
+def test_a_start_a_horizon_and_a_robot_are_replaced(tmp_path: Path) -> None:
+    text = """
+    name: other
+    extends: linked.yaml
+    robot: {name: hyq2max}
+    start: {settled: {posture: crouched}}
+    horizon: {minimum: 0.5, maximum: 1.5}
+    """
+    written(tmp_path / "linked.yaml", "name: linked\nextends: self-righting\nrobot: {linkage: true}\n")
+    task = load_task(written(tmp_path / "other.yaml", text))
+    assert task.start.fall is None
+    assert not task.robot.linkage
+    assert task.horizon == load_task("self-righting", changes=["horizon={minimum: 0.5, maximum: 1.5}"]).horizon
+
+
+def test_another_optimizer_comes_without_the_settings(tmp_path: Path) -> None:
+    text = "name: plain\nextends: squat-jump\nsearch: {{{}}}\n"
+    search = load_task(written(tmp_path / "plain.yaml", text.format("optimizer: cma"))).search
+    assert (search.settings, search.restart) == ({}, load_task("squat-jump").search.restart)
+    kept = load_task(written(tmp_path / "plain.yaml", text.format("trials: 10"))).search
+    assert (kept.settings, kept.trials) == ({"aimed": 0}, 10)
+
+
+def test_files_extend_files_beside_them(tmp_path: Path) -> None:
+    (tmp_path / "inner").mkdir()
+    written(tmp_path / "higher.yaml", HIGHER + "hardware: {share: 0.9}\n")
+    last = written(tmp_path / "inner" / "last.yaml", "name: last\nextends: ../higher.yaml\nhold: 1 s\n")
+    task = load_task(last)
+    assert (task.hold, task.costs["apex"].weight) == (1.0, 5)
+    assert asks_for_hardware(last, [])
+
+
+def test_paths_are_relative_to_the_file_that_names_them(tmp_path: Path) -> None:
+    (tmp_path / "hills").mkdir()
+    written(tmp_path / "next.yaml", "name: next\nextends: squat-jump\nstart: {settled: {posture: crouched}}\n")
+    text = "name: onward\nextends: squat-jump\npolicy: {goal: {like: ../next.yaml}}\n"
+    written(tmp_path / "hills" / "on.yaml", text)
+    last = written(tmp_path / "last.yaml", "name: last\nextends: hills/on.yaml\n")
+    assert load_task(last).policy.goal == "crouched"
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("name: it\nextends: squat-jmp\n", r"it\.yaml: extends: no task 'squat-jmp'; did you mean squat-jump"),
+        ("name: it\nextends: ./none.yaml\n", r"it\.yaml: extends: .*none\.yaml: no such file"),
+        ("name: it\nextends: it.yaml\n", r"it\.yaml extends it\.yaml, in a circle"),
+        ("name: it\nextends: {task: rearing}\n", r"extends: should be the name or the file of a task, is a table"),
+        ("extends: rearing\n", r"it\.yaml: name: is missing"),
+        ("name: it\nextends: rearing\ncosts: {efort: {weight: 1}}\n", r"costs\.efort: no term 'efort'"),
+    ],
+)
+def test_what_is_wrong_is_said(tmp_path: Path, text: str, said: str) -> None:
+    with pytest.raises(LevadeError, match=said):
+        load_task(written(tmp_path / "it.yaml", text))
+
+
+def test_the_schema_knows_it() -> None:
+    validator = jsonschema.Draft202012Validator(task_schema())
+    task = yaml.safe_load(HIGHER)
+    assert not list(validator.iter_errors(task))
+    assert list(validator.iter_errors({key: value for key, value in task.items() if key != "extends"}))
+    assert list(validator.iter_errors({key: value for key, value in task.items() if key != "name"}))
+
+
+def test_it_is_found_to_be_a_task(tmp_path: Path) -> None:
+    path = written(tmp_path / "same.yaml", "name: same\nextends: self-righting\n")
+    found = find(path)
+    assert found.task is not None
+    assert found.task.name == "same"
+
+
+def test_variants_of_built_in_tasks_say_only_what_they_change() -> None:
+    for name, path in builtin_tasks().items():
+        assert name.endswith(("-robust", "-within-limits")) == ("extends" in yaml.safe_load(path.read_text())), name
