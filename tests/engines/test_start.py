@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import mujoco
 import numpy as np
 import pytest
 
-from levade.engines import Engine, Fall, Physics, Settled, make_engine, start_state
+from levade.engines import Engine, Fall, Fallen, Physics, Settled, make_engine, start_state
 from levade.engines.start import Start
 from levade.errors import LevadeError
 from levade.robots import Robot, load_robot
-from levade.rotations import roll_pitch_yaw
+from levade.rotations import roll_pitch_yaw, rotate
 from levade.scenes import Box, Scene
 from levade.tasks import builtin_tasks, load_task
 
@@ -134,6 +135,59 @@ def test_a_fall_begins_clear_of_the_ground(robot: Robot, scene: Scene, roll: flo
     assert abs(nearest) < (0.003 if scene.slope else 1e-9)
 
 
+def test_a_family_of_falls_has_every_attitude_and_posture_alike(robot: Robot, engine: Engine) -> None:
+    """Archimedes: of a direction that is uniform on the sphere, each component is uniform between -1 and 1. Kolmogorov: then
+    the empirical distribution is 1.95 / sqrt(n) off with a probability of one in a thousand.
+    """
+    n = 150
+    released = [start_state(engine, robot, Scene(), Fallen(1.0, time=0.0, index=i)) for i in range(n)]
+    qpos = np.concatenate([state.qpos for state in released])
+    for axis in np.eye(3):
+        for component in rotate(qpos[:, 3:7], np.tile(axis, (n, 1))).T:
+            off = np.abs((np.sort(component) + 1) / 2 - (np.arange(n) + 0.5) / n).max()
+            assert off < 1.95 / np.sqrt(n)
+    lower, upper = robot.limits.lower, robot.limits.upper
+    share = (qpos[:, 7:] - lower) / (upper - lower)
+    assert share.min() >= 0
+    assert share.max() <= 1
+    np.testing.assert_allclose(share.min(axis=0), 0, atol=0.1)
+    np.testing.assert_allclose(share.max(axis=0), 1, atol=0.1)
+    np.testing.assert_array_equal(np.concatenate([state.joint_reference for state in released]), qpos[:, 7:])
+
+
+def test_nothing_of_a_fall_overlaps_when_it_begins(robot: Robot) -> None:
+    """Beside a wall that many attitudes would reach into, on a slope: by MuJoCo's own contacts."""
+    wall = Box((0.9, 0.0, 1.0), (0.1, 4.0, 3.0))
+    scene = Scene(boxes=(wall,), slope=0.1)
+    engine = make_engine(robot, scene, Physics(), threads=1)
+    model, data = engine.model, mujoco.MjData(engine.model)
+    for i in range(20):
+        state = start_state(engine, robot, scene, Fallen(0.2, time=0.0, seed=1, index=i))
+        data.qpos[:] = state.qpos[0]
+        mujoco.mj_forward(model, data)
+        assert all(contact.dist > -0.0031 for contact in data.contact), i
+
+
+def test_a_fall_of_a_family_is_the_same_alone_and_comes_to_rest(robot: Robot, engine: Engine) -> None:
+    other = make_engine(robot, Scene(), Physics(), threads=2)
+    fall = Fallen(0.6, seed=3, index=7, time=3.0)
+    one, same = (start_state(e, robot, Scene(), fall) for e in (engine, other))
+    np.testing.assert_array_equal(one.qpos, same.qpos)
+    assert np.abs(one.qvel[0, :3]).max() < 0.1
+    assert one.qpos[0, 2] < 0.6
+    apart = [start_state(engine, robot, Scene(), replace(fall, time=0.0, **change)) for change in DIFFERENT]
+    assert len({state.qpos.tobytes() for state in apart}) == len(DIFFERENT)
+
+
+DIFFERENT: list[dict[str, int]] = [{"index": 7}, {"index": 8}, {"seed": 4}, {"seed": 7, "index": 3}]
+
+
+def test_a_robot_that_fits_nowhere_is_said(robot: Robot) -> None:
+    scene = Scene(boxes=(Box((0.0, 0.0, 1.0), (0.5, 0.5, 0.5)),))
+    with pytest.raises(LevadeError, match=r"start\.fallen: .*box0.* overlap by .* in the last of 1000 postures"):
+        start_state(make_engine(robot, scene, Physics(), threads=1), robot, scene, Fallen(1.0))
+
+
 @pytest.mark.slow
 def test_a_mast_is_put_down_on_its_tip_and_rolls_over() -> None:
     """Upside down, what reaches highest above the trunk is what the start has to clear."""
@@ -157,6 +211,9 @@ def test_a_mast_is_put_down_on_its_tip_and_rolls_over() -> None:
         (lambda: Settled(x=float("inf")), r"start.settled.x: inf is not a number"),
         (lambda: Fall(float("nan")), r"start.fall.height: nan is not a number"),
         (lambda: Fall(1.0, gain=-0.1), r"start.fall.gain: -0.1 should be 0 or more"),
+        (lambda: Fallen(1.0, index=-1), r"start.fallen.index: -1 should be 0 or more"),
+        (lambda: Fallen(1.0, gain=-1.0), r"start.fallen.gain: -1.0 should be 0 or more"),
+        (lambda: Fallen(float("inf")), r"start.fallen.height: inf is not a number"),
         (lambda: Fall(1.0, spread=float("nan")), r"start.fall.spread: nan should be 0 or more"),
     ],
 )

@@ -291,8 +291,8 @@ def test_every_unit_has_its_size(unit: str) -> None:
             {"success": {"height": {"target": 1, "tolerance": 1, "at": "hold"}}},
             "success.height.at: hold, but the task has no",
         ),
-        ({"start": {}}, "start: give one of settled, fall and state"),
-        ({"start": {"settled": {}, "fall": {"height": 1}}}, "start: give one of settled, fall and state"),
+        ({"start": {}}, "start: give one of settled, fall, fallen and state"),
+        ({"start": {"settled": {}, "fall": {"height": 1}}}, "start: give one of settled, fall, fallen and state"),
         ({"start": {"fall": {}}}, "start.fall.height: missing"),
         (
             {"start": {"settled": {"posture": {"*_haa": "3 cm"}}}},

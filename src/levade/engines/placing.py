@@ -14,7 +14,7 @@ from levade.engines.clearance import measure_clearance
 from levade.engines.engine import Engine
 from levade.engines.layout import add_contact_sensors
 from levade.engines.physics import Physics
-from levade.engines.start import GivenState, Settled, Start
+from levade.engines.start import Fallen, GivenState, Settled, Start
 from levade.engines.state import State
 from levade.engines.table import engine_kind
 from levade.errors import LevadeError, located
@@ -25,6 +25,13 @@ from levade.scenes import Scene, compose
 _OVERLAP = 0.003
 """[m]: what may overlap before the start; contacts at rest sink in by less."""
 _DOWN = np.array([0.0, 0.0, -1.0])
+_LEVEL = np.array([1.0, 0.0, 0.0, 0.0])
+
+_DRAWS = 1000
+"""Postures that are drawn for a fall until no parts overlap."""
+
+_FAMILY = 1_178_686_574
+"""Keeps the random numbers of families of falls apart from others."""
 
 
 def model_xml(
@@ -94,18 +101,52 @@ def start_state(engine: Engine, robot: Robot, scene: Scene, start: Start) -> Sta
         feet = robot.foot_positions(posture)
         ground = scene.ground_height(start.x + feet[:, 0], start.y + feet[:, 1])
         height = robot.standing_height(start.posture) + float(ground.max())
-        data = _release(engine, engine.model, scene, (start.x, start.y, height), (0.0, 0.0, 0.0), posture)
+        data = _release(engine, engine.model, scene, (start.x, start.y, height), _LEVEL, posture)
         return engine.hold(engine.model, data, posture, start.time)
+    if isinstance(start, Fallen):
+        return _fallen(engine, robot, scene, start)
     generator = np.random.default_rng(start.seed)
     attitude = np.array([start.roll, start.pitch, start.yaw]) + start.spread * generator.standard_normal(3)
     with located("start.fall.posture: "):
         posture = robot.posture(start.posture)
     posture += start.spread * generator.standard_normal(posture.size)
     posture = np.clip(posture, robot.limits.lower, robot.limits.upper)
-    xml = model_xml(robot, scene, engine.physics, gain_scale=start.gain)
-    model = mujoco.MjModel.from_xml_string(xml, engine.assets)
-    data = _release(engine, model, scene, (start.x, start.y, start.height), tuple(attitude), posture)
+    model = _with_gain(engine, robot, scene, start.gain)
+    roll, pitch, yaw = attitude
+    quaternion = np.empty(4)
+    mujoco.mju_euler2Quat(quaternion, np.array([yaw, pitch, roll]), "zyx")
+    data = _release(engine, model, scene, (start.x, start.y, start.height), quaternion, posture)
     return engine.hold(model, data, posture, start.time)
+
+
+def _with_gain(engine: Engine, robot: Robot, scene: Scene, gain: float) -> mujoco.MjModel:
+    """The engine's model with a factor on the gains of the joints."""
+    if gain == 1.0:
+        return engine.model
+    xml = model_xml(robot, scene, engine.physics, gain_scale=gain)
+    return mujoco.MjModel.from_xml_string(xml, engine.assets)
+
+
+def _fallen(engine: Engine, robot: Robot, scene: Scene, start: Fallen) -> State:
+    model = _with_gain(engine, robot, scene, start.gain)
+    generator = np.random.default_rng((start.seed, start.index, _FAMILY))
+    attitude = generator.standard_normal(4)
+    attitude /= np.linalg.norm(attitude)
+    lower, upper = (
+        np.where(np.isfinite(one), one, turn)
+        for one, turn in ((robot.limits.lower, -np.pi), (robot.limits.upper, np.pi))
+    )
+    height = start.height + float(scene.ground_height(np.array([start.x]), np.array([start.y]))[0])
+    for _ in range(_DRAWS):
+        posture = generator.uniform(lower, upper)
+        data = _put(engine, model, scene, (start.x, start.y, height), attitude, posture)
+        overlap = _overlap(model, data)
+        if not overlap:
+            return engine.hold(model, data, posture, start.time)
+    raise LevadeError(
+        f"start.fallen: {overlap} in the last of {_DRAWS} postures that were drawn; move the robot (start) or the obstacle"
+        " (scene)"
+    )
 
 
 def _given(engine: Engine, start: GivenState) -> State:
@@ -126,28 +167,44 @@ def _release(
     model: mujoco.MjModel,
     scene: Scene,
     position: tuple[float, float, float],
-    attitude: tuple[float, float, float],
+    quaternion: Array,
     posture: Array,
 ) -> mujoco.MjData:
-    """The robot as it is put down: where asked for, or higher if a part of it were in the ground.
+    """As `_put`. Raises LevadeError where parts overlap."""
+    data = _put(engine, model, scene, position, quaternion, posture)
+    overlap = _overlap(model, data)
+    if overlap:
+        raise LevadeError(
+            f"start: {overlap} where the robot is put down; move the robot (start) or the obstacle (scene)"
+        )
+    return data
 
-    attitude: roll, pitch and yaw [rad].
-    """
+
+def _put(
+    engine: Engine,
+    model: mujoco.MjModel,
+    scene: Scene,
+    position: tuple[float, float, float],
+    quaternion: Array,
+    posture: Array,
+) -> mujoco.MjData:
+    """The robot as it is put down: where asked for, or higher if a part of it were in the ground."""
     data, layout = mujoco.MjData(model), engine.layout
     data.qpos[layout.trunk_position] = position
-    roll, pitch, yaw = attitude
-    mujoco.mju_euler2Quat(data.qpos[layout.trunk_quaternion], np.array([yaw, pitch, roll]), "zyx")
+    data.qpos[layout.trunk_quaternion] = quaternion
     data.qpos[layout.joint_qpos] = posture
     data.qpos[layout.trunk_position][2:] += _lift(model, data, scene)
     mujoco.mj_forward(model, data)
+    return data
+
+
+def _overlap(model: mujoco.MjModel, data: mujoco.MjData) -> str:
+    """Which two parts overlap, and by how much; "" if none do."""
     for contact in data.contact:
         if contact.dist < -_OVERLAP and not contact.exclude:
             one, other = (_geom_name(model, int(geom)) for geom in contact.geom)
-            raise LevadeError(
-                f"start: {one} and {other} overlap by {-contact.dist:.3f} m where the robot is put down;"
-                " move the robot (start) or the obstacle (scene)"
-            )
-    return data
+            return f"{one} and {other} overlap by {-contact.dist:.3f} m"
+    return ""
 
 
 def _lift(model: mujoco.MjModel, data: mujoco.MjData, scene: Scene) -> float:

@@ -1,4 +1,4 @@
-"""How a motion starts: standing in a posture, lying after a fall, or as an earlier motion ended."""
+"""How a motion starts: standing in a posture, lying after a fall, one of a family of them, or as an earlier motion ended."""
 
 from __future__ import annotations
 
@@ -65,6 +65,40 @@ class Fall:
 
 
 @dataclass(frozen=True)
+class Fallen:
+    """Lying however it fell: one of a family of falls, from any attitude and with any posture.
+
+    height: [m], trunk's origin over the ground under it at release; higher where a part of the robot would be in the ground.
+    x, y: [m].
+    gain: the joints hold the angles that they were released with, with this many times their gains.
+    time: [s] from release to the start of the motion.
+    seed, index: which fall of which family. A fall does not depend on how many of its family are asked for.
+
+    The attitude is uniform over all rotations. Each joint's angle is uniform over its range, a whole turn if it has none, and
+    all are drawn again where parts of the robot overlap each other or an obstacle.
+    """
+
+    height: float
+    x: float = 0.0
+    y: float = 0.0
+    gain: float = 1.0
+    time: float = 1.5
+    seed: int = 0
+    index: int = 0
+
+    def __post_init__(self) -> None:
+        _check_time("start.fallen.time", self.time)
+        _check_finite("start.fallen", height=self.height, x=self.x, y=self.y)
+        if not (math.isfinite(self.gain) and self.gain >= 0):
+            raise LevadeError(
+                f"start.fallen.gain: {self.gain} should be 0 or more; 1 is a robot that holds on as it falls"
+            )
+        for name in ("seed", "index"):
+            if getattr(self, name) < 0:
+                raise LevadeError(f"start.fallen.{name}: {getattr(self, name)} should be 0 or more")
+
+
+@dataclass(frozen=True)
 class GivenState:
     """A state in numbers, such as the end of an earlier motion (`levade.motions.end_of`).
 
@@ -83,7 +117,7 @@ class GivenState:
                 raise LevadeError(f"start.state.{name}: not all of it are finite numbers")
 
 
-Start = Settled | Fall | GivenState
+Start = Settled | Fall | Fallen | GivenState
 
 
 def _check_finite(where: str, **values: float) -> None:

@@ -175,7 +175,8 @@ def _start_of_motion(path: Path) -> dict[str, float] | None:
             raise ValueError
     except (ValueError, TypeError, LookupError, RecursionError):
         raise LevadeError(f"{path}: its start cannot be read; damaged, or not a motion.npz of levade solve") from None
-    return posture if isinstance(start, Mapping) and start.get("fall") is None else None
+    fell = not isinstance(start, Mapping) or any(start.get(name) is not None for name in ("fall", "fallen"))
+    return None if fell else posture
 
 
 def with_heights(scene: Any, where: str) -> Any:

@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Literal
 
 from levade.costs import Term
-from levade.engines import Fall, GivenState, Settled
+from levade.engines import Fall, Fallen, GivenState, Settled
 from levade.errors import LevadeError
 from levade.optimizers import Choice, canonical
 from levade.robots import Robot, load_robot
@@ -38,23 +38,26 @@ class RobotChoice:
 
 @dataclass(frozen=True)
 class StartChoice:
-    """Where the motion starts: exactly one of the three."""
+    """Where the motion starts: exactly one of the four."""
 
     settled: Settled | None = None
     fall: Fall | None = None
+    fallen: Fallen | None = None
     state: GivenState | None = None
 
     def __post_init__(self) -> None:
-        if sum(one is not None for one in (self.settled, self.fall, self.state)) != 1:
+        if sum(one is not None for one in self._all) != 1:
             raise LevadeError(
-                "start: give one of settled, fall and state, such as start: {settled: {posture: neutral}}"
+                "start: give one of settled, fall, fallen and state, such as start: {settled: {posture: neutral}}"
             )
 
     @property
-    def choice(self) -> Settled | Fall | GivenState:
-        chosen = self.settled or self.fall or self.state
-        assert chosen is not None
-        return chosen
+    def _all(self) -> tuple[Settled | Fall | Fallen | GivenState | None, ...]:
+        return self.settled, self.fall, self.fallen, self.state
+
+    @property
+    def choice(self) -> Settled | Fall | Fallen | GivenState:
+        return next(one for one in self._all if one is not None)
 
 
 @dataclass(frozen=True)

@@ -281,7 +281,7 @@ def _goal_row(criterion: Mapping[str, Any]) -> dict[str, Any]:
 
 def _task_facts(objective: Objective) -> list[list[str]]:
     task, robot = objective.task, objective.robot
-    start = "settled on its feet" if task.start.settled else "as a fall left it" if task.start.fall else "as given"
+    start = "settled on its feet" if task.start.settled else "as given" if task.start.state else "as a fall left it"
     groups = _GROUPS.get(str(task.policy.groups), "groups of legs")
     scene = ", ".join(
         [
