@@ -473,6 +473,73 @@ def export(
     )
 
 
+_library = typer.Typer(
+    help="Motions for a robot that fell in any way: build, ask and check a library.", rich_markup_mode=None
+)
+app.add_typer(_library, name="library")
+
+
+@_library.command("build")
+def _build_library(
+    task: Annotated[str, typer.Argument(help="What each motion is to do: self-righting, or your own task.")],
+    robot: Annotated[str | None, typer.Option(help="Another robot: its name or file.")] = None,
+    starts: Annotated[int, typer.Option(help="Falls in all; a later build may add some.")] = 100,
+    seed: Annotated[int, typer.Option(min=0, help="Of the falls and of the searches.")] = 0,
+    out: Annotated[Path | None, typer.Option(help="Directory; by default TASK-library.")] = None,
+    changes: Annotated[
+        list[str] | None, typer.Option("--set", metavar="PATH=VALUE", help="Change a value of the task. Repeatable.")
+    ] = None,
+    threads: Annotated[int, typer.Option(min=0, help="Engine threads; 0 for one per core.")] = 0,
+    as_json: Json = False,
+) -> int:
+    """Find a motion for each of many falls. Called again, goes on where it stopped.
+
+    Exit status: 0 every fall is done, 1 it was interrupted, 2 the input is wrong.
+    """
+    from levade.cli.librarian import build_library
+
+    return build_library(
+        task,
+        robot=robot,
+        starts=starts,
+        seed=seed,
+        out=out,
+        changes=changes or [],
+        threads=threads,
+        as_json=as_json,
+    )
+
+
+@_library.command("ask")
+def _ask_library(
+    library: Annotated[Path, typer.Argument(metavar="DIR", help="A library.")],
+    state: Annotated[Path, typer.Option(help="JSON or YAML: attitude (w-x-y-z) or up (in trunk axes), and joints.")],
+    reference: Annotated[Path | None, typer.Option(help="Write what to tell the joints, as CSV.")] = None,
+    as_json: Json = False,
+) -> int:
+    """Say which motion most likely works from where the robot lies. No simulator is asked."""
+    from levade.cli.librarian import ask_library
+
+    return ask_library(library, state=state, reference=reference, as_json=as_json)
+
+
+@_library.command("check")
+def _check_library(
+    library: Annotated[Path, typer.Argument(metavar="DIR", help="A library.")],
+    starts: Annotated[int, typer.Option(help="Falls to try.")] = 200,
+    seed: Annotated[int, typer.Option(min=0, help="Of these falls: another than the library's.")] = 1,
+    threads: Annotated[int, typer.Option(min=0, help="Engine threads; 0 for one per core.")] = 0,
+    as_json: Json = False,
+) -> int:
+    """Try a library on falls that it has never seen: how often does it get up?
+
+    Exit status: 0 all were tried, 1 it was interrupted, 2 the input is wrong.
+    """
+    from levade.cli.librarian import check_the_library
+
+    return check_the_library(library, starts=starts, seed=seed, threads=threads, as_json=as_json)
+
+
 _tasks = typer.Typer(help="List the built-in tasks; print one, or the form of them all.", rich_markup_mode=None)
 app.add_typer(_tasks, name="tasks")
 

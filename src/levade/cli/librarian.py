@@ -1,0 +1,200 @@
+"""``levade library``: build one, ask it, and try it on falls that it has never seen."""
+
+from __future__ import annotations
+
+import json
+import os
+import time
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rich.markup import escape
+
+from levade.arrays import Array
+from levade.cli.stopping import stop_between
+from levade.cli.tables import make_console
+from levade.document import read_yaml
+from levade.errors import LevadeError, did_you_mean
+from levade.library import Answer, Library, LibraryCheck, Progress, build, check_library
+from levade.rotations import conjugate, rotate
+from levade.tasks import load_task
+from levade.writing import write_text
+
+_WORDS = {
+    "known": "by a motion that was there",
+    "near": "around one",
+    "cold": "from nothing",
+    "none": "not at all",
+}
+
+
+def build_library(
+    task: str,
+    *,
+    robot: str | None,
+    starts: int,
+    seed: int,
+    out: Path | None,
+    changes: list[str],
+    threads: int,
+    as_json: bool,
+) -> int:
+    """Exit status 0 if every fall is done, else 1."""
+    loaded = load_task(task, robot=robot, changes=changes)
+    directory = out or Path(f"{loaded.name}-library")
+    console = make_console(stderr=as_json)
+    began = time.monotonic()
+
+    def observe(progress: Progress) -> None:
+        spent = time.monotonic() - began
+        console.print(
+            f"  {progress.done} of {progress.starts} falls: {progress.motions} motions, {progress.trials} trials,"
+            f" {spent:.0f} s",
+            style="dim",
+        )
+
+    with stop_between("generation") as stopping:
+        library = build(
+            loaded,
+            starts=starts,
+            seed=seed,
+            threads=threads,
+            directory=directory,
+            observe=observe,
+            stopping=stopping,
+        )
+        stopped = stopping()
+    cover = library.knowledge.cover()
+    if as_json:
+        content = {
+            "library": str(directory),
+            "starts": starts,
+            "done": len(library.records),
+            "methods": {name: sum(record.method == name for record in library.records) for name in _WORDS},
+            "trials": sum(record.trials for record in library.records),
+            "coverage": library.coverage,
+            "cover": [{"motion": fall, "falls": works} for fall, works in cover],
+            "interrupted": stopped,
+        }
+        print(json.dumps(content))
+        return 1 if stopped else 0
+    for name, words in _WORDS.items():
+        n = sum(record.method == name for record in library.records)
+        if n:
+            console.print(f"{n} falls solved {words}.")
+    enough = ", ".join(f"{k + 1}: {works / len(library.records):.1%}" for k, (_, works) in enumerate(cover[:6]))
+    falls = len(library.records)
+    console.print(f"{len(library.knowledge.motions)} motions get up from {library.coverage:.1%} of {falls} falls.")
+    console.print(f"The best few of them: {enough}.")
+    place = escape(str(directory))
+    if stopped:
+        console.print(f"[yellow]Interrupted[/]: build again to go on. All falls that are done are in {place}.")
+        return 1
+    console.print(f"On falls that it has never seen: levade library check {place}")
+    return 0
+
+
+def check_the_library(directory: Path, *, starts: int, seed: int, threads: int, as_json: bool) -> int:
+    """Exit status 0 if all was tried, 1 if interrupted."""
+    library = Library.load(directory)
+    console = make_console(stderr=as_json)
+    with stop_between("part") as stopping:
+        found = check_library(library, starts=starts, seed=seed, threads=threads, stopping=stopping)
+    if as_json:
+        print(json.dumps(found.to_json()))
+    else:
+        for what, value in _told(found):
+            console.print(f"{what:<52} {value}")
+    return 1 if found.interrupted else 0
+
+
+def _told(found: LibraryCheck) -> list[tuple[str, str]]:
+    after = [(f"one of the {k} likeliest, tried in simulation", str(share)) for k, share in found.after.items()]
+    return [
+        (f"{found.starts} falls of seed {found.seed}", ""),
+        ("the first answer works", str(found.first)),
+        *after,
+        ("within two attempts, the second from where it lies", str(found.twice)),
+        ("the first answer, on robots that differ", str(found.perturbed)),
+        ("what the answers themselves say", f"{found.expected:.1%}"),
+        ("an answer takes", f"{found.answer_ms[0]:.2f} ms, 99 % at most {found.answer_ms[1]:.2f} ms"),
+    ]
+
+
+def ask_library(directory: Path, *, state: Path, reference: Path | None, as_json: bool) -> int:
+    """Exit status 0: there always is an answer."""
+    library = Library.load(directory)
+    first = library.ask([0.0, 0.0, 1.0], np.zeros(library.knowledge.joint_position.shape[1]))
+    names = first.motion.joint_names
+    answer = library.ask(*_read_state(state, names))
+    if reference is not None:
+        _write_reference(answer, reference)
+    if as_json:
+        content = {
+            "motion": str(answer.path),
+            "fall": answer.fall,
+            "probability": answer.probability,
+            "others": [{"fall": fall, "probability": probability} for fall, probability in answer.others],
+        }
+        print(json.dumps(content))
+        return 0
+    console = make_console()
+    console.print(f"{escape(str(answer.path))}: works with a probability of {answer.probability:.1%}")
+    for fall, probability in answer.others[:3]:
+        console.print(f"  next: {fall:06}.npz, {probability:.1%}", style="dim")
+    return 0
+
+
+def _read_state(path: Path, names: tuple[str, ...]) -> tuple[Any, Array]:
+    """Which way is up in trunk axes, and the joints' angles, of a JSON or YAML file."""
+    content = read_yaml(path, like="attitude and joints")
+    known = {"attitude", "up", "joints"}
+    for key in content:
+        if key not in known:
+            raise LevadeError(f"{path}: unknown key {key!r}; {did_you_mean(str(key), sorted(known))}")
+    if ("attitude" in content) == ("up" in content):
+        raise LevadeError(f"{path}: give the attitude, a quaternion w-x-y-z, or up, in trunk axes; one of the two")
+    joints = content.get("joints")
+    if isinstance(joints, Mapping):
+        for name in joints:
+            if name not in names:
+                raise LevadeError(f"{path}: joints: no joint {name!r}; {did_you_mean(str(name), names)}")
+        missing = [name for name in names if name not in joints]
+        if missing:
+            raise LevadeError(f"{path}: joints: {missing[0]} is missing; give the angle of each joint [rad]")
+        joints = [joints[name] for name in names]
+    return _up(content, path), _numbers(joints, len(names), f"{path}: joints")
+
+
+def _up(content: Mapping[str, Any], path: Path) -> Array:
+    if "up" in content:
+        return _numbers(content["up"], 3, f"{path}: up")
+    quaternion = _numbers(content["attitude"], 4, f"{path}: attitude")
+    norm = float(np.linalg.norm(quaternion))
+    if not norm > 0:
+        raise LevadeError(f"{path}: attitude: four zeros are no rotation; [1, 0, 0, 0] is level")
+    return rotate(conjugate(quaternion / norm), np.array([0.0, 0.0, 1.0]))
+
+
+def _numbers(values: Any, n: int, where: str) -> Array:
+    good = isinstance(values, list) and len(values) == n
+    if not good or any(isinstance(one, bool) or not isinstance(one, int | float) for one in values):
+        raise LevadeError(f"{where}: should be {n} numbers")
+    return np.array(values, dtype=float)
+
+
+def _write_reference(answer: Answer, path: Path) -> None:
+    """A table of time [s] and joint references [rad]: the motion, from where the joints are."""
+    if not path.parent.is_dir() or not os.access(path.parent, os.W_OK):
+        raise LevadeError(f"--reference {path}: its directory cannot be written; give another")
+    reference = answer.reference
+    position = reference.position[0]
+    times = (np.arange(len(position)) + 1) * reference.timestep
+    lines = [",".join(["time", *answer.motion.joint_names])]
+    lines += [",".join(map(repr, [float(t), *map(float, row)])) for t, row in zip(times, position, strict=True)]
+    try:
+        write_text(path, "\n".join(lines) + "\n")
+    except OSError as error:
+        raise LevadeError(f"--reference {path}: cannot be written ({error.strerror}); give another") from None

@@ -1,0 +1,146 @@
+"""Asking a library: from how the robot lies to the motion that most likely gets it up, without a simulator.
+
+library = Library.load(Path("falls"))
+answer = library.ask(up, joint_position)
+answer.motion, answer.probability
+answer.reference                                # what to tell the joints, from where they are
+"""
+
+from __future__ import annotations
+
+import zipfile
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from levade.arrays import Array
+from levade.errors import LevadeError
+from levade.library.knowledge import Knowledge
+from levade.library.records import FALLS, Record, motion_path
+from levade.motions import Motion
+from levade.trajectory import JointReference
+
+SUCCESS = "success.npz"
+"""Which motion works from which fall, once a build has come to its end."""
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """What to do from where the robot lies.
+
+    Attributes:
+        fall: Number of the fall that the motion was found for.
+        probability: How likely it works.
+        others: The other motions and how likely each works, the likeliest first.
+        path: File of the motion.
+        joint_position: Where the joints are [rad], shape (joints,).
+    """
+
+    fall: int
+    probability: float
+    others: tuple[tuple[int, float], ...]
+    path: Path
+    joint_position: Array
+
+    @cached_property
+    def motion(self) -> Motion:
+        """The motion as it was found, from its own fall."""
+        return Motion.load(self.path)
+
+    @cached_property
+    def reference(self) -> JointReference:
+        """What to tell the joints: the motion, but from where they are now."""
+        motion = self.motion
+        policy = motion.policy
+        if policy is None:
+            raise LevadeError(f"{self.path}: has no policy that could begin elsewhere; build the library again")
+        if policy.ends is not None:
+            policy = replace(policy, ends=replace(policy.ends, start=self.joint_position))
+        return policy.reference(motion["weights"][None])
+
+
+@dataclass(frozen=True, eq=False)
+class Library:
+    """Motions for a family of falls, and which works from which.
+
+    Attributes:
+        directory: Where it is.
+        records: The falls, in order.
+        knowledge: What they say.
+    """
+
+    directory: Path
+    records: tuple[Record, ...]
+    knowledge: Knowledge
+
+    @classmethod
+    def load(cls, directory: str | Path) -> Library:
+        """Load a library, also one whose build goes on.
+
+        Raises:
+            LevadeError: If there is none, or it is damaged.
+        """
+        directory = Path(directory)
+        files = sorted((directory / FALLS).glob("*.json"))
+        if not files:
+            raise LevadeError(f"{directory}: holds no motion library; build one, or give its directory")
+        records = tuple(Record.load(path) for path in files)
+        knowledge = Knowledge.of(records)
+        if not len(knowledge.motions):
+            raise LevadeError(f"{directory}: no motion was found for any of its {len(records)} falls; build it further")
+        success = np.where(np.isnan(knowledge.success), read_success(directory, knowledge), knowledge.success)
+        return cls(directory, records, replace(knowledge, success=success))
+
+    def ask(self, up: Any, joint_position: Any) -> Answer:
+        """Which motion to play.
+
+        Args:
+            up: Which way is up in trunk axes, of any length, shape (3,): an accelerometer's reading at rest.
+            joint_position: Angles [rad] in the robot's joint order, shape (joints,).
+
+        Raises:
+            LevadeError: If a shape is wrong, or not all are finite numbers.
+        """
+        up, joints = self._checked(up, joint_position)
+        (fall, probability), *others = self.knowledge.ranked(up, joints)
+        return Answer(fall, probability, tuple(others), motion_path(self.directory, fall), joints)
+
+    def _checked(self, up: Any, joint_position: Any) -> tuple[Array, Array]:
+        up, joints = np.asarray(up, dtype=float), np.asarray(joint_position, dtype=float)
+        size = self.knowledge.joint_position.shape[1]
+        if up.shape != (3,) or not np.isfinite(up).all() or not np.linalg.norm(up) > 0:
+            raise LevadeError("up: should be three numbers, which way is up in trunk axes, such as [0, 0, 1] upright")
+        if joints.shape != (size,) or not np.isfinite(joints).all():
+            raise LevadeError(f"joint_position: {joints.size} numbers, should be the angles of {size} joints [rad]")
+        return up / np.linalg.norm(up), joints
+
+    @property
+    def coverage(self) -> float:
+        """Share of its falls that one of its motions works from."""
+        return float((self.knowledge.success == 1.0).any(axis=1).mean())
+
+
+def read_success(directory: Path, knowledge: Knowledge) -> Array:
+    """Which of the motions works from which of the falls, as far as a build wrote it; NaN elsewhere, shape (n, m).
+
+    Raises:
+        LevadeError: If the file is damaged.
+    """
+    found = np.full(knowledge.success.shape, np.nan)
+    place = directory / SUCCESS
+    if not place.is_file():
+        return found
+    try:
+        with np.load(place, allow_pickle=False) as file:
+            falls, motions, success = (file[name] for name in ("falls", "motions", "success"))
+        if success.shape != (len(falls), len(motions)):
+            raise ValueError
+    except (OSError, ValueError, KeyError, zipfile.BadZipFile):
+        raise LevadeError(f"{place}: is damaged; remove it, and build the library again") from None
+    rows, here = np.intersect1d(knowledge.falls, falls, return_indices=True)[1:]
+    columns, there = np.intersect1d(knowledge.motions, motions, return_indices=True)[1:]
+    found[np.ix_(rows, columns)] = success[np.ix_(here, there)]
+    return found

@@ -1,0 +1,246 @@
+"""Trying a library on falls that it has never seen, on the nominal model and on robots that differ from it.
+
+found = check_library(Library.load(Path("falls")), starts=200, seed=1)
+found.first, found.after[3], found.perturbed, found.twice
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from levade.checks.statistics import wilson
+from levade.engines import MujocoEngine, Perturbation, perturbed_models
+from levade.errors import LevadeError
+from levade.library.asking import Answer, Library
+from levade.library.building import read_library
+from levade.library.falls import Falls, decisions, tried
+from levade.library.records import motion_path
+from levade.motions import Motion
+from levade.robots import Robot
+from levade.search.evaluation import Mask
+from levade.search.objective import Objective, Rollouts
+
+AFTER = (2, 3, 5)
+"""Of how many of the likeliest motions one has to work, in simulation from the very state."""
+
+_AT_ONCE = 32
+"""Falls in one batch."""
+
+_TAG = 1_818_845_550
+"""Keeps perturbed models apart from those of searches and checks of motions."""
+
+
+@dataclass(frozen=True)
+class Share:
+    """A share of successes, with the interval of all shares that fit the count, at 95 % confidence (Wilson)."""
+
+    successes: int
+    runs: int
+
+    @property
+    def share(self) -> float:
+        """Successes of all runs; 0 of none."""
+        return self.successes / self.runs if self.runs else 0.0
+
+    @property
+    def low(self) -> float:
+        """The lowest share that fits."""
+        return wilson(self.successes, self.runs)[0]
+
+    @property
+    def high(self) -> float:
+        """The highest share that fits."""
+        return wilson(self.successes, self.runs)[1]
+
+    def __str__(self) -> str:
+        return f"{self.share:.1%} ({self.low:.1%} to {self.high:.1%})"
+
+    def to_json(self) -> dict[str, float | int]:
+        """Plain numbers."""
+        return {"share": self.share, "low": self.low, "high": self.high, "successes": self.successes, "runs": self.runs}
+
+
+@dataclass(frozen=True, eq=False)
+class LibraryCheck:
+    """What a library is worth on falls that it has never seen.
+
+    Attributes:
+        starts: Falls that were tried.
+        seed: Their seed.
+        first: The first answer works, on the nominal model.
+        after: Number k -> one of the k likeliest motions works.
+        twice: The first answer works, or another answer does from where the first one left the robot.
+        perturbed: The first answer works on a robot that differs from the model, another one for each fall.
+        expected: Mean of the probabilities that came with the first answers: that of `first`, if they are true.
+        answer_ms: Median and 99th percentile of the time that an answer took [ms], without a simulator.
+        failed: Falls from which the first answer did not work.
+        interrupted: Whether it was stopped before its end.
+    """
+
+    starts: int
+    seed: int
+    first: Share
+    after: Mapping[int, Share]
+    twice: Share
+    perturbed: Share
+    expected: float
+    answer_ms: tuple[float, float]
+    failed: tuple[int, ...]
+    interrupted: bool = False
+
+    def to_json(self) -> dict[str, object]:
+        """Plain numbers."""
+        after = {str(k): share.to_json() for k, share in self.after.items()}
+        return {
+            "starts": self.starts,
+            "seed": self.seed,
+            "nominal": {"first": self.first.to_json(), "after": after, "twice": self.twice.to_json()},
+            "perturbed": {"first": self.perturbed.to_json()},
+            "expected": self.expected,
+            "answer_ms": {"median": self.answer_ms[0], "p99": self.answer_ms[1]},
+            "failed": list(self.failed),
+            "interrupted": self.interrupted,
+        }
+
+
+def check_library(
+    library: Library,
+    *,
+    robot: Robot | None = None,
+    starts: int,
+    seed: int,
+    threads: int = 0,
+    perturbation: Perturbation | None = None,
+    stopping: Callable[[], bool] = lambda: False,
+) -> LibraryCheck:
+    """Try a library on falls of another seed than its own.
+
+    Args:
+        library: The library.
+        robot: Its robot, if the task's name does not say it.
+        starts: How many falls.
+        seed: Their seed.
+        threads: Engine threads; 0 for one per core.
+        perturbation: How robots differ from the model. Defaults to what `levade check` takes.
+        stopping: Asked on the way; once it says so, the check ends with the falls so far.
+
+    Raises:
+        LevadeError: If the seed is that of the library's own falls, or the task does not fit together.
+    """
+    task, own = read_library(library.directory)
+    if seed == own:
+        raise LevadeError(f"{seed} is the seed of the library's own falls; give another", field="seed")
+    if starts < 1:
+        raise LevadeError(f"{starts} falls are none; 200 are usual", field="starts")
+    falls = Falls(task, robot=robot, seed=seed, threads=threads)
+    trial = _Trial(library, falls, seed, perturbation or Perturbation())
+    for first in range(0, starts, _AT_ONCE):
+        if stopping():
+            break
+        trial.go(range(first, min(first + _AT_ONCE, starts)))
+    return trial.found(interrupted=trial.n < starts)
+
+
+class _Trial:
+    def __init__(self, library: Library, falls: Falls, seed: int, perturbation: Perturbation) -> None:
+        self._library, self._falls, self._seed, self._perturbation = library, falls, seed, perturbation
+        self._motions: dict[int, Motion] = {}
+        self._works: list[Mask] = []  # of the likeliest motions of each fall
+        self._perturbed: list[bool] = []
+        self._recovered = 0
+        self._times: list[float] = []
+        self._expected: list[float] = []
+
+    @property
+    def n(self) -> int:
+        return len(self._works)
+
+    def go(self, indices: Sequence[int]) -> None:
+        """Try some falls."""
+        objectives = [self._falls.objective(i) for i in indices]
+        answers = [self._asked(objective) for objective in objectives]
+        motions = [
+            [self._motion(fall) for fall in (one.fall, *(fall for fall, _ in one.others))][: max(AFTER)]
+            for one in answers
+        ]
+        works: list[Mask] = [found.success for found in tried(objectives, motions)]
+        self._works += works
+        self._expected += [one.probability for one in answers]
+        first = [own[0] for own in motions]
+        self._perturbed += self._on_others(indices, objectives, first)
+        failed = [j for j, one in enumerate(works) if not one[0]]
+        if failed:
+            self._recovered += self._again([objectives[j] for j in failed], [first[j] for j in failed])
+
+    def found(self, *, interrupted: bool) -> LibraryCheck:
+        n, first = self.n, sum(bool(one[0]) for one in self._works)
+        median, late = np.percentile(self._times, [50, 99]) if self._times else (0.0, 0.0)
+        return LibraryCheck(
+            starts=n,
+            seed=self._seed,
+            first=Share(first, n),
+            after={k: Share(sum(bool(one[:k].any()) for one in self._works), n) for k in AFTER},
+            twice=Share(first + self._recovered, n),
+            perturbed=Share(sum(self._perturbed), n),
+            expected=float(np.mean(self._expected)) if self._expected else 0.0,
+            answer_ms=(1e3 * float(median), 1e3 * float(late)),
+            failed=tuple(i for i, one in enumerate(self._works) if not one[0]),
+            interrupted=interrupted,
+        )
+
+    def _asked(self, objective: Objective) -> Answer:
+        sensed = self._falls.sensed(objective.state)
+        began = time.perf_counter()
+        answer = self._library.ask(*sensed)
+        self._times.append(time.perf_counter() - began)
+        return answer
+
+    def _motion(self, fall: int) -> Motion:
+        if fall not in self._motions:
+            self._motions[fall] = Motion.load(motion_path(self._library.directory, fall))
+        return self._motions[fall]
+
+    def _on_others(
+        self, indices: Sequence[int], objectives: Sequence[Objective], motions: Sequence[Motion]
+    ) -> list[bool]:
+        """Whether each motion works on a robot that differs from the model, another one for each fall."""
+        engine = self._falls.simulation.engine
+        parts = []
+        for i, objective, motion in zip(indices, objectives, motions, strict=True):
+            joints = engine.embodiment.joints
+            sample = self._perturbation.draw(engine.model, joints, n=1, seed=(self._seed, i, _TAG))
+            starts, models = perturbed_models(engine.model, engine.layout, sample, objective.state)
+            policy, hold = objective.policy, objective.task.hold_steps
+            reference = policy.reference(decisions(policy, motion), hold_steps=hold)
+            parts.append(Rollouts(starts, replace(reference, before=objective.state.joint_reference[0]), models))
+        joined = Rollouts.joined(parts)
+        recorded = objectives[0].recorded
+        trajectories = engine.rollout(joined.starts, joined.reference, models=joined.models, record=recorded)
+        return [
+            bool(one.judge(trajectories[j : j + 1], one.task.hold_steps, perturbed=True).success[0])
+            for j, one in enumerate(objectives)
+        ]
+
+    def _again(self, objectives: Sequence[Objective], motions: Sequence[Motion]) -> int:
+        """Of falls from which a motion did not work, how many another answer recovers from, where that one left the robot."""
+        engine = self._falls.simulation.engine
+        if not isinstance(engine, MujocoEngine):
+            return 0
+        parts = []
+        for objective, motion in zip(objectives, motions, strict=True):
+            policy, hold = objective.policy, objective.task.hold_steps
+            parts.append(Rollouts(objective.state, policy.reference(decisions(policy, motion), hold_steps=hold), None))
+        joined = Rollouts.joined(parts)
+        out, diverged = engine.states(joined.starts, joined.reference, ["qpos", "qvel", "act"])
+        recovered = 0
+        for j in np.flatnonzero(~diverged):
+            qpos, qvel, act = (out[name][j, -1] for name in ("qpos", "qvel", "act"))
+            told = joined.reference.position[j, -1]
+            left = self._falls.from_state(engine.layout.state(qpos, qvel, act, joint_reference=told))
+            answer = self._asked(left)
+            recovered += bool(tried([left], [[self._motion(answer.fall)]])[0].success[0])
+        return recovered

@@ -1,0 +1,85 @@
+"""The falls of a family, each with an objective, on one simulation: their roll-outs share batches."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from levade.arrays import Array
+from levade.engines import Fallen, State, start_state
+from levade.errors import LevadeError
+from levade.motions import Motion
+from levade.policies import FreePolicy, JointPolicy
+from levade.robots import Robot, dimensions
+from levade.rotations import conjugate, rotate
+from levade.search.evaluation import Evaluation, Trials
+from levade.search.objective import Objective, Simulation, evaluate_many
+from levade.tasks import StartChoice, Task
+
+_UP = np.array([0.0, 0.0, 1.0])
+
+
+class Falls:
+    """A task from each fall of a family.
+
+    Attributes:
+        task: The task, from the first fall of the family.
+        simulation: What all of them are simulated in.
+    """
+
+    def __init__(self, task: Task, *, robot: Robot | None = None, seed: int = 0, threads: int = 0) -> None:
+        """Build the simulation.
+
+        Args:
+            task: The task. Its family of falls is that of its start, if it has one; else falls from the robot's own height.
+            robot: The robot, instead of the one that the task names.
+            seed: Which family.
+            threads: Engine threads; 0 for one per core.
+
+        Raises:
+            LevadeError: If the task does not fit together.
+        """
+        if task.robust is not None or task.hardware is not None:
+            raise LevadeError("library: it is built on the nominal model; leave robust and hardware out of the task")
+        robot = robot or task.robot.load()
+        fallen = task.start.fallen or Fallen(dimensions(robot).height)
+        self._fallen = replace(fallen, seed=seed, index=0)
+        self.task = replace(task, start=StartChoice(fallen=self._fallen))
+        self.simulation = Simulation.of(self.task, robot=robot, threads=threads)
+
+    def objective(self, index: int) -> Objective:
+        """The task from one of the falls."""
+        start = StartChoice(fallen=replace(self._fallen, index=index))
+        engine, robot = self.simulation.engine, self.simulation.robot
+        state = start_state(engine, robot, self.task.scene, start.choice)
+        return Objective(self.simulation.starting(state), replace(self.task, start=start))
+
+    def from_state(self, state: State) -> Objective:
+        """The task from a state that is none of the falls."""
+        return Objective(self.simulation.starting(state), self.task)
+
+    def sensed(self, state: State) -> tuple[Array, Array]:
+        """What a robot at rest senses: which way is up in trunk axes, shape (3,), and its joint angles [rad]."""
+        quaternion = state.qpos[0, self.simulation.engine.layout.trunk_quaternion]
+        return rotate(conjugate(quaternion), _UP), state.joint_position[0].copy()
+
+
+def decisions(policy: JointPolicy, motion: Motion) -> Array:
+    """A motion's weights for a policy that differs from the motion's own in nothing but where it starts, shape (1, d)."""
+    weights = motion["weights"][None]
+    if not isinstance(policy, FreePolicy):
+        return weights
+    own = motion.policy
+    goal = None if policy.goal is None or own is None or own.ends is None else own.ends.goal
+    return policy.decision(weights, steps=motion.horizon_steps, goal=goal)
+
+
+def tried(objectives: Sequence[Objective], motions: Sequence[Sequence[Motion]]) -> list[Evaluation]:
+    """Try motions from falls, in common batches: for each objective its own motions, on the nominal model."""
+    asked = []
+    for objective, own in zip(objectives, motions, strict=True):
+        weights = np.concatenate([decisions(objective.policy, motion) for motion in own])
+        asked.append((objective, Trials(weights, objective.task.hold_steps)))
+    return evaluate_many(asked)

@@ -1,0 +1,107 @@
+"""Which motion works from where: what is known of the falls so far, and what follows for another one.
+
+    knowledge = Knowledge.of(records)
+    knowledge.ranked(up, joint_position)            # motions, the likeliest first, each with its probability
+
+How a robot lies is which way is up for it, and where its joints are. A motion that works from the falls nearby is likely to
+work here: each of them has a say by how near it is, and all falls together have one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from levade.arrays import Array
+from levade.library.records import Record
+
+_JOINTS = 0.25
+"""Of a difference of 1 rad in all joints, against one of 1 rad in attitude: a robot on its back has to roll over, however its
+legs are, and its joints are elsewhere in a moment."""
+
+_NEAREST, _LEAST_REACH = 8, 0.1
+"""Falls whose distance is how far a fall reaches, and the least of it [rad]."""
+
+_PRIOR = 0.5
+"""Falls that the share of all of them counts as: what is known nearby soon outweighs it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Knowledge:
+    """Falls, motions, and which of these are known to work from which.
+
+    Attributes:
+        falls: Numbers of the falls, shape (n,).
+        up: Which way is up in each, in trunk axes, shape (n, 3).
+        joint_position: Joint angles in each [rad], shape (n, joints).
+        motions: Numbers of the falls that motions were found for, shape (m,).
+        success: Whether each motion works from each fall: 1, 0, or NaN where it was not tried, shape (n, m).
+    """
+
+    falls: Array
+    up: Array
+    joint_position: Array
+    motions: Array
+    success: Array
+
+    @classmethod
+    def of(cls, records: Sequence[Record]) -> Knowledge:
+        """What records say."""
+        records = sorted(records, key=lambda record: record.fall)
+        motions = np.array([record.fall for record in records if record.motion == record.fall], dtype=int)
+        column = {int(motion): j for j, motion in enumerate(motions)}
+        success = np.full((len(records), len(motions)), np.nan)
+        for i, record in enumerate(records):
+            for motion in record.tried:
+                success[i, column[motion]] = float(motion in record.worked)
+            if record.motion is not None:
+                success[i, column[record.motion]] = 1.0
+        joints = len(records[0].joint_position) if records else 0
+        return cls(
+            np.array([record.fall for record in records], dtype=int),
+            np.array([record.up for record in records]).reshape(len(records), 3),
+            np.array([record.joint_position for record in records]).reshape(len(records), joints),
+            motions,
+            success,
+        )
+
+    def distances(self, up: Array, joint_position: Array) -> Array:
+        """How far a state is from each fall [rad], shape (n,): the angle between ways up, and a share of the joints'."""
+        angle = np.arccos(np.clip(self.up @ up, -1.0, 1.0))
+        joints = np.sqrt(((self.joint_position - joint_position) ** 2).mean(axis=1))
+        return np.hypot(angle, _JOINTS * joints)
+
+    def probabilities(self, up: Array, joint_position: Array) -> Array:
+        """How likely each motion works from a state, shape (m,)."""
+        if not len(self.motions):
+            return np.zeros(0)
+        distance = self.distances(up, joint_position)
+        reach = max(_LEAST_REACH, float(np.sort(distance)[min(_NEAREST, len(distance)) - 1]))
+        tried = ~np.isnan(self.success)
+        worked = np.nan_to_num(self.success)
+        say = np.exp(-((distance / reach) ** 2))[:, None] * tried
+        share = (worked.sum(axis=0) + 1.0) / (tried.sum(axis=0) + 2.0)
+        return ((say * worked).sum(axis=0) + _PRIOR * share) / (say.sum(axis=0) + _PRIOR)
+
+    def ranked(self, up: Array, joint_position: Array) -> list[tuple[int, float]]:
+        """Motions and how likely each works from a state, the likeliest first."""
+        probability = self.probabilities(up, joint_position)
+        order = np.argsort(-probability, kind="stable")
+        return [(int(self.motions[j]), float(probability[j])) for j in order]
+
+    def cover(self) -> list[tuple[int, int]]:
+        """The fewest motions that work from all falls that any works from, nearly: motions, each with how many falls it and
+        those before it work from.
+
+        Each is the one that works from most falls that those before it do not (greedy set cover, at most ln n + 1 times the
+        fewest: V. Chvátal, A greedy heuristic for the set-covering problem, 1979).
+        """
+        works = self.success == 1.0
+        left, chosen = works.any(axis=1), []
+        while left.any():
+            best = int(np.argmax((works & left[:, None]).sum(axis=0)))
+            left = left & ~works[:, best]
+            chosen.append((int(self.motions[best]), int(works.any(axis=1).sum() - left.sum())))
+        return chosen

@@ -1,0 +1,131 @@
+"""``levade library``: what it prints, what it writes, and what it says of wrong input."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from levade.cli.app import main
+from levade.library import Library
+
+SMALL = ("horizon=0.3", "hold=0.1", "search.polish=0", "search.population=4", "search.trials=24")
+EASY = "success={over: {quantity: tilt, maximum: 1.9, at: end}}"
+
+Run = Callable[..., tuple[int, str, str]]
+
+
+@pytest.fixture
+def run(capsys: pytest.CaptureFixture[str]) -> Run:
+    """Run the command line: exit status, standard output and standard error."""
+
+    def run(*words: str) -> tuple[int, str, str]:
+        with pytest.raises(SystemExit) as ended:
+            main(words)
+        out, err = capsys.readouterr()
+        return int(str(ended.value.code)), out, err
+
+    return run
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    place = tmp_path_factory.mktemp("built") / "falls"
+    changes = [
+        word for change in (*SMALL, EASY, "start={fallen: {height: 0.5, time: 0.4}}") for word in ("--set", change)
+    ]
+    with pytest.raises(SystemExit) as ended:
+        main(["library", "build", "self-righting", "--starts", "4", "--out", str(place), *changes, "--json"])
+    assert ended.value.code == 0
+    return place
+
+
+def state(path: Path, **content: Any) -> str:
+    path.write_text(json.dumps(content))
+    return str(path)
+
+
+def test_it_is_built_asked_and_checked(built: Path, run: Run, tmp_path: Path) -> None:
+    asked = state(tmp_path / "state.json", up=[0, 0, -1], joints=[0.0] * 12)
+    status, out, _ = run("library", "ask", str(built), "--state", asked)
+    assert status == 0
+    assert "works with a probability of" in out
+    status, out, _ = run("library", "ask", str(built), "--state", asked, "--json")
+    answer = json.loads(out)
+    assert Path(answer["motion"]).is_file()
+    known = Library.load(built).ask([0, 0, -1], np.zeros(12))
+    assert (answer["fall"], answer["probability"]) == (known.fall, known.probability)
+    status, out, _ = run("library", "check", str(built), "--starts", "2", "--json")
+    assert status == 0
+    found = json.loads(out)
+    assert (found["starts"], found["seed"], found["nominal"]["first"]["runs"]) == (2, 1, 2)
+    status, out, _ = run("library", "check", str(built), "--starts", "2")
+    assert "within two attempts" in out
+
+
+def test_an_attitude_is_which_way_is_up(built: Path, run: Run, tmp_path: Path) -> None:
+    """Half a turn about x: up is down. The joints by name, in any order."""
+    library = Library.load(built)
+    names = library.ask([0, 0, 1], np.zeros(12)).motion.joint_names
+    angles = {name: 0.1 * i for i, name in enumerate(names)}
+    one = state(tmp_path / "one.json", attitude=[0, 1, 0, 0], joints=dict(reversed(angles.items())))
+    other = state(tmp_path / "other.json", up=[0, 0, -1], joints=list(angles.values()))
+    assert run("library", "ask", str(built), "--state", one, "--json") == run(
+        *("library", "ask", str(built), "--state", other, "--json")
+    )
+
+
+def test_the_reference_is_written_as_a_table(built: Path, run: Run, tmp_path: Path) -> None:
+    asked = state(tmp_path / "state.json", up=[0, 0, -1], joints=[0.0] * 12)
+    table = tmp_path / "reference.csv"
+    assert run("library", "ask", str(built), "--state", asked, "--reference", str(table))[0] == 0
+    answer = Library.load(built).ask([0, 0, -1], np.zeros(12))
+    head = table.read_text().splitlines()[0].split(",")
+    assert head == ["time", *answer.motion.joint_names]
+    rows = np.loadtxt(table, delimiter=",", skiprows=1)
+    np.testing.assert_array_equal(rows[:, 1:], answer.reference.position[0])
+    np.testing.assert_allclose(np.diff(rows[:, 0]), answer.reference.timestep)
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        ({"up": [0, 0, 1]}, "joints: should be 12 numbers"),
+        ({"joints": [0] * 12}, "give the attitude, a quaternion w-x-y-z, or up"),
+        ({"up": [0, 0, 1], "attitude": [1, 0, 0, 0], "joints": [0] * 12}, "one of the two"),
+        ({"up": [0, 0, True], "joints": [0] * 12}, "up: should be 3 numbers"),
+        ({"attitude": [0, 0, 0, 0], "joints": [0] * 12}, "four zeros are no rotation"),
+        ({"atitude": [1, 0, 0, 0], "joints": [0] * 12}, "unknown key 'atitude'; did you mean attitude?"),
+        ({"up": [0, 0, 1], "joints": {"lf_ha": 0}}, "joints: no joint 'lf_ha'; did you mean lf_haa?"),
+        ({"up": [0, 0, 1], "joints": {"lf_haa": 0}}, "joints: lf_hfe is missing"),
+    ],
+)
+def test_wrong_states_are_one_line(built: Path, run: Run, tmp_path: Path, content: dict[str, Any], said: str) -> None:
+    status, out, err = run("library", "ask", str(built), "--state", state(tmp_path / "state.json", **content))
+    assert (status, out) == (2, "")
+    assert said in err
+    assert err.count("\n") == 1
+
+
+def test_what_is_no_library_is_one_line(run: Run, tmp_path: Path) -> None:
+    for words in (("check",), ("ask", "--state", "state.json")):
+        status, _, err = run("library", words[0], str(tmp_path), *words[1:])
+        assert status == 2
+        assert "holds no motion library; build one" in err
+    status, _, err = run("library", "build", "self-rightin", "--out", str(tmp_path / "x"))
+    assert status == 2
+    assert "did you mean self-righting" in err
+    status, _, err = run("library", "build", "self-righting", "--starts", "0", "--out", str(tmp_path / "x"))
+    assert status == 2
+    assert "--starts: 0 falls are none" in err
+
+
+def test_another_task_is_not_built_into_it(built: Path, run: Run) -> None:
+    status, _, err = run("library", "build", "self-righting", "--out", str(built), "--starts", "4")
+    assert status == 2
+    assert "holds the library of another task, robot or seed" in err
+    assert "--out DIR" in err

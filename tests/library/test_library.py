@@ -1,0 +1,267 @@
+"""Motion libraries: what was done is kept, results depend on nothing but task and seed, answers are what they say."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import shutil
+from contextlib import suppress
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from levade.costs import Criterion
+from levade.engines import Perturbation
+from levade.errors import LevadeError
+from levade.library import Falls, Library, Method, Record, build, check_library
+from levade.library.building import rounds
+from levade.library.knowledge import Knowledge
+from levade.motions import Motion
+from levade.tasks import Task, load_task
+
+STARTS = 7
+
+
+def rolling() -> Task:
+    """Lie with the back anywhere but down, after a third of a second: some motions do, from some falls."""
+    small = ("hold=0.1", "horizon=0.3", "search.polish=4", "search.population=4", "search.trials=24")
+    task = load_task("self-righting", changes=["start={fallen: {height: 0.5, time: 0.4}}", *small])
+    return replace(task, success={"over": Criterion("tilt", maximum=1.9, at="end")})
+
+
+@pytest.fixture(scope="module")
+def library(tmp_path_factory: pytest.TempPathFactory) -> Library:
+    return build(rolling(), starts=STARTS, directory=tmp_path_factory.mktemp("libraries") / "rolling")
+
+
+def contents(directory: Path) -> dict[str, bytes]:
+    """Every file of a library, but its lock."""
+    files = (path for path in sorted(directory.rglob("*")) if path.is_file() and path.name[0] != ".")
+    return {str(path.relative_to(directory)): path.read_bytes() for path in files}
+
+
+def test_every_fall_has_a_record_and_every_motion_found_a_file(library: Library) -> None:
+    assert [record.fall for record in library.records] == list(range(STARTS))
+    found = {record.fall for record in library.records if record.method in (Method.NEAR, Method.COLD)}
+    assert {int(path.stem) for path in (library.directory / "motions").iterdir()} == found
+    assert {int(motion) for motion in library.knowledge.motions} == found
+    assert {record.method for record in library.records} >= {Method.COLD, Method.KNOWN}
+    assert 0 < (library.knowledge.success == 1.0).mean() < 1  # there is something to tell apart
+    assert not np.isnan(library.knowledge.success).any()
+
+
+def test_a_fall_sees_the_library_as_it_was_when_its_round_began(library: Library) -> None:
+    assert list(rounds(7)) == [(0, 1), (1, 2), (2, 4), (4, 7)]
+    assert list(rounds(100)) == [(0, 1), (1, 2), (2, 4), (4, 8), (8, 16), (16, 32), (32, 64), (64, 96), (96, 100)]
+    first = {fall: begin for begin, end in rounds(STARTS) for fall in range(begin, end)}
+    found = [record.fall for record in library.records if record.motion == record.fall]
+    for record in library.records:
+        assert sorted(record.tried) == [fall for fall in found if fall < first[record.fall]]
+
+
+def test_what_a_record_says_is_so(library: Library) -> None:
+    """Each motion from each fall once more, alone."""
+    falls = Falls(rolling())
+    for record, row in zip(library.records, library.knowledge.success, strict=True):
+        objective = falls.objective(record.fall)
+        up, joints = falls.sensed(objective.state)
+        np.testing.assert_array_equal(up, record.up)
+        np.testing.assert_array_equal(joints, record.joint_position)
+        for fall, works in zip(library.knowledge.motions, row, strict=True):
+            motion = Motion.load(library.directory / "motions" / f"{fall:06}.npz")
+            found = objective.evaluate(motion["weights"][None])
+            assert found.success[0] == (works == 1.0), (record.fall, fall)
+        if record.motion is not None:
+            assert row[list(library.knowledge.motions).index(record.motion)] == 1.0
+
+
+@pytest.mark.parametrize("cuts", [(1,), (3, 4), (2, 5, 6)])
+def test_stopped_and_gone_on_with_it_has_the_same_bytes(
+    library: Library, tmp_path: Path, cuts: tuple[int, ...]
+) -> None:
+    """Stopped after some parts of it, more than once, with another number of threads."""
+    seen: list[int] = []
+    for cut in (*cuts, 1000):
+        until = len(seen) + cut
+        with suppress(LevadeError):  # of one that was stopped before its first fall was done there is nothing to load
+            build(
+                rolling(),
+                starts=STARTS,
+                directory=tmp_path,
+                threads=1,
+                observe=lambda progress: seen.append(progress.done),
+                stopping=partial(lambda until: len(seen) >= until, until),
+            )
+    assert seen[-1] == STARTS
+    assert min(seen) < STARTS
+    assert contents(tmp_path) == contents(library.directory)
+
+
+def test_it_grows_to_what_it_would_have_been(library: Library, tmp_path: Path) -> None:
+    for starts in (3, 6, STARTS):
+        grown = build(rolling(), starts=starts, directory=tmp_path)
+        assert len(grown.records) == starts
+    assert contents(tmp_path) == contents(library.directory)
+
+
+def test_a_record_that_is_lost_is_made_again(library: Library, tmp_path: Path) -> None:
+    shutil.copytree(library.directory, tmp_path / "again")
+    (tmp_path / "again" / "falls" / "000005.json").unlink()
+    build(rolling(), starts=STARTS, directory=tmp_path / "again")
+    assert contents(tmp_path / "again") == contents(library.directory)
+
+
+def test_another_task_or_seed_is_refused(library: Library) -> None:
+    for task, seed in ((rolling(), 1), (replace(rolling(), hold=0.2), 0)):
+        with pytest.raises(LevadeError, match="holds the library of another task, robot or seed"):
+            build(task, starts=STARTS, seed=seed, directory=library.directory)
+
+
+def test_an_answer_is_the_motion_from_where_the_joints_are(library: Library) -> None:
+    """To the bit what a search from there would have commanded."""
+    falls = Falls(rolling(), seed=5)
+    objective = falls.objective(0)
+    up, _ = falls.sensed(objective.state)
+    told = objective.state.joint_reference[0]
+    answer = library.ask(7.0 * up, told)  # of any length
+    policy = objective.policy
+    expected = policy.reference(answer.motion["weights"][None])
+    np.testing.assert_array_equal(answer.reference.position, expected.position)
+    assert np.abs(answer.reference.position[0, 0] - told).max() < 0.05
+    assert [fall for fall, _ in answer.others] != []
+    assert answer.probability >= max(probability for _, probability in answer.others)
+
+
+def test_it_is_checked_on_falls_that_it_has_not_seen(library: Library) -> None:
+    """Against each fall alone, by hand."""
+    n, seed = 5, 3
+    found = check_library(library, starts=n, seed=seed)
+    falls = Falls(rolling(), seed=seed)
+    first = []
+    for i in range(n):
+        objective = falls.objective(i)
+        answer = library.ask(*falls.sensed(objective.state))
+        first.append(bool(objective.evaluate(answer.motion["weights"][None]).success[0]))
+    assert (found.first.successes, found.first.runs) == (sum(first), n)
+    assert found.failed == tuple(i for i, works in enumerate(first) if not works)
+    assert found.first.successes <= found.after[2].successes <= found.after[3].successes <= found.after[5].successes
+    assert found.first.successes <= found.twice.successes <= n
+    assert 0 < found.expected < 1
+    assert json.loads(json.dumps(found.to_json()))["nominal"]["first"]["share"] == found.first.share
+    with pytest.raises(LevadeError, match="0 is the seed of the library's own falls"):
+        check_library(library, starts=n, seed=0)
+
+
+def test_a_robot_that_does_not_differ_is_the_model(library: Library) -> None:
+    nothing = Perturbation(**dict.fromkeys(vars(Perturbation())))
+    found = check_library(library, starts=4, seed=3, perturbation=nothing)
+    assert found.perturbed == found.first
+
+
+# what is known
+
+
+def known(success: list[list[float]], angles: list[float]) -> Knowledge:
+    up = np.array([[0.0, np.sin(angle), np.cos(angle)] for angle in angles])
+    table = np.array(success, dtype=float)
+    return Knowledge(np.arange(len(up)), up, np.zeros((len(up), 2)), np.arange(table.shape[1]), table)
+
+
+def test_what_worked_nearby_is_likeliest() -> None:
+    knowledge = known([[1, 0], [1, 0], [0, 1], [0, 1]], [0.0, 0.1, 3.0, 3.1])
+    here, there = (np.array([0.0, np.sin(a), np.cos(a)]) for a in (0.05, 3.05))
+    assert knowledge.ranked(here, np.zeros(2))[0][0] == 0
+    assert knowledge.ranked(there, np.zeros(2))[0][0] == 1
+    for where in (here, there):
+        assert all(0 < probability < 1 for _, probability in knowledge.ranked(where, np.zeros(2)))
+
+
+def test_what_was_not_tried_counts_neither_way() -> None:
+    up, joints = np.array([0.0, 0.0, 1.0]), np.zeros(2)
+    unknown = known([[1, np.nan], [1, np.nan], [1, 1]], [0.0, 0.1, 0.2]).probabilities(up, joints)
+    failed = known([[1, 0], [1, 0], [1, 1]], [0.0, 0.1, 0.2]).probabilities(up, joints)
+    assert unknown[1] > failed[1]
+    assert unknown[0] == failed[0]
+
+
+def test_the_distance_of_a_turn_is_its_angle() -> None:
+    knowledge = known([[1.0]] * 3, [0.0, 1.0, np.pi])
+    np.testing.assert_allclose(knowledge.distances(np.array([0.0, 0.0, 1.0]), np.zeros(2)), [0, 1, np.pi], atol=1e-7)
+
+
+def test_few_motions_cover_all_that_any_does() -> None:
+    """Against all subsets: greedy is at most ln n + 1 times the fewest, and here one more at most."""
+    generator = np.random.default_rng(0)
+    for _ in range(20):
+        success = (generator.random((12, 6)) < 0.3).astype(float)
+        knowledge = known(success.tolist(), [0.0] * 12)
+        cover = knowledge.cover()
+        chosen, counts = [motion for motion, _ in cover], [falls for _, falls in cover]
+        reachable = int(success.any(axis=1).sum())
+        assert counts == [int(success[:, chosen[: k + 1]].any(axis=1).sum()) for k in range(len(chosen))]
+        assert counts == sorted(set(counts))
+        assert (counts[-1] if counts else 0) == reachable
+        fewest = next(
+            k
+            for k in range(7)
+            if any(
+                success[:, list(some)].any(axis=1).sum() == reachable for some in itertools.combinations(range(6), k)
+            )
+        )
+        assert len(chosen) <= fewest + 1
+
+
+# what is wrong
+
+
+@pytest.mark.parametrize(
+    ("up", "joints", "said"),
+    [
+        ([0, 0], np.zeros(12), "up: should be three numbers"),
+        ([0, 0, 0], np.zeros(12), "up: should be three numbers"),
+        ([0, 0, np.nan], np.zeros(12), "up: should be three numbers"),
+        ([0, 0, 1], np.zeros(11), "joint_position: 11 numbers, should be the angles of 12 joints"),
+        ([0, 0, 1], np.full(12, np.inf), "joint_position: 12 numbers"),
+    ],
+)
+def test_wrong_questions(library: Library, up: list[float], joints: np.ndarray, said: str) -> None:
+    with pytest.raises(LevadeError, match=said):
+        library.ask(up, joints)
+
+
+@pytest.mark.parametrize(
+    ("file", "content", "said"),
+    [
+        ("falls/000002.json", "{", r"000002\.json: .*is no record of a fall, or damaged"),
+        ("falls/000002.json", '{"fall": 2}', r"000002\.json: is no record of a fall"),
+        ("success.npz", "no archive", r"success\.npz: is damaged; remove it"),
+        ("library.yaml", "seed: x\n", r"library\.yaml: seed: should be a whole number"),
+    ],
+)
+def test_damaged_libraries(library: Library, tmp_path: Path, file: str, content: str, said: str) -> None:
+    shutil.copytree(library.directory, tmp_path / "damaged")
+    (tmp_path / "damaged" / file).write_text(content)
+    with pytest.raises(LevadeError, match=said):
+        check_library(Library.load(tmp_path / "damaged"), starts=1, seed=1)
+
+
+def test_what_is_no_library_is_said(tmp_path: Path) -> None:
+    with pytest.raises(LevadeError, match="holds no motion library"):
+        Library.load(tmp_path)
+    with pytest.raises(LevadeError, match="0 falls are none"):
+        build(rolling(), starts=0, directory=tmp_path)
+    with pytest.raises(LevadeError, match="leave robust and hardware out"):
+        build(load_task("self-righting-robust"), starts=1, directory=tmp_path)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_records_survive_json(library: Library, tmp_path: Path) -> None:
+    (tmp_path / "falls").mkdir()
+    for record in library.records:
+        record.write(tmp_path)
+        again = vars(Record.load(tmp_path / "falls" / f"{record.fall:06}.json"))
+        for name, value in vars(record).items():
+            np.testing.assert_array_equal(again[name], value, err_msg=name)
