@@ -50,7 +50,7 @@ def test_every_fall_has_a_record_and_every_motion_found_a_file(library: Library)
     assert {int(motion) for motion in library.knowledge.motions} == found
     assert {record.method for record in library.records} >= {Method.COLD, Method.KNOWN}
     assert 0 < (library.knowledge.success == 1.0).mean() < 1  # there is something to tell apart
-    assert not np.isnan(library.knowledge.success).any()
+    assert not np.isnan(library.knowledge.success + library.knowledge.perturbed).any()
 
 
 def test_a_fall_sees_the_library_as_it_was_when_its_round_began(library: Library) -> None:
@@ -167,7 +167,9 @@ def test_a_robot_that_does_not_differ_is_the_model(library: Library) -> None:
 def known(success: list[list[float]], angles: list[float]) -> Knowledge:
     up = np.array([[0.0, np.sin(angle), np.cos(angle)] for angle in angles])
     table = np.array(success, dtype=float)
-    return Knowledge(np.arange(len(up)), up, np.zeros((len(up), 2)), np.arange(table.shape[1]), table)
+    return Knowledge(
+        np.arange(len(up)), up, np.zeros((len(up), 2)), np.arange(table.shape[1]), table, np.full(table.shape, np.nan)
+    )
 
 
 def test_what_worked_nearby_is_likeliest() -> None:
@@ -177,6 +179,15 @@ def test_what_worked_nearby_is_likeliest() -> None:
     assert knowledge.ranked(there, np.zeros(2))[0][0] == 1
     for where in (here, there):
         assert all(0 < probability < 1 for _, probability in knowledge.ranked(where, np.zeros(2)))
+
+
+def test_of_two_motions_that_work_the_one_that_does_on_other_robots_is_likelier() -> None:
+    angles = [0.0, 0.1, 0.2]
+    knowledge = replace(known([[1, 1]] * 3, angles), perturbed=np.array([[0.0, 1.0]] * 3))
+    ranked = knowledge.ranked(np.array([0.0, 0.0, 1.0]), np.zeros(2))
+    assert [fall for fall, _ in ranked] == [1, 0]
+    assert ranked[0][1] > 0.9
+    assert ranked[1][1] == pytest.approx(0.5, abs=0.1)
 
 
 def test_what_was_not_tried_counts_neither_way() -> None:

@@ -50,7 +50,7 @@ _ON_LIMITS = (0.25, 0.6, 1.0)
 """Shares of the time after which searches within limits, in order, end if they have not met them."""
 
 _ENOUGH = 0.4
-"""Share of the time after which no further one is begun once one has."""
+"""Share of the time after which no further one is begun, and one that has not met them ends, once another has."""
 
 _ON_ROBUST = 0.7
 """Share of the time after which a robust search ends that has not met its demands, where one with feedback can follow."""
@@ -262,7 +262,8 @@ class _Pursuit:
         for number, name in enumerate(LIMITS):
             if self._state.chosen not in (None, name):
                 continue
-            self._share = _ON_LIMITS[number]
+            found = any(part.met for part in self._parts)
+            self._share = min(_ON_LIMITS[number], _ENOUGH) if found else _ON_LIMITS[number]
             task, near = self._last_within_limits() if name == LIMITS[-1] else (plan.within_limits(number), None)
             part = self._search(name, task, near, seed=self._seed + _APART * number)
             met = any(part.met for part in self._parts)

@@ -91,8 +91,7 @@ class Library:
         knowledge = Knowledge.of(records)
         if not len(knowledge.motions):
             raise LevadeError(f"{directory}: no motion was found for any of its {len(records)} falls; build it further")
-        success = np.where(np.isnan(knowledge.success), read_success(directory, knowledge), knowledge.success)
-        return cls(directory, records, replace(knowledge, success=success))
+        return cls(directory, records, knowledge.merged(read_success(directory, knowledge)))
 
     def ask(self, up: Any, joint_position: Any) -> Answer:
         """Which motion to play.
@@ -123,24 +122,28 @@ class Library:
         return float((self.knowledge.success == 1.0).any(axis=1).mean())
 
 
-def read_success(directory: Path, knowledge: Knowledge) -> Array:
-    """Which of the motions works from which of the falls, as far as a build wrote it; NaN elsewhere, shape (n, m).
+def read_success(directory: Path, knowledge: Knowledge) -> dict[str, Array]:
+    """Which of the motions works from which of the falls, as far as a build wrote it.
+
+    Returns:
+        The tables ``success`` and ``perturbed`` of `Knowledge`, NaN where nothing was written, shape (n, m) each.
 
     Raises:
         LevadeError: If the file is damaged.
     """
-    found = np.full(knowledge.success.shape, np.nan)
     place = directory / SUCCESS
+    tables = {name: np.full(knowledge.success.shape, np.nan) for name in ("success", "perturbed")}
     if not place.is_file():
-        return found
+        return tables
     try:
         with np.load(place, allow_pickle=False) as file:
-            falls, motions, success = (file[name] for name in ("falls", "motions", "success"))
-        if success.shape != (len(falls), len(motions)):
+            falls, motions, *written = (file[name] for name in ("falls", "motions", *tables))
+        if any(one.shape != (len(falls), len(motions)) for one in written):
             raise ValueError
     except (OSError, ValueError, KeyError, zipfile.BadZipFile):
         raise LevadeError(f"{place}: is damaged; remove it, and build the library again") from None
     rows, here = np.intersect1d(knowledge.falls, falls, return_indices=True)[1:]
     columns, there = np.intersect1d(knowledge.motions, motions, return_indices=True)[1:]
-    found[np.ix_(rows, columns)] = success[np.ix_(here, there)]
-    return found
+    for table, one in zip(tables.values(), written, strict=True):
+        table[np.ix_(rows, columns)] = one[np.ix_(here, there)]
+    return tables

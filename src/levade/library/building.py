@@ -6,7 +6,7 @@ DIR/task.yaml            the task, with every default filled in, from the first 
 DIR/library.yaml         seed and number of falls
 DIR/falls/000012.json    how the robot lies, and what came of it: written when the fall is done
 DIR/motions/000012.npz   the motion that was found for this fall
-DIR/success.npz          which motion works from which fall
+DIR/success.npz          which motion works from which fall, on the model and on a robot that differs from it
 
 Falls go in rounds, and a fall sees the library as it was when its round began. So the result depends neither on threads nor on
 where an earlier build was stopped. The searches of a round are driven in lockstep.
@@ -23,9 +23,10 @@ import numpy as np
 
 from levade.arrays import Array
 from levade.document import read_yaml
+from levade.engines import Perturbation
 from levade.errors import LevadeError, Remedy
 from levade.library.asking import SUCCESS, Library, read_success
-from levade.library.falls import Falls, decisions, tried
+from levade.library.falls import Falls, decisions, tried, tried_on_others
 from levade.library.knowledge import Knowledge
 from levade.library.records import FALLS, MOTIONS, Method, Record, motion_path, record_path
 from levade.locking import locked
@@ -244,23 +245,32 @@ class _Builder:
         return self._motions[i]
 
     def complete(self) -> None:
-        """Try every motion from every fall, and write which works: `levade.library.asking.SUCCESS`."""
-        knowledge = Knowledge.of(list(self._records.values()))
-        success = knowledge.success
-        success = np.where(np.isnan(success), read_success(self._directory, knowledge), success)
-        untried = np.isnan(success)
-        rows = np.flatnonzero(untried.any(axis=1))
+        """Try every motion from every fall, on the model and on a robot that differs, and write which works."""
+        known = Knowledge.of(list(self._records.values()))
+        known = known.merged(read_success(self._directory, known))
+        success, perturbed = known.success.copy(), known.perturbed.copy()
+        rows = np.flatnonzero(np.isnan(success + perturbed).any(axis=1))
         for first in range(0, len(rows), _ROUND):
             if self._stopping():
                 return
             part = rows[first : first + _ROUND]
-            objectives = [self._falls.objective(int(knowledge.falls[row])) for row in part]
-            own = [[self._motion(int(motion)) for motion in knowledge.motions[untried[row]]] for row in part]
-            for row, found in zip(part, tried(objectives, own), strict=True):
-                success[row, untried[row]] = found.success
+            objectives = [self._falls.objective(int(known.falls[row])) for row in part]
+            untried = {row: np.isnan(success[row]) for row in part if np.isnan(success[row]).any()}
+            own = [[self._motion(int(motion)) for motion in known.motions[which]] for which in untried.values()]
+            asked = [objective for row, objective in zip(part, objectives, strict=True) if row in untried]
+            for (row, which), found in zip(untried.items(), tried(asked, own), strict=True):
+                success[row, which] = found.success
+            for row, objective in zip(part, objectives, strict=True):
+                motions = {
+                    int(j): self._motion(int(known.motions[j])) for j in np.flatnonzero(np.isnan(perturbed[row]))
+                }
+                if motions:
+                    seed = (self._seed, int(known.falls[row]))
+                    perturbed[row, list(motions)] = tried_on_others(objective, motions, Perturbation(), seed=seed)
         place = self._directory / SUCCESS
         with storing(place, then=Remedy("make room, then build again")), replacing(place) as partial:
-            np.savez(partial, falls=knowledge.falls, motions=knowledge.motions, success=success == 1.0)
+            tables = {"success": success == 1.0, "perturbed": perturbed == 1.0}
+            np.savez(partial, falls=known.falls, motions=known.motions, **tables)
 
     def _tell(self) -> None:
         if self._observe is None:

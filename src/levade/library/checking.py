@@ -8,16 +8,16 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from levade.checks.statistics import wilson
-from levade.engines import MujocoEngine, Perturbation, perturbed_models
+from levade.engines import MujocoEngine, Perturbation
 from levade.errors import LevadeError
 from levade.library.asking import Answer, Library
 from levade.library.building import read_library
-from levade.library.falls import Falls, decisions, tried
+from levade.library.falls import Falls, decisions, tried, tried_on_others
 from levade.library.records import motion_path
 from levade.motions import Motion
 from levade.robots import Robot
@@ -29,9 +29,6 @@ AFTER = (2, 3, 5)
 
 _AT_ONCE = 32
 """Falls in one batch."""
-
-_TAG = 1_818_845_550
-"""Keeps perturbed models apart from those of searches and checks of motions."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +72,8 @@ class LibraryCheck:
         after: Number k -> one of the k likeliest motions works.
         twice: The first answer works, or another answer does from where the first one left the robot.
         perturbed: The first answer works on a robot that differs from the model, another one for each fall.
-        expected: Mean of the probabilities that came with the first answers: that of `first`, if they are true.
+        expected: Mean of the probabilities that came with the first answers: if they are true, between `first` and `perturbed`,
+            as a library's own falls are tried on both.
         answer_ms: Median and 99th percentile of the time that an answer took [ms], without a simulator.
         failed: Falls from which the first answer did not work.
         interrupted: Whether it was stopped before its end.
@@ -171,7 +169,10 @@ class _Trial:
         self._works += works
         self._expected += [one.probability for one in answers]
         first = [own[0] for own in motions]
-        self._perturbed += self._on_others(indices, objectives, first)
+        self._perturbed += [
+            bool(tried_on_others(objective, {0: motion}, self._perturbation, seed=(self._seed, i))[0])
+            for i, objective, motion in zip(indices, objectives, first, strict=True)
+        ]
         failed = [j for j, one in enumerate(works) if not one[0]]
         if failed:
             self._recovered += self._again([objectives[j] for j in failed], [first[j] for j in failed])
@@ -203,27 +204,6 @@ class _Trial:
         if fall not in self._motions:
             self._motions[fall] = Motion.load(motion_path(self._library.directory, fall))
         return self._motions[fall]
-
-    def _on_others(
-        self, indices: Sequence[int], objectives: Sequence[Objective], motions: Sequence[Motion]
-    ) -> list[bool]:
-        """Whether each motion works on a robot that differs from the model, another one for each fall."""
-        engine = self._falls.simulation.engine
-        parts = []
-        for i, objective, motion in zip(indices, objectives, motions, strict=True):
-            joints = engine.embodiment.joints
-            sample = self._perturbation.draw(engine.model, joints, n=1, seed=(self._seed, i, _TAG))
-            starts, models = perturbed_models(engine.model, engine.layout, sample, objective.state)
-            policy, hold = objective.policy, objective.task.hold_steps
-            reference = policy.reference(decisions(policy, motion), hold_steps=hold)
-            parts.append(Rollouts(starts, replace(reference, before=objective.state.joint_reference[0]), models))
-        joined = Rollouts.joined(parts)
-        recorded = objectives[0].recorded
-        trajectories = engine.rollout(joined.starts, joined.reference, models=joined.models, record=recorded)
-        return [
-            bool(one.judge(trajectories[j : j + 1], one.task.hold_steps, perturbed=True).success[0])
-            for j, one in enumerate(objectives)
-        ]
 
     def _again(self, objectives: Sequence[Objective], motions: Sequence[Motion]) -> int:
         """Of falls from which a motion did not work, how many another answer recovers from, where that one left the robot."""

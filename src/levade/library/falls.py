@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from levade.arrays import Array
-from levade.engines import Fallen, State, start_state
+from levade.engines import Fallen, Perturbation, Sample, State, perturbed_models, start_state
 from levade.errors import LevadeError
 from levade.motions import Motion
 from levade.policies import FreePolicy, JointPolicy
 from levade.robots import Robot, dimensions
 from levade.rotations import conjugate, rotate
-from levade.search.evaluation import Evaluation, Trials
-from levade.search.objective import Objective, Simulation, evaluate_many
+from levade.search.evaluation import Evaluation, Mask, Trials
+from levade.search.objective import AT_ONCE, Objective, Simulation, evaluate_many
 from levade.tasks import StartChoice, Task
 
 _UP = np.array([0.0, 0.0, 1.0])
+
+_TAG = 1_818_845_550
+"""Keeps perturbed models apart from those of searches and checks of motions."""
 
 
 class Falls:
@@ -74,6 +77,36 @@ def decisions(policy: JointPolicy, motion: Motion) -> Array:
     own = motion.policy
     goal = None if policy.goal is None or own is None or own.ends is None else own.ends.goal
     return policy.decision(weights, steps=motion.horizon_steps, goal=goal)
+
+
+def tried_on_others(
+    objective: Objective, motions: Mapping[int, Motion], perturbation: Perturbation, *, seed: tuple[int, ...]
+) -> Mask:
+    """Try motions from one fall, each on another robot that differs from the model.
+
+    Args:
+        objective: The task from that fall.
+        motions: Number of a robot -> motion. What a number's robot is does not depend on the others.
+        perturbation: How far robots differ.
+        seed: Seed of how they do.
+
+    Returns:
+        Which work, shape (motions,).
+    """
+    engine, policy, hold = objective.engine, objective.policy, objective.task.hold_steps
+    numbers = np.array(list(motions), dtype=int)
+    drawn = perturbation.draw(engine.model, engine.embodiment.joints, n=int(numbers.max()) + 1, seed=(*seed, _TAG))
+    works = np.zeros(len(motions), dtype=bool)
+    for first in range(0, len(motions), AT_ONCE):
+        rows = slice(first, first + AT_ONCE)
+        sample = Sample({name: values[numbers[rows]] for name, values in drawn.values.items()})
+        starts, models = perturbed_models(engine.model, engine.layout, sample, objective.state)
+        weights = np.concatenate([decisions(policy, motions[int(number)]) for number in numbers[rows]])
+        # until the first reference arrives, the joints have what they were commanded last
+        reference = replace(policy.reference(weights, hold_steps=hold), before=objective.state.joint_reference[0])
+        trajectories = engine.rollout(starts, reference, models=models, record=objective.recorded)
+        works[rows] = objective.judge(trajectories, hold, perturbed=True).success
+    return works
 
 
 def tried(objectives: Sequence[Objective], motions: Sequence[Sequence[Motion]]) -> list[Evaluation]:

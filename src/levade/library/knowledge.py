@@ -9,8 +9,8 @@ work here: each of them has a say by how near it is, and all falls together have
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -38,6 +38,7 @@ class Knowledge:
         joint_position: Joint angles in each [rad], shape (n, joints).
         motions: Numbers of the falls that motions were found for, shape (m,).
         success: Whether each motion works from each fall: 1, 0, or NaN where it was not tried, shape (n, m).
+        perturbed: The same on a robot that differs from the model, another one for each pair, shape (n, m).
     """
 
     falls: Array
@@ -45,6 +46,7 @@ class Knowledge:
     joint_position: Array
     motions: Array
     success: Array
+    perturbed: Array
 
     @classmethod
     def of(cls, records: Sequence[Record]) -> Knowledge:
@@ -65,7 +67,17 @@ class Knowledge:
             np.array([record.joint_position for record in records]).reshape(len(records), joints),
             motions,
             success,
+            np.full(success.shape, np.nan),
         )
+
+    def merged(self, tables: Mapping[str, Array]) -> Knowledge:
+        """The same, with what tables of the same shape say where nothing was known.
+
+        Args:
+            tables: "success" and "perturbed" -> table, NaN where it says nothing.
+        """
+        filled = {name: np.where(np.isnan(own := getattr(self, name)), table, own) for name, table in tables.items()}
+        return replace(self, **filled)
 
     def distances(self, up: Array, joint_position: Array) -> Array:
         """How far a state is from each fall [rad], shape (n,): the angle between ways up, and a share of the joints'."""
@@ -74,16 +86,16 @@ class Knowledge:
         return np.hypot(angle, _JOINTS * joints)
 
     def probabilities(self, up: Array, joint_position: Array) -> Array:
-        """How likely each motion works from a state, shape (m,)."""
+        """How likely each motion works from a state, on the model or on a robot near it, shape (m,)."""
         if not len(self.motions):
             return np.zeros(0)
         distance = self.distances(up, joint_position)
         reach = max(_LEAST_REACH, float(np.sort(distance)[min(_NEAREST, len(distance)) - 1]))
-        tried = ~np.isnan(self.success)
-        worked = np.nan_to_num(self.success)
-        say = np.exp(-((distance / reach) ** 2))[:, None] * tried
+        both = np.stack([self.success, self.perturbed])
+        tried, worked = (~np.isnan(both)).sum(axis=0), np.nansum(both, axis=0)
+        near = np.exp(-((distance / reach) ** 2))
         share = (worked.sum(axis=0) + 1.0) / (tried.sum(axis=0) + 2.0)
-        return ((say * worked).sum(axis=0) + _PRIOR * share) / (say.sum(axis=0) + _PRIOR)
+        return (near @ worked + _PRIOR * share) / (near @ tried + _PRIOR)
 
     def ranked(self, up: Array, joint_position: Array) -> list[tuple[int, float]]:
         """Motions and how likely each works from a state, the likeliest first."""
