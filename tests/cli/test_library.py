@@ -58,7 +58,8 @@ def test_it_is_built_asked_and_checked(built: Path, run: Run, tmp_path: Path) ->
     answer = json.loads(out)
     assert Path(answer["motion"]).is_file()
     known = Library.load(built).ask([0, 0, -1], np.zeros(12))
-    assert (answer["fall"], answer["probability"]) == (known.fall, known.probability)
+    assert (answer["motion"], answer["mirrored"]) == (str(known.path), known.number < 0)
+    assert answer["probability"] == known.probability
     status, out, _ = run("library", "check", str(built), "--starts", "2", "--json")
     assert status == 0
     found = json.loads(out)

@@ -19,7 +19,9 @@ from levade.errors import LevadeError
 from levade.library import Falls, Library, Method, Record, build, check_library
 from levade.library.building import rounds
 from levade.library.knowledge import Knowledge
+from levade.library.mirror import Mirror
 from levade.motions import Motion
+from levade.robots import load_robot
 from levade.tasks import Task, load_task
 
 STARTS = 7
@@ -47,7 +49,7 @@ def test_every_fall_has_a_record_and_every_motion_found_a_file(library: Library)
     assert [record.fall for record in library.records] == list(range(STARTS))
     found = {record.fall for record in library.records if record.method in (Method.NEAR, Method.COLD)}
     assert {int(path.stem) for path in (library.directory / "motions").iterdir()} == found
-    assert {int(motion) for motion in library.knowledge.motions} == found
+    assert {int(motion) for motion in library.knowledge.motions} == {*found, *(-1 - fall for fall in found)}
     assert {record.method for record in library.records} >= {Method.COLD, Method.KNOWN}
     assert 0 < (library.knowledge.success == 1.0).mean() < 1  # there is something to tell apart
     assert not np.isnan(library.knowledge.success + library.knowledge.perturbed).any()
@@ -59,21 +61,36 @@ def test_a_fall_sees_the_library_as_it_was_when_its_round_began(library: Library
     first = {fall: begin for begin, end in rounds(STARTS) for fall in range(begin, end)}
     found = [record.fall for record in library.records if record.motion == record.fall]
     for record in library.records:
-        assert sorted(record.tried) == [fall for fall in found if fall < first[record.fall]]
+        there = [fall for fall in found if fall < first[record.fall]]
+        assert sorted(record.tried) == sorted([*there, *(-1 - fall for fall in there)])  # and the image of each
 
 
 def test_what_a_record_says_is_so(library: Library) -> None:
-    """Each motion from each fall once more, alone."""
+    """Each motion from each fall once more, alone. HyQ2Max's left legs are its right ones, with other abduction."""
+    names = load_robot("hyq2max").joint_names
+    other = {"lf": "rf", "rf": "lf", "lh": "rh", "rh": "lh"}
+    index = [names.index(other[name[:2]] + name[2:]) for name in names]
+
+    def image(joints: np.ndarray) -> np.ndarray:
+        return joints[..., index]
+
     falls = Falls(rolling())
     for record, row in zip(library.records, library.knowledge.success, strict=True):
         objective = falls.objective(record.fall)
         up, joints = falls.sensed(objective.state)
         np.testing.assert_array_equal(up, record.up)
         np.testing.assert_array_equal(joints, record.joint_position)
-        for fall, works in zip(library.knowledge.motions, row, strict=True):
-            motion = Motion.load(library.directory / "motions" / f"{fall:06}.npz")
-            found = objective.evaluate(motion["weights"][None])
-            assert found.success[0] == (works == 1.0), (record.fall, fall)
+        for number, works in zip(library.knowledge.motions, row, strict=True):
+            motion = Motion.load(library.directory / "motions" / f"{max(number, -1 - number):06}.npz")
+            reference = objective.policy.reference(motion["weights"][None])
+            if number < 0:  # the reference of the image: from where the image's joints are, and then mirrored
+                start = replace(objective.policy.ends, start=image(objective.state.joint_reference[0]))
+                reference = replace(objective.policy, ends=start).reference(motion["weights"][None])
+                position, velocity = image(reference.position), image(reference.velocity)
+                reference = replace(reference, position=position, velocity=velocity)
+            trajectories = objective.engine.rollout(objective.state, reference)
+            found = objective.judge(trajectories, objective.task.hold_steps)
+            assert found.success[0] == (works == 1.0), (record.fall, number)
         if record.motion is not None:
             assert row[list(library.knowledge.motions).index(record.motion)] == 1.0
 
@@ -128,10 +145,11 @@ def test_an_answer_is_the_motion_from_where_the_joints_are(library: Library) -> 
     told = objective.state.joint_reference[0]
     answer = library.ask(7.0 * up, told)  # of any length
     policy = objective.policy
-    expected = policy.reference(answer.motion["weights"][None])
-    np.testing.assert_array_equal(answer.reference.position, expected.position)
+    if answer.mirror is None:
+        expected = policy.reference(answer.motion["weights"][None])
+        np.testing.assert_array_equal(answer.reference.position, expected.position)
     assert np.abs(answer.reference.position[0, 0] - told).max() < 0.05
-    assert [fall for fall, _ in answer.others] != []
+    assert answer.others
     assert answer.probability >= max(probability for _, probability in answer.others)
 
 
@@ -144,7 +162,8 @@ def test_it_is_checked_on_falls_that_it_has_not_seen(library: Library) -> None:
     for i in range(n):
         objective = falls.objective(i)
         answer = library.ask(*falls.sensed(objective.state))
-        first.append(bool(objective.evaluate(answer.motion["weights"][None]).success[0]))
+        trajectories = objective.engine.rollout(objective.state, answer.reference)
+        first.append(bool(objective.judge(trajectories, objective.task.hold_steps).success[0]))
     assert (found.first.successes, found.first.runs) == (sum(first), n)
     assert found.failed == tuple(i for i, works in enumerate(first) if not works)
     assert found.first.successes <= found.after[2].successes <= found.after[3].successes <= found.after[5].successes
@@ -223,6 +242,62 @@ def test_few_motions_cover_all_that_any_does() -> None:
             )
         )
         assert len(chosen) <= fewest + 1
+
+
+def test_the_image_of_a_fall_has_the_image_of_the_answer() -> None:
+    """Which way is up is mirrored by y; of these two joints each is the other's image, the other way round."""
+    generator = np.random.default_rng(1)
+    mirror = Mirror(np.array([1, 0]), np.array([-1.0, -1.0]))
+    up = generator.standard_normal((6, 3))
+    up /= np.linalg.norm(up, axis=1, keepdims=True)
+    tables = (generator.random((2, 6, 4)) < 0.5).astype(float)
+    knowledge = Knowledge(
+        np.arange(6), up, generator.standard_normal((6, 2)), np.array([0, 3, -1, -4]), *tables, mirror
+    )
+    for _ in range(10):
+        where, joints = generator.standard_normal(3), generator.standard_normal(2)
+        where /= np.linalg.norm(where)
+        here = dict(knowledge.ranked(where, joints))
+        there = dict(knowledge.ranked(where * [1, -1, 1], -joints[::-1]))
+        assert {-1 - number: probability for number, probability in there.items()} == pytest.approx(here)
+
+
+@pytest.mark.parametrize(("groups", "has"), [("sides", True), ("independent", True), ("pairs", True)])
+def test_the_image_of_a_motion_is_what_the_mirrored_robot_does(groups: str, has: bool) -> None:
+    """Simulated from the image of the state, the trunk goes the mirrored way, until contacts make it chaotic."""
+    task = load_task("self-righting", changes=[f"policy.groups={groups}", "start={fallen: {height: 2.0, time: 0.0}}"])
+    falls = Falls(task)
+    objective = falls.objective(3)
+    mirror = Mirror.of(objective.robot)
+    assert mirror is not None
+    weights = np.random.default_rng(2).uniform(-0.3, 0.3, (1, objective.policy.size))
+    image = mirror.decisions(objective.policy, weights)
+    assert (image is not None) is has
+    assert image is not None
+    qpos = objective.state.qpos[0].copy()
+    qpos[[1, 4, 6]] *= -1  # y, and the quaternion's x and z
+    layout = objective.engine.layout
+    qpos[layout.joint_qpos] = mirror.posture(objective.state.joint_position[0])
+    state = objective.engine.layout.state(qpos, objective.state.qvel[0], objective.state.act[0])
+    mirrored = falls.from_state(state)
+    one = objective.rollout(weights, hold_steps=0)
+    other = mirrored.rollout(image, hold_steps=0)
+    steps = 250  # in the air, where only the robot's own asymmetry tells left from right
+    np.testing.assert_allclose(
+        other.joint_position[0, :steps], mirror.posture(one.joint_position[0, :steps]), atol=0.02
+    )
+    np.testing.assert_allclose(
+        other.trunk_quaternion[0, :steps], one.trunk_quaternion[0, :steps] * [1, -1, 1, -1], atol=0.02
+    )
+
+
+def test_what_does_not_fit_a_mirror_has_none() -> None:
+    policy = Falls(load_task("self-righting", changes=["policy.goal={lf_hfe: 0.9}"])).mirror
+    assert policy is None
+    assert Falls(load_task("self-righting", changes=["policy.groups=[[lf, rh], [rf], [lh]]"])).mirror is None
+    box = "scene.boxes=[{position: [3, 0, 0.1], size: [1, 1, 0.2]}]"
+    assert Falls(load_task("self-righting", changes=[box])).mirror is None
+    assert Falls(load_task("self-righting")).mirror is not None
 
 
 # what is wrong

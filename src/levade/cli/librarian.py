@@ -18,6 +18,7 @@ from levade.cli.tables import make_console
 from levade.document import read_yaml
 from levade.errors import LevadeError, did_you_mean
 from levade.library import Answer, Library, LibraryCheck, Progress, build, check_library
+from levade.library.records import motion_path
 from levade.rotations import conjugate, rotate
 from levade.tasks import load_task
 from levade.writing import write_text
@@ -75,7 +76,7 @@ def build_library(
             "methods": {name: sum(record.method == name for record in library.records) for name in _WORDS},
             "trials": sum(record.trials for record in library.records),
             "coverage": library.coverage,
-            "cover": [{"motion": fall, "falls": works} for fall, works in cover],
+            "cover": [{"motion": number, "falls": works} for number, works in cover],
             "interrupted": stopped,
         }
         print(json.dumps(content))
@@ -86,7 +87,9 @@ def build_library(
             console.print(f"{n} falls solved {words}.")
     enough = ", ".join(f"{k + 1}: {works / len(library.records):.1%}" for k, (_, works) in enumerate(cover[:6]))
     falls = len(library.records)
-    console.print(f"{len(library.knowledge.motions)} motions get up from {library.coverage:.1%} of {falls} falls.")
+    motions = sum(record.motion == record.fall for record in library.records)
+    images = " and their mirror images" if library.knowledge.mirror else ""
+    console.print(f"{motions} motions{images} get up from {library.coverage:.1%} of {falls} falls.")
     console.print(f"The best few of them: {enough}.")
     place = escape(str(directory))
     if stopped:
@@ -134,17 +137,25 @@ def ask_library(directory: Path, *, state: Path, reference: Path | None, as_json
     if as_json:
         content = {
             "motion": str(answer.path),
-            "fall": answer.fall,
+            "mirrored": answer.mirror is not None,
             "probability": answer.probability,
-            "others": [{"fall": fall, "probability": probability} for fall, probability in answer.others],
+            "others": [
+                {"motion": str(motion_path(directory, number)), "mirrored": number < 0, "probability": probability}
+                for number, probability in answer.others
+            ],
         }
         print(json.dumps(content))
         return 0
     console = make_console()
-    console.print(f"{escape(str(answer.path))}: works with a probability of {answer.probability:.1%}")
-    for fall, probability in answer.others[:3]:
-        console.print(f"  next: {fall:06}.npz, {probability:.1%}", style="dim")
+    console.print(f"{_named(answer.path, answer.number)}: works with a probability of {answer.probability:.1%}")
+    for number, probability in answer.others[:3]:
+        place = _named(Path(motion_path(directory, number).name), number)
+        console.print(f"  next: {place}, {probability:.1%}", style="dim")
     return 0
+
+
+def _named(path: Path, number: int) -> str:
+    return f"{'the mirror image of ' if number < 0 else ''}{escape(str(path))}"
 
 
 def _read_state(path: Path, names: tuple[str, ...]) -> tuple[Any, Array]:

@@ -17,11 +17,16 @@ from typing import Any
 import numpy as np
 
 from levade.arrays import Array
+from levade.document import read_yaml
 from levade.errors import LevadeError
 from levade.library.knowledge import Knowledge
+from levade.library.mirror import Mirror
 from levade.library.records import FALLS, Record, motion_path
 from levade.motions import Motion
 from levade.trajectory import JointReference
+
+LIBRARY = "library.yaml"
+"""Seed and number of falls, and the robot's mirror."""
 
 SUCCESS = "success.npz"
 """Which motion works from which fall, once a build has come to its end."""
@@ -32,22 +37,24 @@ class Answer:
     """What to do from where the robot lies.
 
     Attributes:
-        fall: Number of the fall that the motion was found for.
+        number: Of the motion: `levade.library.records`.
         probability: How likely it works.
         others: The other motions and how likely each works, the likeliest first.
-        path: File of the motion.
+        path: File of the motion, or of the one that it is the image of.
         joint_position: Where the joints are [rad], shape (joints,).
+        mirror: What it is the image in; None if it is the motion itself.
     """
 
-    fall: int
+    number: int
     probability: float
     others: tuple[tuple[int, float], ...]
     path: Path
     joint_position: Array
+    mirror: Mirror | None = None
 
     @cached_property
     def motion(self) -> Motion:
-        """The motion as it was found, from its own fall."""
+        """The motion as it was found, from its own fall, not mirrored."""
         return Motion.load(self.path)
 
     @cached_property
@@ -59,7 +66,13 @@ class Answer:
             raise LevadeError(f"{self.path}: has no policy that could begin elsewhere; build the library again")
         if policy.ends is not None:
             policy = replace(policy, ends=replace(policy.ends, start=self.joint_position))
-        return policy.reference(motion["weights"][None])
+        weights = motion["weights"][None]
+        if self.mirror is not None:
+            image = self.mirror.decisions(policy, weights)
+            if image is None:
+                raise LevadeError(f"{self.path}: has no image in this library's mirror; build the library again")
+            weights = image
+        return policy.reference(weights)
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +101,9 @@ class Library:
         if not files:
             raise LevadeError(f"{directory}: holds no motion library; build one, or give its directory")
         records = tuple(Record.load(path) for path in files)
-        knowledge = Knowledge.of(records)
+        place = directory / LIBRARY
+        mirror = Mirror.from_json(read_yaml(place).get("mirror"), where=str(place))
+        knowledge = Knowledge.of(records, mirror)
         if not len(knowledge.motions):
             raise LevadeError(f"{directory}: no motion was found for any of its {len(records)} falls; build it further")
         return cls(directory, records, knowledge.merged(read_success(directory, knowledge)))
@@ -104,8 +119,9 @@ class Library:
             LevadeError: If a shape is wrong, or not all are finite numbers.
         """
         up, joints = self._checked(up, joint_position)
-        (fall, probability), *others = self.knowledge.ranked(up, joints)
-        return Answer(fall, probability, tuple(others), motion_path(self.directory, fall), joints)
+        (number, probability), *others = self.knowledge.ranked(up, joints)
+        mirror = self.knowledge.mirror if number < 0 else None
+        return Answer(number, probability, tuple(others), motion_path(self.directory, number), joints, mirror)
 
     def _checked(self, up: Any, joint_position: Any) -> tuple[Array, Array]:
         up, joints = np.asarray(up, dtype=float), np.asarray(joint_position, dtype=float)

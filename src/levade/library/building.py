@@ -14,6 +14,7 @@ where an earlier build was stopped. The searches of a round are driven in lockst
 
 from __future__ import annotations
 
+import json
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -25,10 +26,10 @@ from levade.arrays import Array
 from levade.document import read_yaml
 from levade.engines import Perturbation
 from levade.errors import LevadeError, Remedy
-from levade.library.asking import SUCCESS, Library, read_success
-from levade.library.falls import Falls, decisions, tried, tried_on_others
+from levade.library.asking import LIBRARY, SUCCESS, Library, read_success
+from levade.library.falls import Falls, Play, tried, tried_on_others
 from levade.library.knowledge import Knowledge
-from levade.library.records import FALLS, MOTIONS, Method, Record, motion_path, record_path
+from levade.library.records import FALLS, MOTIONS, Method, Record, fall_of, motion_path, record_path
 from levade.locking import locked
 from levade.motions import Motion
 from levade.robots import Robot
@@ -39,7 +40,7 @@ from levade.search.storage import storing
 from levade.tasks import Task, task_from_dict, task_to_dict, task_to_yaml
 from levade.writing import replacing, write_text
 
-LIBRARY, TASK = "library.yaml", "task.yaml"
+TASK = "task.yaml"
 
 _ROUND = 32
 """Falls of a round, once there are as many: enough to share batches, and few enough that the next ones profit."""
@@ -106,7 +107,7 @@ def build(
         for name in (FALLS, MOTIONS):
             (directory / name).mkdir(parents=True, exist_ok=True)
     with locked(directory, "library"):
-        _begin(directory, falls.task, seed, starts)
+        _begin(directory, falls, seed, starts)
         builder = _Builder(falls, directory, seed, starts, observe, stopping)
         for first, last in rounds(starts):
             builder.round(first, last)
@@ -125,19 +126,20 @@ def rounds(starts: int) -> Iterator[tuple[int, int]]:
         first, size = first + size, min(max(first + size, 1), _ROUND)
 
 
-def _begin(directory: Path, task: Task, seed: int, starts: int) -> None:
+def _begin(directory: Path, falls: Falls, seed: int, starts: int) -> None:
     """Write what the library is of. Raises LevadeError if the directory holds another one."""
     place = directory / LIBRARY
     if place.is_file():
         known, began = read_library(directory)
-        if (task_to_dict(known), began) != (task_to_dict(task), seed):
+        if (task_to_dict(known), began) != (task_to_dict(falls.task), seed):
             raise LevadeError(
                 f"{directory}: holds the library of another task, robot or seed",
                 remedies=(Remedy("write elsewhere", "elsewhere"),),
             )
     with storing(place, then=Remedy("give another directory")):
-        write_text(directory / TASK, task_to_yaml(task))
-        write_text(place, f"seed: {seed}\nstarts: {starts}\n")
+        write_text(directory / TASK, task_to_yaml(falls.task))
+        mirror = None if falls.mirror is None else falls.mirror.to_json()
+        write_text(place, f"seed: {seed}\nstarts: {starts}\nmirror: {json.dumps(mirror)}\n")
 
 
 def read_library(directory: Path) -> tuple[Task, int]:
@@ -172,7 +174,7 @@ class _Builder:
         pending = [i for i in range(first, last) if i not in self._records]
         if not pending or self._stopping():
             return
-        knowledge = Knowledge.of([record for i, record in self._records.items() if i < first])
+        knowledge = Knowledge.of([record for i, record in self._records.items() if i < first], self._falls.mirror)
         objectives = {i: self._falls.objective(i) for i in pending}
         begun = self._try_known(knowledge, objectives)
         for method in (Method.NEAR, Method.COLD):
@@ -188,13 +190,13 @@ class _Builder:
         begun = {i: _Begun(sensed[i], tuple(likely[i]), (), None, len(likely[i])) for i in objectives}
         if not len(knowledge.motions):
             return begun
-        own = [[self._motion(motion) for motion in likely[i]] for i in objectives]
-        for (i, objective), motions, found in zip(
+        own = [[self._play(motion) for motion in likely[i]] for i in objectives]
+        for (i, objective), plays, found in zip(
             objectives.items(), own, tried(list(objectives.values()), own), strict=True
         ):
             worked = tuple(motion for motion, works in zip(likely[i], found.success, strict=True) if works)
             cost = found.cost({name: one.weight for name, one in objective.task.costs.items()})
-            nearest = decisions(objective.policy, motions[int(np.argmin(cost))])
+            nearest = plays[int(np.argmin(cost))].decisions(objective.policy)
             begun[i] = replace(begun[i], worked=worked, guess=InitialGuess(nearest, step=AROUND))
             if worked:
                 self._keep(i, begun[i], Method.KNOWN, worked[0])
@@ -239,14 +241,15 @@ class _Builder:
             record.write(self._directory)
         self._records[i] = record
 
-    def _motion(self, i: int) -> Motion:
-        if i not in self._motions:
-            self._motions[i] = Motion.load(motion_path(self._directory, i))
-        return self._motions[i]
+    def _play(self, motion: int) -> Play:
+        fall = fall_of(motion)
+        if fall not in self._motions:
+            self._motions[fall] = Motion.load(motion_path(self._directory, fall))
+        return Play(self._motions[fall], None if motion == fall else self._falls.mirror)
 
     def complete(self) -> None:
         """Try every motion from every fall, on the model and on a robot that differs, and write which works."""
-        known = Knowledge.of(list(self._records.values()))
+        known = Knowledge.of(list(self._records.values()), self._falls.mirror)
         known = known.merged(read_success(self._directory, known))
         success, perturbed = known.success.copy(), known.perturbed.copy()
         rows = np.flatnonzero(np.isnan(success + perturbed).any(axis=1))
@@ -256,17 +259,17 @@ class _Builder:
             part = rows[first : first + _ROUND]
             objectives = [self._falls.objective(int(known.falls[row])) for row in part]
             untried = {row: np.isnan(success[row]) for row in part if np.isnan(success[row]).any()}
-            own = [[self._motion(int(motion)) for motion in known.motions[which]] for which in untried.values()]
+            own = [[self._play(int(motion)) for motion in known.motions[which]] for which in untried.values()]
             asked = [objective for row, objective in zip(part, objectives, strict=True) if row in untried]
             for (row, which), found in zip(untried.items(), tried(asked, own), strict=True):
                 success[row, which] = found.success
             for row, objective in zip(part, objectives, strict=True):
-                motions = {
-                    int(j): self._motion(int(known.motions[j])) for j in np.flatnonzero(np.isnan(perturbed[row]))
-                }
-                if motions:
+                # robots are numbered by motions, in an order in which later ones come last
+                numbers = {int(j): _robot(int(known.motions[j])) for j in np.flatnonzero(np.isnan(perturbed[row]))}
+                plays = {number: self._play(int(known.motions[j])) for j, number in numbers.items()}
+                if plays:
                     seed = (self._seed, int(known.falls[row]))
-                    perturbed[row, list(motions)] = tried_on_others(objective, motions, Perturbation(), seed=seed)
+                    perturbed[row, list(numbers)] = tried_on_others(objective, plays, Perturbation(), seed=seed)
         place = self._directory / SUCCESS
         with storing(place, then=Remedy("make room, then build again")), replacing(place) as partial:
             tables = {"success": success == 1.0, "perturbed": perturbed == 1.0}
@@ -291,6 +294,11 @@ class _Begun:
     worked: tuple[int, ...]
     guess: InitialGuess | None
     trials: int
+
+
+def _robot(motion: int) -> int:
+    """Number of the robot that a motion is tried on."""
+    return 2 * fall_of(motion) + (motion < 0)
 
 
 def _near(task: Task) -> Task:

@@ -17,8 +17,8 @@ from levade.engines import MujocoEngine, Perturbation
 from levade.errors import LevadeError
 from levade.library.asking import Answer, Library
 from levade.library.building import read_library
-from levade.library.falls import Falls, decisions, tried, tried_on_others
-from levade.library.records import motion_path
+from levade.library.falls import Falls, Play, tried, tried_on_others
+from levade.library.records import fall_of, motion_path
 from levade.motions import Motion
 from levade.robots import Robot
 from levade.search.evaluation import Mask
@@ -161,17 +161,15 @@ class _Trial:
         """Try some falls."""
         objectives = [self._falls.objective(i) for i in indices]
         answers = [self._asked(objective) for objective in objectives]
-        motions = [
-            [self._motion(fall) for fall in (one.fall, *(fall for fall, _ in one.others))][: max(AFTER)]
-            for one in answers
-        ]
-        works: list[Mask] = [found.success for found in tried(objectives, motions)]
+        numbers = [(one.number, *(number for number, _ in one.others))[: max(AFTER)] for one in answers]
+        plays = [[self._play(number) for number in own] for own in numbers]
+        works: list[Mask] = [found.success for found in tried(objectives, plays)]
         self._works += works
         self._expected += [one.probability for one in answers]
-        first = [own[0] for own in motions]
+        first = [own[0] for own in plays]
         self._perturbed += [
-            bool(tried_on_others(objective, {0: motion}, self._perturbation, seed=(self._seed, i))[0])
-            for i, objective, motion in zip(indices, objectives, first, strict=True)
+            bool(tried_on_others(objective, {0: play}, self._perturbation, seed=(self._seed, i))[0])
+            for i, objective, play in zip(indices, objectives, first, strict=True)
         ]
         failed = [j for j, one in enumerate(works) if not one[0]]
         if failed:
@@ -200,20 +198,21 @@ class _Trial:
         self._times.append(time.perf_counter() - began)
         return answer
 
-    def _motion(self, fall: int) -> Motion:
+    def _play(self, number: int) -> Play:
+        fall = fall_of(number)
         if fall not in self._motions:
             self._motions[fall] = Motion.load(motion_path(self._library.directory, fall))
-        return self._motions[fall]
+        return Play(self._motions[fall], None if number == fall else self._library.knowledge.mirror)
 
-    def _again(self, objectives: Sequence[Objective], motions: Sequence[Motion]) -> int:
+    def _again(self, objectives: Sequence[Objective], plays: Sequence[Play]) -> int:
         """Of falls from which a motion did not work, how many another answer recovers from, where that one left the robot."""
         engine = self._falls.simulation.engine
         if not isinstance(engine, MujocoEngine):
             return 0
         parts = []
-        for objective, motion in zip(objectives, motions, strict=True):
+        for objective, play in zip(objectives, plays, strict=True):
             policy, hold = objective.policy, objective.task.hold_steps
-            parts.append(Rollouts(objective.state, policy.reference(decisions(policy, motion), hold_steps=hold), None))
+            parts.append(Rollouts(objective.state, policy.reference(play.decisions(policy), hold_steps=hold), None))
         joined = Rollouts.joined(parts)
         out, diverged = engine.states(joined.starts, joined.reference, ["qpos", "qvel", "act"])
         recovered = 0
@@ -222,5 +221,5 @@ class _Trial:
             told = joined.reference.position[j, -1]
             left = self._falls.from_state(engine.layout.state(qpos, qvel, act, joint_reference=told))
             answer = self._asked(left)
-            recovered += bool(tried([left], [[self._motion(answer.fall)]])[0].success[0])
+            recovered += bool(tried([left], [[self._play(answer.number)]])[0].success[0])
         return recovered

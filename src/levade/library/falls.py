@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from levade.arrays import Array
-from levade.engines import Fallen, Perturbation, Sample, State, perturbed_models, start_state
+from levade.engines import Fallen, Perturbation, State, perturbed_models, start_state
 from levade.errors import LevadeError
+from levade.library.mirror import Mirror
 from levade.motions import Motion
 from levade.policies import FreePolicy, JointPolicy
 from levade.robots import Robot, dimensions
@@ -30,6 +31,7 @@ class Falls:
     Attributes:
         task: The task, from the first fall of the family.
         simulation: What all of them are simulated in.
+        mirror: Of the robot, if its sides are alike, and so are the scene's and the policy's.
     """
 
     def __init__(self, task: Task, *, robot: Robot | None = None, seed: int = 0, threads: int = 0) -> None:
@@ -51,6 +53,12 @@ class Falls:
         self._fallen = replace(fallen, seed=seed, index=0)
         self.task = replace(task, start=StartChoice(fallen=self._fallen))
         self.simulation = Simulation.of(self.task, robot=robot, threads=threads)
+        self.mirror = None if task.scene.boxes or task.scene.terrain else self._mirror()
+
+    def _mirror(self) -> Mirror | None:
+        mirror, policy = Mirror.of(self.simulation.robot), self.from_state(self.simulation.start).policy
+        anything = np.random.default_rng(0).standard_normal((1, policy.size))
+        return None if mirror is None or mirror.decisions(policy, anything) is None else mirror
 
     def objective(self, index: int) -> Objective:
         """The task from one of the falls."""
@@ -69,39 +77,51 @@ class Falls:
         return rotate(conjugate(quaternion), _UP), state.joint_position[0].copy()
 
 
-def decisions(policy: JointPolicy, motion: Motion) -> Array:
-    """A motion's weights for a policy that differs from the motion's own in nothing but where it starts, shape (1, d)."""
-    weights = motion["weights"][None]
-    if not isinstance(policy, FreePolicy):
-        return weights
-    own = motion.policy
-    goal = None if policy.goal is None or own is None or own.ends is None else own.ends.goal
-    return policy.decision(weights, steps=motion.horizon_steps, goal=goal)
+@dataclass(frozen=True, eq=False)
+class Play:
+    """A motion to play, or its image in a mirror."""
+
+    motion: Motion
+    mirror: Mirror | None = None
+
+    def decisions(self, policy: JointPolicy) -> Array:
+        """Its weights for a policy that differs from the motion's own in nothing but where it starts, shape (1, d)."""
+        motion = self.motion
+        weights = motion["weights"][None]
+        if isinstance(policy, FreePolicy):
+            own = motion.policy
+            goal = None if policy.goal is None or own is None or own.ends is None else own.ends.goal
+            weights = policy.decision(weights, steps=motion.horizon_steps, goal=goal)
+        if self.mirror is None:
+            return weights
+        image = self.mirror.decisions(policy, weights)
+        assert image is not None  # else the library would be without a mirror
+        return image
 
 
 def tried_on_others(
-    objective: Objective, motions: Mapping[int, Motion], perturbation: Perturbation, *, seed: tuple[int, ...]
+    objective: Objective, plays: Mapping[int, Play], perturbation: Perturbation, *, seed: tuple[int, ...]
 ) -> Mask:
-    """Try motions from one fall, each on another robot that differs from the model.
+    """Play motions from one fall, each on another robot that differs from the model.
 
     Args:
         objective: The task from that fall.
-        motions: Number of a robot -> motion. What a number's robot is does not depend on the others.
+        plays: Number of a robot -> what to play. What a number's robot is does not depend on the others.
         perturbation: How far robots differ.
         seed: Seed of how they do.
 
     Returns:
-        Which work, shape (motions,).
+        Which work, shape (plays,).
     """
     engine, policy, hold = objective.engine, objective.policy, objective.task.hold_steps
-    numbers = np.array(list(motions), dtype=int)
+    numbers = np.array(list(plays), dtype=int)
     drawn = perturbation.draw(engine.model, engine.embodiment.joints, n=int(numbers.max()) + 1, seed=(*seed, _TAG))
-    works = np.zeros(len(motions), dtype=bool)
-    for first in range(0, len(motions), AT_ONCE):
+    works = np.zeros(len(plays), dtype=bool)
+    for first in range(0, len(plays), AT_ONCE):
         rows = slice(first, first + AT_ONCE)
-        sample = Sample({name: values[numbers[rows]] for name, values in drawn.values.items()})
+        sample = drawn[numbers[rows].tolist()]
         starts, models = perturbed_models(engine.model, engine.layout, sample, objective.state)
-        weights = np.concatenate([decisions(policy, motions[int(number)]) for number in numbers[rows]])
+        weights = np.concatenate([plays[int(number)].decisions(policy) for number in numbers[rows]])
         # until the first reference arrives, the joints have what they were commanded last
         reference = replace(policy.reference(weights, hold_steps=hold), before=objective.state.joint_reference[0])
         trajectories = engine.rollout(starts, reference, models=models, record=objective.recorded)
@@ -109,10 +129,10 @@ def tried_on_others(
     return works
 
 
-def tried(objectives: Sequence[Objective], motions: Sequence[Sequence[Motion]]) -> list[Evaluation]:
-    """Try motions from falls, in common batches: for each objective its own motions, on the nominal model."""
+def tried(objectives: Sequence[Objective], plays: Sequence[Sequence[Play]]) -> list[Evaluation]:
+    """Play motions from falls, in common batches: for each objective its own, on the nominal model."""
     asked = []
-    for objective, own in zip(objectives, motions, strict=True):
-        weights = np.concatenate([decisions(objective.policy, motion) for motion in own])
+    for objective, own in zip(objectives, plays, strict=True):
+        weights = np.concatenate([play.decisions(objective.policy) for play in own])
         asked.append((objective, Trials(weights, objective.task.hold_steps)))
     return evaluate_many(asked)

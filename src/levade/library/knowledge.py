@@ -11,11 +11,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from levade.arrays import Array
-from levade.library.records import Record
+from levade.library.mirror import Mirror
+from levade.library.records import Record, image_of
 
 _JOINTS = 0.25
 """Of a difference of 1 rad in all joints, against one of 1 rad in attitude: a robot on its back has to roll over, however its
@@ -36,30 +39,34 @@ class Knowledge:
         falls: Numbers of the falls, shape (n,).
         up: Which way is up in each, in trunk axes, shape (n, 3).
         joint_position: Joint angles in each [rad], shape (n, joints).
-        motions: Numbers of the falls that motions were found for, shape (m,).
+        motions: Numbers of the motions, shape (m,): `levade.library.records`.
         success: Whether each motion works from each fall: 1, 0, or NaN where it was not tried, shape (n, m).
         perturbed: The same on a robot that differs from the model, another one for each pair, shape (n, m).
+        mirror: Of the robot, if its sides are alike. A motion's success is then its image's, from the image of the fall.
     """
 
     falls: Array
     up: Array
     joint_position: Array
-    motions: Array
+    motions: NDArray[np.intp]
     success: Array
     perturbed: Array
+    mirror: Mirror | None = None
 
     @classmethod
-    def of(cls, records: Sequence[Record]) -> Knowledge:
-        """What records say."""
+    def of(cls, records: Sequence[Record], mirror: Mirror | None = None) -> Knowledge:
+        """What records say, of a robot with a mirror, if its sides are alike."""
         records = sorted(records, key=lambda record: record.fall)
-        motions = np.array([record.fall for record in records if record.motion == record.fall], dtype=int)
+        found = [record.fall for record in records if record.motion == record.fall]
+        motions = np.array([*found, *(image_of(one) for one in found if mirror)], dtype=np.intp)
         column = {int(motion): j for j, motion in enumerate(motions)}
         success = np.full((len(records), len(motions)), np.nan)
         for i, record in enumerate(records):
-            for motion in record.tried:
-                success[i, column[motion]] = float(motion in record.worked)
+            known = {motion: motion in record.worked for motion in record.tried}
             if record.motion is not None:
-                success[i, column[record.motion]] = 1.0
+                known[record.motion] = True
+            for motion in known.keys() & column.keys():  # the record of a motion may be lost
+                success[i, column[motion]] = float(known[motion])
         joints = len(records[0].joint_position) if records else 0
         return cls(
             np.array([record.fall for record in records], dtype=int),
@@ -68,6 +75,7 @@ class Knowledge:
             motions,
             success,
             np.full(success.shape, np.nan),
+            mirror,
         )
 
     def merged(self, tables: Mapping[str, Array]) -> Knowledge:
@@ -90,12 +98,27 @@ class Knowledge:
         if not len(self.motions):
             return np.zeros(0)
         distance = self.distances(up, joint_position)
+        if self.mirror is not None:
+            image = self.distances(self.mirror.up(up), self.mirror.posture(joint_position))
+            distance = np.concatenate([distance, image])
         reach = max(_LEAST_REACH, float(np.sort(distance)[min(_NEAREST, len(distance)) - 1]))
         both = np.stack([self.success, self.perturbed])
         tried, worked = (~np.isnan(both)).sum(axis=0), np.nansum(both, axis=0)
         near = np.exp(-((distance / reach) ** 2))
+        n = len(self.falls)
+        for_it, all_of_it = near[:n] @ worked, near[:n] @ tried
         share = (worked.sum(axis=0) + 1.0) / (tried.sum(axis=0) + 2.0)
-        return (near @ worked + _PRIOR * share) / (near @ tried + _PRIOR)
+        if self.mirror is not None:
+            image = self._image
+            for_it, all_of_it = for_it + near[n:] @ worked[:, image], all_of_it + near[n:] @ tried[:, image]
+            share = (share + share[image]) / 2
+        return (for_it + _PRIOR * share) / (all_of_it + _PRIOR)
+
+    @cached_property
+    def _image(self) -> NDArray[np.intp]:
+        """Column of each motion's image, shape (m,)."""
+        order = np.argsort(self.motions)
+        return order[np.searchsorted(self.motions, image_of(self.motions), sorter=order)]
 
     def ranked(self, up: Array, joint_position: Array) -> list[tuple[int, float]]:
         """Motions and how likely each works from a state, the likeliest first."""

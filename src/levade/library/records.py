@@ -10,8 +10,10 @@ import json
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from levade.arrays import Array
 from levade.document import read_text
@@ -39,7 +41,7 @@ class Record:
         up: Which way is up, in trunk axes, shape (3,).
         joint_position: Angles [rad], shape (joints,).
         method: How it was solved.
-        motion: Number of the fall whose motion works from here, its own if it was searched for; None if none was found.
+        motion: Number of the motion that works from here, its own if it was searched for; None if none was found.
         trials: Roll-outs that this took.
         tried: Numbers of the motions that were there and were tried from here.
         worked: Those of them that work.
@@ -98,11 +100,24 @@ class Record:
         write_text(record_path(directory, self.fall), json.dumps(content) + "\n")
 
 
+Number = TypeVar("Number", int, NDArray[np.intp])
+
+
+def image_of(motion: Number) -> Number:
+    """Number of a motion's mirror image; of the image of a motion, that of the motion."""
+    return -1 - motion
+
+
+def fall_of(motion: int) -> int:
+    """Number of the fall that a motion, or the one that it is the image of, was found for."""
+    return max(motion, image_of(motion))
+
+
 def record_path(directory: Path, fall: int) -> Path:
     """Where the record of a fall is."""
     return directory / FALLS / f"{fall:06}.json"
 
 
-def motion_path(directory: Path, fall: int) -> Path:
-    """Where the motion is that was found for a fall."""
-    return directory / MOTIONS / f"{fall:06}.npz"
+def motion_path(directory: Path, motion: int) -> Path:
+    """Where a motion is, or the one that it is the image of."""
+    return directory / MOTIONS / f"{fall_of(motion):06}.npz"
