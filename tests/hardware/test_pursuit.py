@@ -15,13 +15,13 @@ from levade.checks.record import CERTIFICATE
 from levade.checks.statistics import wilson
 from levade.costs import Criterion
 from levade.errors import LevadeError
-from levade.hardware import Part, Pursued, binding, discard, is_pursuit, obstacles, pursue, read_pursuit
-from levade.hardware.pursuit import _sure
+from levade.hardware import Part, Plan, Pursued, binding, discard, is_pursuit, obstacles, pursue, read_pursuit
+from levade.hardware.pursuit import Observe, _sure
 from levade.hardware.state import ASKED
 from levade.motions import Motion
 from levade.search import Generation, Stopped
 from levade.search.checkpoint import CHECKPOINT
-from levade.tasks import HorizonRange, Task, load_task
+from levade.tasks import HorizonRange, PolicyChoice, Task, load_task
 
 pytestmark = pytest.mark.slow
 
@@ -190,6 +190,54 @@ def test_where_none_is_within_the_limits_the_nearest_is_certified(tmp_path: Path
     certified = [part for part in seen.parts if part.certificate is not None]
     assert [part.name for part in certified] == [seen.best.name]
     assert seen.best.motion.result.cost == min(part.motion.result.cost for part in seen.parts)
+
+
+def test_with_time_left_it_searches_again_with_another_seed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A demand that no search knows of, so that all fail it: another attempt begins, and a later call goes on with it."""
+    within_limits, robust = Plan.within_limits, Plan.robust
+
+    def shorter(task: Task) -> Task:
+        return replace(task, search=replace(task.search, trials=150, polish=90))
+
+    def robust_for_short(self: Plan, horizon: float, policy: PolicyChoice | None = None) -> Task:
+        return shorter(robust(self, horizon, policy))
+
+    monkeypatch.setattr(Plan, "within_limits", lambda self, number=0: shorter(within_limits(self, number)))
+    monkeypatch.setattr(Plan, "robust", robust_for_short)
+    demands, begun = Demands(trunk_acceleration=1e-6), list[str]()
+
+    def stop(name: str, generation: Generation) -> Stopped | None:
+        return Stopped.INTERRUPTED if name == "again-1/limits-1" and generation.generation == 2 else None
+
+    def pursuit(minutes: float | None, observe: Observe | None) -> Pursued:
+        return pursue(
+            standing(),
+            directory=tmp_path,
+            runs=RUNS,
+            minutes=minutes,
+            demands=demands,
+            begin=lambda name, task: begun.append(name),
+            observe=observe,
+        )
+
+    cut = pursuit(3.0, stop)
+    assert cut.stopped == "interrupted"
+    assert [part.name for part in cut.parts] == begun
+    assert begun[0] == "limits-1"
+    assert begun[-1] == "again-1/limits-1"
+    assert cut.certificate.failed == ("trunk acceleration",)
+    first = cut.parts[0].motion
+    assert cut.parts[-1].motion.provenance.seed != first.provenance.seed
+    assert read_pursuit(tmp_path / "again-1")[1] == cut.parts[-1].motion.provenance.seed
+    begun.clear()
+    whole = pursuit(None, None)  # what has begun comes to its end; without a time, nothing more is begun
+    assert whole.stopped == ""
+    assert any(name.startswith("again-1/") for name in begun)
+    assert not any(name.startswith("again-2/") for name in begun)
+    kept = Motion.load(tmp_path / "motion.npz")
+    assert kept["weights"].tobytes() == whole.motion["weights"].tobytes()
+    discard(tmp_path)
+    assert not is_pursuit(tmp_path / "again-1")
 
 
 def references(motion: Motion) -> np.ndarray:

@@ -10,6 +10,7 @@ DIR/certificate.html    the same to look at, with the runs that came out poorest
 DIR/task.yaml           its task, with every default filled in
 DIR/hardware.json       what was asked for, and which search is gone on from: by it, the pursuit goes on where it stopped
 DIR/limits-1, ...       the searches, each a run of its own (`levade.search.run`)
+DIR/again-1, ...        the same once more with another seed, if no certificate passed while there was time left
 
 First motions of the nominal model within its limits, several, since motions that look alike there differ widely on other
 robots: the second search begins at the best of many rough motions, and the last is around the nearest motion, if none is within
@@ -33,7 +34,19 @@ from levade.errors import LevadeError, Remedy
 from levade.hardware.page import write_certificate
 from levade.hardware.plan import RUN_UP, Plan
 from levade.hardware.starts import rough_start
-from levade.hardware.state import ASKED, CLOSED, FINER, LIMITS, PAGE, ROBUST, State, check_same, discard
+from levade.hardware.state import (
+    ASKED,
+    CLOSED,
+    FINER,
+    LIMITS,
+    PAGE,
+    ROBUST,
+    State,
+    again,
+    check_same,
+    discard,
+    is_pursuit,
+)
 from levade.locking import locked
 from levade.motions import Motion
 from levade.report.page import check_page
@@ -66,6 +79,12 @@ _MOST = 1000
 
 _APART = 1000
 """Between the seeds of searches that differ in nothing else."""
+
+_AGAIN = 0.2
+"""Share of the time that has to be left for all searches to be made again, with another seed."""
+
+_FAR_APART = 100_000
+"""Between the seeds of these."""
 
 Begin = Callable[[str, Task], object]
 """Called before each search with its name and its task."""
@@ -207,8 +226,28 @@ def pursue(
     with locked(directory, "pursuit"):
         state = State.of(directory, task, seed, demands)
         state.write()
-        end = None if minutes is None else time.monotonic() + 60 * minutes
-        return _Pursuit(plan, seed, threads, state, end, demands, runs, begin, observe, tell, stopping).go()
+        began = time.monotonic()
+        end = None if minutes is None else began + 60 * minutes
+        first = _Pursuit(plan, seed, threads, state, end, demands, runs, begin, observe, tell, stopping)
+        found, number = first.go(), 1
+        while not found.passed and not found.stopped:
+            place = again(directory, number)
+            left = end is not None and end - time.monotonic() > _AGAIN * (end - began)
+            if not (left or is_pursuit(place)):
+                break
+            found = first.joined(found, _again(first, place, number))
+            number += 1
+        return found
+
+
+def _again(first: _Pursuit, directory: Path, number: int) -> Pursued:
+    """The same searches with another seed."""
+    known = first.state
+    with storing(directory, then=Remedy("make room, then go on", "resume", known.directory)):
+        directory.mkdir(exist_ok=True)
+    state = State.of(directory, known.task, known.seed + _FAR_APART * number, known.demands)
+    state.write()
+    return first.like(state, f"{directory.name}/").go()
 
 
 def _sure(part: Part) -> bool:
@@ -247,15 +286,33 @@ class _Pursuit:
         observe: Observe | None,
         tell: Tell | None,
         stopping: Callable[[], bool],
+        prefix: str = "",
     ) -> None:
         self._plan, self._seed, self._threads, self._state = plan, seed, threads, state
-        self._directory = state.directory
+        self._directory, self._prefix = state.directory, prefix
         self._end, self._demands, self._runs = end, demands, runs
         self._begin, self._observe, self._tell, self._stopping = begin, observe, tell, stopping
         self._began = time.monotonic()
         self._parts: list[Part] = []
         self._share = 1.0  # of the time, for a search that meets nothing
         self._stopped = ""
+
+    @property
+    def state(self) -> State:
+        """What is asked for, and where."""
+        return self._state
+
+    def like(self, state: State, prefix: str) -> _Pursuit:
+        """The same pursuit with another seed, elsewhere. prefix: of the names of its searches, for those who are told."""
+        how = (self._end, self._demands, self._runs, self._begin, self._observe, self._tell, self._stopping)
+        return _Pursuit(self._plan, state.seed, self._threads, state, *how, prefix)
+
+    def joined(self, found: Pursued, other: Pursued) -> Pursued:
+        """What has been found so far and what another pursuit found; the better motion is kept here."""
+        best = min(found.best, other.best, key=lambda part: part.rank)
+        if best is other.best and best.certificate is not None and not self._better_there(best):
+            self._keep(best, best.certificate)
+        return replace(found, parts=(*found.parts, *other.parts), best=best, stopped=other.stopped)
 
     def go(self) -> Pursued:
         plan = self._plan
@@ -292,7 +349,9 @@ class _Pursuit:
                 self._search(FINER, task, near, seed=self._seed + _APART)
         if self._best.certificate is None:
             self._certify_best()
-        return Pursued(plan, tuple(self._parts), self._best, self._directory, self._seed, self._stopped)
+        best = self._parts.index(self._best)
+        parts = tuple(replace(part, name=self._prefix + part.name) for part in self._parts)
+        return Pursued(plan, parts, parts[best], self._directory, self._seed, self._stopped)
 
     def _last_within_limits(self) -> tuple[Task, Motion | None]:
         """The last search within limits, and what it begins around: the one that is there already, if it is of this plan."""
@@ -335,9 +394,12 @@ class _Pursuit:
         if not hopeless:
             part = self._certified(part)
         self._parts.append(part)
-        if self._tell is not None:
-            self._tell(part)
+        self._tell_of(part)
         return part
+
+    def _tell_of(self, part: Part) -> None:
+        if self._tell is not None:
+            self._tell(replace(part, name=self._prefix + part.name))
 
     @property
     def _nearest(self) -> int:
@@ -354,8 +416,7 @@ class _Pursuit:
         """Certify the motion that comes nearest, where none is within the limits."""
         nearest = self._nearest
         self._parts[nearest] = self._certified(self._parts[nearest])
-        if self._tell is not None:
-            self._tell(self._parts[nearest])
+        self._tell_of(self._parts[nearest])
 
     def _certified(self, part: Part) -> Part:
         """The part with its certificate; written, if it is the best."""
@@ -405,10 +466,10 @@ class _Pursuit:
 
     def _told(self, name: str, task: Task) -> None:
         if self._begin is not None:
-            self._begin(name, task)
+            self._begin(self._prefix + name, task)
 
     def _watch(self, name: str, generation: Generation) -> Stopped | None:
-        wish = None if self._observe is None else self._observe(name, generation)
+        wish = None if self._observe is None else self._observe(self._prefix + name, generation)
         wish = wish or (Stopped.INTERRUPTED if self._stopping() else None)
         if wish is not None:
             self._stopped = "interrupted"

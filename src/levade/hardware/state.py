@@ -18,6 +18,9 @@ from levade.writing import write_text
 ASKED, PAGE = PURSUIT, CERTIFICATE_PAGE
 LIMITS, ROBUST, CLOSED, FINER = ("limits-1", "limits-2", "limits-3"), "robust", "feedback", "finer"
 
+AGAIN = "again"
+"""Begin of the names of directories in which the searches are made again, with another seed: ``again-1``, ..."""
+
 
 @dataclass
 class State:
@@ -76,6 +79,11 @@ def is_pursuit(directory: Path) -> bool:
     return (directory / ASKED).is_file()
 
 
+def again(directory: Path, number: int) -> Path:
+    """Where the searches of a pursuit are made again for the first, second, ... time."""
+    return directory / f"{AGAIN}-{number}"
+
+
 def discard(directory: Path) -> None:
     """Forget the run or the searches that a directory holds, so that a new pursuit, or run, begins from nothing.
 
@@ -85,6 +93,10 @@ def discard(directory: Path) -> None:
     searches = [directory, *(directory / name for name in (*LIMITS, ROBUST, CLOSED, FINER))]
     for search in searches:
         check_unlocked(search)
+    number = 1
+    while is_pursuit(again(directory, number)):
+        discard(again(directory, number))
+        number += 1
     with storing(directory, then=Remedy("give another directory")):
         for search in searches:
             (search / CHECKPOINT).unlink(missing_ok=True)

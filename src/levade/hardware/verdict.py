@@ -38,10 +38,11 @@ def obstacles(pursued: Pursued) -> list[str]:
     if missed:
         off = ", ".join(f"{name} {part.motion.result.errors[name]:+.3g}" for name in missed)
         said.append(f"the goal is missed within the limits ({off}): ask for less, or allow a longer horizon")
-    if "perturbed" in failed and not (missed and part.name in LIMITS):
+    within_limits = part.name.rpartition("/")[2] in LIMITS
+    if "perturbed" in failed and not (missed and within_limits):
         said.append(_of_perturbed(certificate))
     others = [name for name in sorted(failed) if name != "perturbed" and name not in _names(certificate)]
-    if others and not (missed and part.name in LIMITS):
+    if others and not (missed and within_limits):
         said.append(f"it does not succeed with: {', '.join(others)}; its success depends on how contact is computed")
     return said
 
