@@ -40,7 +40,7 @@ def picture(task: str, robot: str) -> Path:
 
 
 def robots(task: str) -> tuple[str, ...]:
-    return (OWN,) if task in FIRST else (OWN, OTHER)
+    return (OWN,) if task in (*FIRST, "levade") else (OWN, OTHER)  # stated for the joints of the paper's robot
 
 
 def make(task: str, robot: str, seed: int) -> dict[str, Any]:

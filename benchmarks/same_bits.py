@@ -107,6 +107,7 @@ CASES = (
         label="restarts",
         quick=True,
     ),
+    Case("levade", 96, (*ON, *SHORT)),
     Case("rear-and-land", 96, (*ON, *SHORT), also=("csv",)),
     Case("side-recovery", 120, (*ON, *SHORT)),
     Case("sit-to-stand", 120, (*ON, *SHORT)),
