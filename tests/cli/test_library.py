@@ -68,6 +68,23 @@ def test_it_is_built_asked_and_checked(built: Path, run: Run, tmp_path: Path) ->
     assert "within two attempts" in out
 
 
+def test_it_is_shown_and_drawn(built: Path, run: Run, tmp_path: Path) -> None:
+    status, out, _ = run("library", "show", str(built), "--json")
+    assert status == 0
+    shown, library = json.loads(out), Library.load(built)
+    assert (shown["done"], shown["coverage"]) == (4, library.coverage)
+    assert sum(shown["methods"].values()) == 4
+    pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install levade[figures]")
+    for place in (tmp_path / "one", tmp_path / "two"):
+        status, out, _ = run("library", "show", str(built), "--figures", str(place), "--format", "svg")
+        assert status == 0
+        assert "lying on its" in out
+    one, two = ((tmp_path / name / "library.svg").read_bytes() for name in ("one", "two"))
+    assert one == two
+    status, _, err = run("library", "show", str(built), "--figures", str(tmp_path), "--format", "gif")
+    assert (status, err.count("\n")) == (2, 1)
+
+
 def test_an_attitude_is_which_way_is_up(built: Path, run: Run, tmp_path: Path) -> None:
     """Half a turn about x: up is down. The joints by name, in any order."""
     library = Library.load(built)

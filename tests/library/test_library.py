@@ -18,10 +18,13 @@ from levade.engines import Perturbation
 from levade.errors import LevadeError
 from levade.library import Falls, Library, Method, Record, build, check_library
 from levade.library.building import rounds
+from levade.library.falls import face
+from levade.library.figure import projected
 from levade.library.knowledge import Knowledge
 from levade.library.mirror import Mirror
 from levade.motions import Motion
 from levade.robots import load_robot
+from levade.search import make_objective
 from levade.tasks import Task, load_task
 
 STARTS = 7
@@ -169,6 +172,8 @@ def test_it_is_checked_on_falls_that_it_has_not_seen(library: Library) -> None:
     assert found.first.successes <= found.after[2].successes <= found.after[3].successes <= found.after[5].successes
     assert found.first.successes <= found.twice.successes <= n
     assert 0 < found.expected < 1
+    assert sum(share.runs for share in found.lying.values()) == n
+    assert sum(share.successes for share in found.lying.values()) == sum(first)
     assert json.loads(json.dumps(found.to_json()))["nominal"]["first"]["share"] == found.first.share
     with pytest.raises(LevadeError, match="0 is the seed of the library's own falls"):
         check_library(library, starts=n, seed=0)
@@ -178,6 +183,32 @@ def test_a_robot_that_does_not_differ_is_the_model(library: Library) -> None:
     nothing = Perturbation(**dict.fromkeys(vars(Perturbation())))
     found = check_library(library, starts=4, seed=3, perturbation=nothing)
     assert found.perturbed == found.first
+
+
+@pytest.mark.parametrize(
+    ("roll", "pitch", "on"),
+    [(0, 0, "belly"), (180, 0, "back"), (90, 0, "right"), (-90, 0, "left"), (0, 90, "nose"), (0, -90, "tail")],
+)
+def test_what_it_lies_on(roll: float, pitch: float, on: str) -> None:
+    """Rolled by 90 degrees the left side is up, and pitched by 90 degrees it looks down."""
+    task = load_task(
+        "self-righting", changes=[f"start={{fall: {{height: 1.5, roll: {roll} deg, pitch: {pitch} deg, time: 0}}}}"]
+    )
+    state = make_objective(task, threads=1).state
+    assert face(Falls(rolling()).sensed(state)[0]) == on
+
+
+def test_equal_parts_of_the_sphere_are_equal_parts_of_the_disc() -> None:
+    """Lambert's projection: of ways up that are uniform, a quarter is within half the radius, whatever the half."""
+    up = np.random.default_rng(0).standard_normal((40_000, 3))
+    up /= np.linalg.norm(up, axis=1, keepdims=True)
+    x, y = projected(up)
+    radius = np.hypot(x, y)
+    assert radius.max() <= 1 + 1e-9
+    for half in (up[:, 2] >= 0, up[:, 2] < 0):
+        assert (radius[half] < 0.5).mean() == pytest.approx(0.25, abs=0.01)
+    x, y = projected(np.array([[1.0, 0, 0], [0, 1.0, 0]]))  # nose up is at the top, left up at the left
+    np.testing.assert_allclose(np.c_[x, y], [[0, 1], [-1, 0]], atol=1e-9)
 
 
 # what is known

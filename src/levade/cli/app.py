@@ -510,6 +510,21 @@ def _build_library(
     )
 
 
+@_library.command("show")
+def _show_library(
+    library: Annotated[Path, typer.Argument(metavar="DIR", help="A library.")],
+    figures: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Draw how its falls lie, and their cover.")
+    ] = None,
+    format: Annotated[str, typer.Option(help="Of the figure: pdf, svg or png.")] = "pdf",
+    as_json: Json = False,
+) -> int:
+    """Say what a library has: falls, how each was solved, and how few motions are enough."""
+    from levade.cli.librarian import show_library
+
+    return show_library(library, figures=figures, format=format, as_json=as_json)
+
+
 @_library.command("ask")
 def _ask_library(
     library: Annotated[Path, typer.Argument(metavar="DIR", help="A library.")],

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from rich.console import Console
 from rich.markup import escape
 
 from levade.arrays import Array
@@ -18,6 +19,8 @@ from levade.cli.tables import make_console
 from levade.document import read_yaml
 from levade.errors import LevadeError, did_you_mean
 from levade.library import Answer, Library, LibraryCheck, Progress, build, check_library
+from levade.library.falls import FACES, face
+from levade.library.figure import draw
 from levade.library.records import motion_path
 from levade.rotations import conjugate, rotate
 from levade.tasks import load_task
@@ -67,36 +70,60 @@ def build_library(
             stopping=stopping,
         )
         stopped = stopping()
-    cover = library.knowledge.cover()
+    place = escape(str(directory))
     if as_json:
-        content = {
-            "library": str(directory),
-            "starts": starts,
-            "done": len(library.records),
-            "methods": {name: sum(record.method == name for record in library.records) for name in _WORDS},
-            "trials": sum(record.trials for record in library.records),
-            "coverage": library.coverage,
-            "cover": [{"motion": number, "falls": works} for number, works in cover],
-            "interrupted": stopped,
-        }
-        print(json.dumps(content))
-        return 1 if stopped else 0
+        print(json.dumps({**_summary(library, directory), "starts": starts, "interrupted": stopped}))
+    else:
+        _tell_library(console, library)
+        if stopped:
+            console.print(f"[yellow]Interrupted[/]: build again to go on. All falls that are done are in {place}.")
+        else:
+            console.print(f"On falls that it has never seen: levade library check {place}")
+    return 1 if stopped else 0
+
+
+def show_library(directory: Path, *, figures: Path | None, format: str, as_json: bool) -> int:
+    """Exit status 0."""
+    library = Library.load(directory)
+    console = make_console(stderr=as_json)
+    written = [] if figures is None else draw(library, figures, format=format)
+    if as_json:
+        print(json.dumps({**_summary(library, directory), "written": [str(path) for path in written]}))
+        return 0
+    _tell_library(console, library)
+    for name in FACES:
+        there = [face(record.up) == name for record in library.records]
+        if any(there):
+            works = (library.knowledge.success[there] == 1.0).any(axis=1).mean()
+            console.print(f"  lying on its {name}: {sum(there)} falls, {works:.1%} of them")
+    for path in written:
+        console.print(f"Written: {escape(str(path))}")
+    return 0
+
+
+def _summary(library: Library, directory: Path) -> dict[str, Any]:
+    """What ``build`` and ``show`` print as JSON."""
+    return {
+        "library": str(directory),
+        "done": len(library.records),
+        "methods": {name: sum(record.method == name for record in library.records) for name in _WORDS},
+        "trials": sum(record.trials for record in library.records),
+        "coverage": library.coverage,
+        "cover": [{"motion": number, "falls": works} for number, works in library.knowledge.cover()],
+    }
+
+
+def _tell_library(console: Console, library: Library) -> None:
+    falls, cover = len(library.records), library.knowledge.cover()
     for name, words in _WORDS.items():
         n = sum(record.method == name for record in library.records)
         if n:
             console.print(f"{n} falls solved {words}.")
-    enough = ", ".join(f"{k + 1}: {works / len(library.records):.1%}" for k, (_, works) in enumerate(cover[:6]))
-    falls = len(library.records)
     motions = sum(record.motion == record.fall for record in library.records)
     images = " and their mirror images" if library.knowledge.mirror else ""
     console.print(f"{motions} motions{images} get up from {library.coverage:.1%} of {falls} falls.")
+    enough = ", ".join(f"{k + 1}: {works / falls:.1%}" for k, (_, works) in enumerate(cover[:6]))
     console.print(f"The best few of them: {enough}.")
-    place = escape(str(directory))
-    if stopped:
-        console.print(f"[yellow]Interrupted[/]: build again to go on. All falls that are done are in {place}.")
-        return 1
-    console.print(f"On falls that it has never seen: levade library check {place}")
-    return 0
 
 
 def check_the_library(directory: Path, *, starts: int, seed: int, threads: int, as_json: bool) -> int:
@@ -115,9 +142,11 @@ def check_the_library(directory: Path, *, starts: int, seed: int, threads: int, 
 
 def _told(found: LibraryCheck) -> list[tuple[str, str]]:
     after = [(f"one of the {k} likeliest, tried in simulation", str(share)) for k, share in found.after.items()]
+    lying = [(f"  lying on its {name}: {share.runs} falls", str(share)) for name, share in found.lying.items()]
     return [
         (f"{found.starts} falls of seed {found.seed}", ""),
         ("the first answer works", str(found.first)),
+        *lying,
         *after,
         ("within two attempts, the second from where it lies", str(found.twice)),
         ("the first answer, on robots that differ", str(found.perturbed)),

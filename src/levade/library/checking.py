@@ -17,7 +17,7 @@ from levade.engines import MujocoEngine, Perturbation
 from levade.errors import LevadeError
 from levade.library.asking import Answer, Library
 from levade.library.building import read_library
-from levade.library.falls import Falls, Play, tried, tried_on_others
+from levade.library.falls import FACES, Falls, Play, face, tried, tried_on_others
 from levade.library.records import fall_of, motion_path
 from levade.motions import Motion
 from levade.robots import Robot
@@ -71,6 +71,7 @@ class LibraryCheck:
         first: The first answer works, on the nominal model.
         after: Number k -> one of the k likeliest motions works.
         twice: The first answer works, or another answer does from where the first one left the robot.
+        lying: What the robot lies on (`levade.library.falls.FACES`) -> the first answer works from there.
         perturbed: The first answer works on a robot that differs from the model, another one for each fall.
         expected: Mean of the probabilities that came with the first answers: if they are true, between `first` and `perturbed`,
             as a library's own falls are tried on both.
@@ -84,6 +85,7 @@ class LibraryCheck:
     first: Share
     after: Mapping[int, Share]
     twice: Share
+    lying: Mapping[str, Share]
     perturbed: Share
     expected: float
     answer_ms: tuple[float, float]
@@ -93,10 +95,11 @@ class LibraryCheck:
     def to_json(self) -> dict[str, object]:
         """Plain numbers."""
         after = {str(k): share.to_json() for k, share in self.after.items()}
+        lying = {name: share.to_json() for name, share in self.lying.items()}
         return {
             "starts": self.starts,
             "seed": self.seed,
-            "nominal": {"first": self.first.to_json(), "after": after, "twice": self.twice.to_json()},
+            "nominal": {"first": self.first.to_json(), "after": after, "twice": self.twice.to_json(), "lying": lying},
             "perturbed": {"first": self.perturbed.to_json()},
             "expected": self.expected,
             "answer_ms": {"median": self.answer_ms[0], "p99": self.answer_ms[1]},
@@ -149,6 +152,7 @@ class _Trial:
         self._motions: dict[int, Motion] = {}
         self._works: list[Mask] = []  # of the likeliest motions of each fall
         self._perturbed: list[bool] = []
+        self._faces: list[str] = []
         self._recovered = 0
         self._times: list[float] = []
         self._expected: list[float] = []
@@ -161,6 +165,7 @@ class _Trial:
         """Try some falls."""
         objectives = [self._falls.objective(i) for i in indices]
         answers = [self._asked(objective) for objective in objectives]
+        self._faces += [face(self._falls.sensed(objective.state)[0]) for objective in objectives]
         numbers = [(one.number, *(number for number, _ in one.others))[: max(AFTER)] for one in answers]
         plays = [[self._play(number) for number in own] for own in numbers]
         works: list[Mask] = [found.success for found in tried(objectives, plays)]
@@ -184,12 +189,17 @@ class _Trial:
             first=Share(first, n),
             after={k: Share(sum(bool(one[:k].any()) for one in self._works), n) for k in AFTER},
             twice=Share(first + self._recovered, n),
+            lying={name: self._of_those_on(name) for name in FACES if name in self._faces},
             perturbed=Share(sum(self._perturbed), n),
             expected=float(np.mean(self._expected)) if self._expected else 0.0,
             answer_ms=(1e3 * float(median), 1e3 * float(late)),
             failed=tuple(i for i, one in enumerate(self._works) if not one[0]),
             interrupted=interrupted,
         )
+
+    def _of_those_on(self, name: str) -> Share:
+        works = [bool(one[0]) for one, lies in zip(self._works, self._faces, strict=True) if lies == name]
+        return Share(sum(works), len(works))
 
     def _asked(self, objective: Objective) -> Answer:
         sensed = self._falls.sensed(objective.state)

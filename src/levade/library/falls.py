@@ -21,6 +21,9 @@ from levade.tasks import StartChoice, Task
 
 _UP = np.array([0.0, 0.0, 1.0])
 
+FACES = ("tail", "nose", "right", "left", "belly", "back")
+"""What a robot lies on where up is most along x, -x, y, -y, z, -z of its trunk; on its belly, or on its feet."""
+
 _TAG = 1_818_845_550
 """Keeps perturbed models apart from those of searches and checks of motions."""
 
@@ -75,6 +78,16 @@ class Falls:
         """What a robot at rest senses: which way is up in trunk axes, shape (3,), and its joint angles [rad]."""
         quaternion = state.qpos[0, self.simulation.engine.layout.trunk_quaternion]
         return rotate(conjugate(quaternion), _UP), state.joint_position[0].copy()
+
+
+def face(up: Array) -> str:
+    """What a robot lies on, one of `FACES`.
+
+    Args:
+        up: Which way is up, in trunk axes, shape (3,).
+    """
+    axis = int(np.argmax(np.abs(up)))
+    return FACES[2 * axis + int(up[axis] < 0)]
 
 
 @dataclass(frozen=True, eq=False)
