@@ -1,4 +1,4 @@
-"""docs/hardware.md is what benchmarks/hardware.py writes of its results."""
+"""docs/hardware.md and docs/falls.md are what benchmarks/hardware.py and library.py write of their results."""
 
 from __future__ import annotations
 
@@ -11,6 +11,11 @@ Script = Callable[[str], ModuleType]
 def test_the_page_has_the_numbers_of_the_results(script: Script) -> None:
     hardware = script("hardware")
     assert hardware.PAGE.read_text(encoding="utf-8") == hardware.page()
+
+
+def test_the_page_of_falls_has_the_numbers_of_the_results(script: Script) -> None:
+    library = script("library")
+    assert library.PAGE.read_text(encoding="utf-8") == library.page()
 
 
 def test_a_row_that_was_refused_says_why(script: Script) -> None:

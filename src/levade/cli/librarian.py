@@ -95,7 +95,8 @@ def show_library(directory: Path, *, figures: Path | None, format: str, as_json:
         there = [face(record.up) == name for record in library.records]
         if any(there):
             works = (library.knowledge.success[there] == 1.0).any(axis=1).mean()
-            console.print(f"  lying on its {name}: {sum(there)} falls, {works:.1%} of them")
+            n = sum(there)
+            console.print(f"  lying on its {name}: {n} fall{'s' * (n != 1)}, {works:.1%} solved")
     for path in written:
         console.print(f"Written: {escape(str(path))}")
     return 0
@@ -118,7 +119,7 @@ def _tell_library(console: Console, library: Library) -> None:
     for name, words in _WORDS.items():
         n = sum(record.method == name for record in library.records)
         if n:
-            console.print(f"{n} falls solved {words}.")
+            console.print(f"{n} fall{'s' * (n != 1)} solved {words}.")
     motions = sum(record.motion == record.fall for record in library.records)
     images = " and their mirror images" if library.knowledge.mirror else ""
     console.print(f"{motions} motions{images} get up from {library.coverage:.1%} of {falls} falls.")
