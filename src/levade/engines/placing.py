@@ -137,6 +137,7 @@ def _fallen(engine: Engine, robot: Robot, scene: Scene, start: Fallen) -> State:
         for one, turn in ((robot.limits.lower, -np.pi), (robot.limits.upper, np.pi))
     )
     height = start.height + float(scene.ground_height(np.array([start.x]), np.array([start.y]))[0])
+    overlap = ""
     for _ in range(_DRAWS):
         posture = generator.uniform(lower, upper)
         data = _put(engine, model, scene, (start.x, start.y, height), attitude, posture)
