@@ -96,14 +96,15 @@ def test_it_finds_the_minimum_of_an_ellipsoid(adaptation: Literal["csa", "tpa"],
     scales = np.logspace(0, np.log10(condition), 8)
     target = np.linspace(-1, 1, 8)
     optimizer = CMAES(SearchSpace(np.full(8, 2.0), step=0.5), seed=0, step_adaptation=adaptation)
-    found, least = np.zeros(8), np.inf
     for _ in range(400):
         x = optimizer.ask()
         cost = (scales * np.square(x - target)).sum(axis=1)
         optimizer.tell(cost)
-        if cost.min() < least:  # once all costs are rounding errors, where it goes next differs between processors
-            found, least = x[np.argmin(cost)], cost.min()
-    np.testing.assert_allclose(found, target, atol=1e-4)
+        if (
+            cost.min() < 1e-20
+        ):  # soon costs are nothing but rounding errors, and where it goes then is the processor's business
+            break
+    np.testing.assert_allclose(x[np.argmin(cost)], target, atol=1e-4)
     assert optimizer.step < 1e-3
 
 
