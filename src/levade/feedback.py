@@ -94,14 +94,18 @@ def period_steps(rate: float, timestep: float) -> int:
     return max(1, round(1.0 / (rate * timestep)))
 
 
+def up_in_trunk(quaternion: Array) -> Array:
+    """Which way is up in trunk axes, (..., 3): attitude without yaw. quaternion: (..., 4), trunk frame to world."""
+    return rotate(conjugate(quaternion), np.array([0.0, 0.0, 1.0]))
+
+
 def sensed(quaternion: Array, rate: Array, joint_position: Array, joint_velocity: Array) -> Array:
     """What a robot senses, (..., 6 + 2 joints).
 
     quaternion: (..., 4), trunk frame to world. rate: (..., 3) [rad/s], angular velocity in trunk axes, a gyroscope's.
     joint_position, joint_velocity: (..., joints) [rad], [rad/s].
     """
-    up = rotate(conjugate(quaternion), np.array([0.0, 0.0, 1.0]))
-    return np.concatenate([up, rate, joint_position, joint_velocity], axis=-1)
+    return np.concatenate([up_in_trunk(quaternion), rate, joint_position, joint_velocity], axis=-1)
 
 
 def names(joints: Sequence[str]) -> list[str]:

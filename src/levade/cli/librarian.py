@@ -18,11 +18,11 @@ from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console
 from levade.document import read_yaml
 from levade.errors import LevadeError, did_you_mean
+from levade.feedback import up_in_trunk
 from levade.library import Answer, Library, LibraryCheck, Progress, build, check_library
 from levade.library.falls import FACES, face
 from levade.library.figure import draw
 from levade.library.records import motion_path
-from levade.rotations import conjugate, rotate
 from levade.tasks import load_task
 from levade.writing import write_text
 
@@ -216,7 +216,7 @@ def _up(content: Mapping[str, Any], path: Path) -> Array:
     norm = float(np.linalg.norm(quaternion))
     if not norm > 0:
         raise LevadeError(f"{path}: attitude: four zeros are no rotation; [1, 0, 0, 0] is level")
-    return rotate(conjugate(quaternion / norm), np.array([0.0, 0.0, 1.0]))
+    return up_in_trunk(quaternion / norm)
 
 
 def _numbers(values: Any, n: int, where: str) -> Array:

@@ -101,7 +101,8 @@ def start_state(engine: Engine, robot: Robot, scene: Scene, start: Start) -> Sta
         feet = robot.foot_positions(posture)
         ground = scene.ground_height(start.x + feet[:, 0], start.y + feet[:, 1])
         height = robot.standing_height(start.posture) + float(ground.max())
-        data = _release(engine, engine.model, scene, (start.x, start.y, height), _LEVEL, posture)
+        data = _put(engine, engine.model, scene, (start.x, start.y, height), _LEVEL, posture)
+        _check_apart(engine.model, data)
         return engine.hold(engine.model, data, posture, start.time)
     if isinstance(start, Fallen):
         return _fallen(engine, robot, scene, start)
@@ -115,7 +116,8 @@ def start_state(engine: Engine, robot: Robot, scene: Scene, start: Start) -> Sta
     roll, pitch, yaw = attitude
     quaternion = np.empty(4)
     mujoco.mju_euler2Quat(quaternion, np.array([yaw, pitch, roll]), "zyx")
-    data = _release(engine, model, scene, (start.x, start.y, start.height), quaternion, posture)
+    data = _put(engine, model, scene, (start.x, start.y, start.height), quaternion, posture)
+    _check_apart(model, data)
     return engine.hold(model, data, posture, start.time)
 
 
@@ -163,22 +165,13 @@ def _given(engine: Engine, start: GivenState) -> State:
     return engine.layout.state(qpos, qvel, act, joint_reference=np.array(start.joint_reference))
 
 
-def _release(
-    engine: Engine,
-    model: mujoco.MjModel,
-    scene: Scene,
-    position: tuple[float, float, float],
-    quaternion: Array,
-    posture: Array,
-) -> mujoco.MjData:
-    """As `_put`. Raises LevadeError where parts overlap."""
-    data = _put(engine, model, scene, position, quaternion, posture)
+def _check_apart(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    """Raise LevadeError where parts overlap."""
     overlap = _overlap(model, data)
     if overlap:
         raise LevadeError(
             f"start: {overlap} where the robot is put down; move the robot (start) or the obstacle (scene)"
         )
-    return data
 
 
 def _put(

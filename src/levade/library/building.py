@@ -27,7 +27,7 @@ from levade.document import read_yaml
 from levade.engines import Perturbation
 from levade.errors import LevadeError, Remedy
 from levade.library.asking import LIBRARY, SUCCESS, Library, read_success
-from levade.library.falls import Falls, Play, tried, tried_on_others
+from levade.library.falls import Falls, Plays, tried, tried_on_others
 from levade.library.knowledge import Knowledge
 from levade.library.records import FALLS, MOTIONS, Method, Record, fall_of, motion_path, record_path
 from levade.locking import locked
@@ -167,7 +167,7 @@ class _Builder:
         self._observe, self._stopping = observe, stopping
         there = (record_path(directory, i) for i in range(starts))
         self._records = {record.fall: record for path in there if path.is_file() for record in [Record.load(path)]}
-        self._motions: dict[int, Motion] = {}
+        self._plays = Plays(directory, falls.mirror)
 
     def round(self, first: int, last: int) -> None:
         """Do the falls of a round that are not done yet."""
@@ -190,7 +190,7 @@ class _Builder:
         begun = {i: _Begun(sensed[i], tuple(likely[i]), (), None, len(likely[i])) for i in objectives}
         if not len(knowledge.motions):
             return begun
-        own = [[self._play(motion) for motion in likely[i]] for i in objectives]
+        own = [[self._plays[motion] for motion in likely[i]] for i in objectives]
         for (i, objective), plays, found in zip(
             objectives.items(), own, tried(list(objectives.values()), own), strict=True
         ):
@@ -237,15 +237,8 @@ class _Builder:
         with storing(self._directory, then=Remedy("make room, then build again"), kept="all falls that are done"):
             if found is not None:
                 found.save(motion_path(self._directory, i))
-                self._motions[i] = found
             record.write(self._directory)
         self._records[i] = record
-
-    def _play(self, motion: int) -> Play:
-        fall = fall_of(motion)
-        if fall not in self._motions:
-            self._motions[fall] = Motion.load(motion_path(self._directory, fall))
-        return Play(self._motions[fall], None if motion == fall else self._falls.mirror)
 
     def complete(self) -> None:
         """Try every motion from every fall, on the model and on a robot that differs, and write which works."""
@@ -259,14 +252,14 @@ class _Builder:
             part = rows[first : first + _ROUND]
             objectives = [self._falls.objective(int(known.falls[row])) for row in part]
             untried = {row: np.isnan(success[row]) for row in part if np.isnan(success[row]).any()}
-            own = [[self._play(int(motion)) for motion in known.motions[which]] for which in untried.values()]
+            own = [[self._plays[int(motion)] for motion in known.motions[which]] for which in untried.values()]
             asked = [objective for row, objective in zip(part, objectives, strict=True) if row in untried]
             for (row, which), found in zip(untried.items(), tried(asked, own), strict=True):
                 success[row, which] = found.success
             for row, objective in zip(part, objectives, strict=True):
                 # robots are numbered by motions, in an order in which later ones come last
                 numbers = {int(j): _robot(int(known.motions[j])) for j in np.flatnonzero(np.isnan(perturbed[row]))}
-                plays = {number: self._play(int(known.motions[j])) for j, number in numbers.items()}
+                plays = {number: self._plays[int(known.motions[j])] for j, number in numbers.items()}
                 if plays:
                     seed = (self._seed, int(known.falls[row]))
                     perturbed[row, list(numbers)] = tried_on_others(objective, plays, Perturbation(), seed=seed)

@@ -12,14 +12,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.checks.statistics import wilson
 from levade.engines import MujocoEngine, Perturbation
 from levade.errors import LevadeError
 from levade.library.asking import Answer, Library
 from levade.library.building import read_library
-from levade.library.falls import FACES, Falls, Play, face, tried, tried_on_others
-from levade.library.records import fall_of, motion_path
-from levade.motions import Motion
+from levade.library.falls import FACES, Falls, Play, Plays, face, tried, tried_on_others
 from levade.robots import Robot
 from levade.search.evaluation import Mask
 from levade.search.objective import Objective, Rollouts
@@ -149,7 +148,7 @@ def check_library(
 class _Trial:
     def __init__(self, library: Library, falls: Falls, seed: int, perturbation: Perturbation) -> None:
         self._library, self._falls, self._seed, self._perturbation = library, falls, seed, perturbation
-        self._motions: dict[int, Motion] = {}
+        self._plays = Plays(library.directory, library.knowledge.mirror)
         self._works: list[Mask] = []  # of the likeliest motions of each fall
         self._perturbed: list[bool] = []
         self._faces: list[str] = []
@@ -164,10 +163,11 @@ class _Trial:
     def go(self, indices: Sequence[int]) -> None:
         """Try some falls."""
         objectives = [self._falls.objective(i) for i in indices]
-        answers = [self._asked(objective) for objective in objectives]
-        self._faces += [face(self._falls.sensed(objective.state)[0]) for objective in objectives]
+        sensed = [self._falls.sensed(objective.state) for objective in objectives]
+        answers = [self._asked(*one) for one in sensed]
+        self._faces += [face(up) for up, _ in sensed]
         numbers = [(one.number, *(number for number, _ in one.others))[: max(AFTER)] for one in answers]
-        plays = [[self._play(number) for number in own] for own in numbers]
+        plays = [[self._plays[number] for number in own] for own in numbers]
         works: list[Mask] = [found.success for found in tried(objectives, plays)]
         self._works += works
         self._expected += [one.probability for one in answers]
@@ -201,18 +201,11 @@ class _Trial:
         works = [bool(one[0]) for one, lies in zip(self._works, self._faces, strict=True) if lies == name]
         return Share(sum(works), len(works))
 
-    def _asked(self, objective: Objective) -> Answer:
-        sensed = self._falls.sensed(objective.state)
+    def _asked(self, up: Array, joint_position: Array) -> Answer:
         began = time.perf_counter()
-        answer = self._library.ask(*sensed)
+        answer = self._library.ask(up, joint_position)
         self._times.append(time.perf_counter() - began)
         return answer
-
-    def _play(self, number: int) -> Play:
-        fall = fall_of(number)
-        if fall not in self._motions:
-            self._motions[fall] = Motion.load(motion_path(self._library.directory, fall))
-        return Play(self._motions[fall], None if number == fall else self._library.knowledge.mirror)
 
     def _again(self, objectives: Sequence[Objective], plays: Sequence[Play]) -> int:
         """Of falls from which a motion did not work, how many another answer recovers from, where that one left the robot."""
@@ -230,6 +223,6 @@ class _Trial:
             qpos, qvel, act = (out[name][j, -1] for name in ("qpos", "qvel", "act"))
             told = joined.reference.position[j, -1]
             left = self._falls.from_state(engine.layout.state(qpos, qvel, act, joint_reference=told))
-            answer = self._asked(left)
-            recovered += bool(tried([left], [[self._play(answer.number)]])[0].success[0])
+            answer = self._asked(*self._falls.sensed(left.state))
+            recovered += bool(tried([left], [[self._plays[answer.number]]])[0].success[0])
         return recovered

@@ -4,22 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 
 from levade.arrays import Array
 from levade.engines import Fallen, Perturbation, State, perturbed_models, start_state
 from levade.errors import LevadeError
+from levade.feedback import up_in_trunk
 from levade.library.mirror import Mirror
+from levade.library.records import fall_of, motion_path
 from levade.motions import Motion
 from levade.policies import FreePolicy, JointPolicy
 from levade.robots import Robot, dimensions
-from levade.rotations import conjugate, rotate
 from levade.search.evaluation import Evaluation, Mask, Trials
 from levade.search.objective import AT_ONCE, Objective, Simulation, evaluate_many
 from levade.tasks import StartChoice, Task
-
-_UP = np.array([0.0, 0.0, 1.0])
 
 FACES = ("tail", "nose", "right", "left", "belly", "back")
 """What a robot lies on where up is most along x, -x, y, -y, z, -z of its trunk; on its belly, or on its feet."""
@@ -77,7 +77,7 @@ class Falls:
     def sensed(self, state: State) -> tuple[Array, Array]:
         """What a robot at rest senses: which way is up in trunk axes, shape (3,), and its joint angles [rad]."""
         quaternion = state.qpos[0, self.simulation.engine.layout.trunk_quaternion]
-        return rotate(conjugate(quaternion), _UP), state.joint_position[0].copy()
+        return up_in_trunk(quaternion), state.joint_position[0].copy()
 
 
 def face(up: Array) -> str:
@@ -110,6 +110,20 @@ class Play:
         image = self.mirror.decisions(policy, weights)
         assert image is not None  # else the library would be without a mirror
         return image
+
+
+class Plays:
+    """What there is to play in a library, by number (`levade.library.records`); each motion is read once."""
+
+    def __init__(self, directory: Path, mirror: Mirror | None) -> None:
+        self._directory, self._mirror = directory, mirror
+        self._motions: dict[int, Motion] = {}
+
+    def __getitem__(self, number: int) -> Play:
+        fall = fall_of(number)
+        if fall not in self._motions:
+            self._motions[fall] = Motion.load(motion_path(self._directory, fall))
+        return Play(self._motions[fall], None if number == fall else self._mirror)
 
 
 def tried_on_others(

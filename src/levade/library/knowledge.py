@@ -102,8 +102,7 @@ class Knowledge:
             image = self.distances(self.mirror.up(up), self.mirror.posture(joint_position))
             distance = np.concatenate([distance, image])
         reach = max(_LEAST_REACH, float(np.sort(distance)[min(_NEAREST, len(distance)) - 1]))
-        both = np.stack([self.success, self.perturbed])
-        tried, worked = (~np.isnan(both)).sum(axis=0), np.nansum(both, axis=0)
+        tried, worked = self._evidence
         near = np.exp(-((distance / reach) ** 2))
         n = len(self.falls)
         for_it, all_of_it = near[:n] @ worked, near[:n] @ tried
@@ -113,6 +112,12 @@ class Knowledge:
             for_it, all_of_it = for_it + near[n:] @ worked[:, image], all_of_it + near[n:] @ tried[:, image]
             share = (share + share[image]) / 2
         return (for_it + _PRIOR * share) / (all_of_it + _PRIOR)
+
+    @cached_property
+    def _evidence(self) -> tuple[Array, Array]:
+        """How often each motion was tried from each fall, on the model and beside it, and how often it worked, shape (n, m)."""
+        both = np.stack([self.success, self.perturbed])
+        return (~np.isnan(both)).sum(axis=0), np.nansum(both, axis=0)
 
     @cached_property
     def _image(self) -> NDArray[np.intp]:

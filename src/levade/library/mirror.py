@@ -49,7 +49,7 @@ class Mirror:
                 signs[robot.joint_indices(leg)] = mirror_signs(robot, others[0], leg)
             except LevadeError:
                 return None
-            joints[robot.joint_indices(leg)] = joints_of(robot, others[0].joints)
+            joints[robot.joint_indices(leg)] = np.arange(n)[robot.joint_indices(others[0])]
         return cls(joints, signs)
 
     @classmethod
@@ -106,8 +106,3 @@ class Mirror:
     @staticmethod
     def _same(one: Array, other: Array) -> bool:
         return bool(np.abs(one - other).max() < _SAME)
-
-
-def joints_of(robot: Robot, names: tuple[str, ...]) -> list[int]:
-    """Where joints are in the robot's order."""
-    return [robot.joint_names.index(name) for name in names]
