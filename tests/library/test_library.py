@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import json
 import shutil
-from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -106,18 +105,24 @@ def test_stopped_and_gone_on_with_it_has_the_same_bytes(
     seen: list[int] = []
     for cut in (*cuts, 1000):
         until = len(seen) + cut
-        with suppress(LevadeError):  # of one that was stopped before its first fall was done there is nothing to load
-            build(
-                rolling(),
-                starts=STARTS,
-                directory=tmp_path,
-                threads=1,
-                observe=lambda progress: seen.append(progress.done),
-                stopping=partial(lambda until: len(seen) >= until, until),
-            )
+        build(
+            rolling(),
+            starts=STARTS,
+            directory=tmp_path,
+            threads=1,
+            observe=lambda progress: seen.append(progress.done),
+            stopping=partial(lambda until: len(seen) >= until, until),
+        )
     assert seen[-1] == STARTS
     assert min(seen) < STARTS
     assert contents(tmp_path) == contents(library.directory)
+
+
+def test_stopped_before_its_first_fall_is_done_it_is_a_library_without_motions(tmp_path: Path) -> None:
+    empty = build(rolling(), starts=STARTS, directory=tmp_path, stopping=lambda: True)
+    assert (empty.records, empty.coverage, empty.knowledge.cover()) == ((), 0.0, [])
+    with pytest.raises(LevadeError, match="no motion was found for any of its 0 falls; build it further"):
+        empty.ask([0, 0, 1], np.zeros(12))
 
 
 def test_it_grows_to_what_it_would_have_been(library: Library, tmp_path: Path) -> None:

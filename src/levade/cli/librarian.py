@@ -123,6 +123,8 @@ def _tell_library(console: Console, library: Library) -> None:
     motions = sum(record.motion == record.fall for record in library.records)
     images = " and their mirror images" if library.knowledge.mirror else ""
     console.print(f"{motions} motions{images} get up from {library.coverage:.1%} of {falls} falls.")
+    if not cover:
+        return
     enough = ", ".join(f"{k + 1}: {works / falls:.1%}" for k, (_, works) in enumerate(cover[:6]))
     console.print(f"The best few of them: {enough}.")
 

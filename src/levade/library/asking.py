@@ -97,15 +97,12 @@ class Library:
             LevadeError: If there is none, or it is damaged.
         """
         directory = Path(directory)
-        files = sorted((directory / FALLS).glob("*.json"))
-        if not files:
-            raise LevadeError(f"{directory}: holds no motion library; build one, or give its directory")
-        records = tuple(Record.load(path) for path in files)
         place = directory / LIBRARY
+        if not place.is_file():
+            raise LevadeError(f"{directory}: holds no motion library; build one, or give its directory")
+        records = tuple(Record.load(path) for path in sorted((directory / FALLS).glob("*.json")))
         mirror = Mirror.from_json(read_yaml(place).get("mirror"), where=str(place))
         knowledge = Knowledge.of(records, mirror)
-        if not len(knowledge.motions):
-            raise LevadeError(f"{directory}: no motion was found for any of its {len(records)} falls; build it further")
         return cls(directory, records, knowledge.merged(read_success(directory, knowledge)))
 
     def ask(self, up: Any, joint_position: Any) -> Answer:
@@ -116,8 +113,11 @@ class Library:
             joint_position: Angles [rad] in the robot's joint order, shape (joints,).
 
         Raises:
-            LevadeError: If a shape is wrong, or not all are finite numbers.
+            LevadeError: If a shape is wrong, not all are finite numbers, or there is no motion yet.
         """
+        if not len(self.knowledge.motions):
+            falls = len(self.records)
+            raise LevadeError(f"{self.directory}: no motion was found for any of its {falls} falls; build it further")
         up, joints = self._checked(up, joint_position)
         (number, probability), *others = self.knowledge.ranked(up, joints)
         mirror = self.knowledge.mirror if number < 0 else None
@@ -134,7 +134,9 @@ class Library:
 
     @property
     def coverage(self) -> float:
-        """Share of its falls that one of its motions works from."""
+        """Share of its falls that one of its motions works from; 0 of none."""
+        if not self.records:
+            return 0.0
         return float((self.knowledge.success == 1.0).any(axis=1).mean())
 
 
