@@ -67,7 +67,7 @@ def test_a_version_is_a_model_compiled_with_its_values(
     boxed: Engine, start: State, wave: Callable[..., JointReference], compile_in: Callable[..., None]
 ) -> None:
     steps = 60
-    everything = Perturbation(latency=None).draw(boxed.model, 12, n=3, seed=1)
+    everything = Perturbation(latency=None, softness=(0.9, 2.0)).draw(boxed.model, 12, n=3, seed=1)
     starts, models = perturbed_models(boxed.model, boxed.layout, everything, start)
     reference = wave(start.joint_position, n=1, steps=steps, scale=0.1)
     ours = boxed.rollout(starts, reference, models=models)
@@ -86,6 +86,9 @@ def test_a_version_is_a_model_compiled_with_its_values(
             mujoco.mju_mulQuat(product, turn, boxed.model.geom(name).quat)
             geom.pos, geom.quat = turned + pivot, product.copy()
         model = spec.compile()
+        softer = v["softness"][0]
+        model.geom_solref[:, 0] *= softer
+        model.geom_solimp[:, :2] = 1 - (1 - model.geom_solimp[:, :2]) * softer
         assert not np.allclose(model.dof_invweight0, boxed.model.dof_invweight0)
         data = mujoco.MjData(model)
         data.qpos[:], data.qvel[:], data.act[:] = starts.qpos[run], starts.qvel[run], starts.act[run]
@@ -113,11 +116,21 @@ def test_a_run_depends_on_nothing_but_its_own_values(
     assert np.array_equal(again, whole[[5, 2]])
 
 
+def test_softness_leaves_the_other_numbers_as_they_are(boxed: Engine) -> None:
+    for draw in (Perturbation.draw, Perturbation.spread):
+        without, soft = (
+            draw(one, boxed.model, 12, n=5, seed=3) for one in (Perturbation(), Perturbation(softness=(0.5, 2.0)))
+        )
+        for name in without.values:
+            assert np.array_equal(without.values[name], soft.values[name]) == (name != "softness"), name
+        assert len(np.unique(soft.values["softness"])) == 5
+
+
 @pytest.mark.parametrize("name", [one.name for one in fields(Perturbation)])
 def test_every_parameter_changes_the_motion_and_its_corners_are_the_ends_of_its_range(
     name: str, boxed: Engine, start: State, wave: Callable[..., JointReference]
 ) -> None:
-    own = Perturbation()
+    own = Perturbation(softness=(0.9, 2.0))
     corners = own.corners(boxed.model, 12, name, n=4, seed=0)
     ends = getattr(own, name)
     assert set(np.unique(corners.values[name])) == set(ends)

@@ -11,6 +11,7 @@ import numpy as np
 
 from levade.costs import errors, success
 from levade.costs.orientation import geodesic
+from levade.engines.models import soften
 from levade.motions import RecordedSimulation
 from levade.trajectory import Trajectories
 
@@ -91,11 +92,8 @@ def varied(model: mujoco.MjModel, variant: Variant) -> mujoco.MjModel:
     if variant.cone:
         model.opt.cone = _OTHER_CONE.get(mujoco.mjtCone(model.opt.cone), mujoco.mjtCone.mjCONE_ELLIPTIC)
     if variant.softness != 1.0:
-        for solref, solimp in ((model.geom_solref, model.geom_solimp), (model.pair_solref, model.pair_solimp)):
-            direct = solref[:, 0] <= 0  # -stiffness and -damping instead of a time and a ratio
-            solref[direct] /= np.array([variant.softness**2, variant.softness])
-            solref[~direct, 0] *= variant.softness
-            solimp[:, :2] = np.clip(1 - (1 - solimp[:, :2]) * variant.softness, 0.0001, 0.9999)
+        for prefix in ("geom", "pair"):
+            soften(getattr(model, f"{prefix}_solref"), getattr(model, f"{prefix}_solimp"), variant.softness)
     return model
 
 

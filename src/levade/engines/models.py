@@ -33,6 +33,9 @@ FIELDS = (
 )
 """Fields of `mujoco.MjModel` in which perturbed models differ."""
 
+SOFTNESS_FIELDS = ("geom_solref", "geom_solimp", "pair_solref", "pair_solimp")
+"""Fields in which those also differ that are softer or harder than the nominal one."""
+
 _DCMOTOR = int(mujoco.mjtGain.mjGAIN_DCMOTOR)
 _NONE = int(mujoco.mjtSameFrame.mjSAMEFRAME_NONE)
 # where MuJoCo keeps an actuator's numbers
@@ -149,6 +152,10 @@ def _fields(model: mujoco.MjModel, layout: Layout, values: Mapping[str, Array]) 
     fields["geom_pos"][:, ground(model), 2] += values["ground_height"]
     for i, geom in enumerate(obstacles(model)):
         fields["geom_pos"][:, geom] += values["obstacle"][:, 3 * i : 3 * i + 3]
+    if (values["softness"] != 1.0).any():
+        fields |= {name: np.repeat(getattr(model, name)[None], n, axis=0) for name in SOFTNESS_FIELDS}
+        for prefix in ("geom", "pair"):
+            soften(fields[f"{prefix}_solref"], fields[f"{prefix}_solimp"], values["softness"][:, :, None])
     gain, bias = fields["actuator_gainprm"], fields["actuator_biasprm"]
     fields["actuator_forcerange"] *= values["torque_limit"][:, :, None]
     for i, name in enumerate(layout.embodiment.joint_names):
@@ -163,6 +170,24 @@ def _fields(model: mujoco.MjModel, layout: Layout, values: Mapping[str, Array]) 
             bias[:, actuator, _PID_KP] *= kp
             bias[:, actuator, _PID_KD] *= kd
     return fields
+
+
+def soften(solref: Array, solimp: Array, factor: float | Array) -> None:
+    """Make contacts softer, in place: MuJoCo's solref (..., 2) and solimp (..., 5).
+
+    Args:
+        solref: Time constant and damping ratio; or, where the first is not positive, minus stiffness and minus damping.
+        solimp: Impedances, of which the first two are shares of the full force.
+        factor: On the time that a contact takes to push bodies apart, and on what it may be short of the full force;
+            that broadcasts to (..., 1).
+    """
+    direct = solref[..., :1] <= 0
+    of_time = np.concatenate([np.broadcast_to(factor, direct.shape), np.ones(direct.shape)], axis=-1)
+    of_stiffness = np.concatenate(
+        [np.broadcast_to(1.0 / np.square(factor), direct.shape), 1.0 / of_time[..., :1]], axis=-1
+    )
+    solref *= np.where(direct, of_stiffness, of_time)
+    solimp[..., :2] = np.clip(1 - (1 - solimp[..., :2]) * factor, 0.0001, 0.9999)
 
 
 def _tilt(

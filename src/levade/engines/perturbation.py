@@ -12,7 +12,7 @@ runs there are, nor on which other parameters are switched off.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -132,8 +132,16 @@ PARAMETERS: dict[str, Parameter] = {
         "position of each obstacle, along x, y and z",
         "a range finder sees it to a centimetre",
     ),
+    "softness": Parameter(
+        *("x", "model"),
+        "time that a contact takes to push bodies apart, and what it may be short of the full force",
+        "off: numbers of the simulation, not of the robot; a certificate tries both ends of 0.5 to 2",
+    ),
 }
 """Name -> what it is, in the order of `Perturbation`."""
+
+_LATE, _LATE_TAG = ("softness",), 1_819_440_229
+"""Parameters with random numbers of their own, and what keeps these apart: the others' are as before there were these."""
 
 
 @dataclass(frozen=True)
@@ -161,6 +169,7 @@ class Perturbation:
     ground_height: Range = (-0.005, 0.005)
     ground_slope: Range = (-0.02, 0.02)
     obstacle: Range = (-0.01, 0.01)
+    softness: Range = None
 
     def __post_init__(self) -> None:
         for name, about in PARAMETERS.items():
@@ -180,17 +189,17 @@ class Perturbation:
         Each number's range is cut into n parts, and each run has it in another one (McKay, Beckman and Conover, Technometrics
         21, 1979).
         """
-        shapes = _sizes(model, joints)
-        generator = np.random.default_rng(seed)
-        part = np.argsort(generator.random((n, sum(shapes.values()))), axis=0, kind="stable")
-        return self._sample((part + generator.random(part.shape)) / n, shapes)
+
+        def spread(generator: np.random.Generator, size: int) -> Array:
+            part = np.argsort(generator.random((n, size)), axis=0, kind="stable")
+            return np.asarray((part + generator.random(part.shape)) / n)
+
+        return self._drawn(spread, _sizes(model, joints), seed)
 
     def draw(self, model: mujoco.MjModel, joints: int, *, n: int, seed: int | tuple[int, ...]) -> Sample:
         """n runs, drawn at random. seed: one number, or several that together make one."""
-        shapes = _sizes(model, joints)
-        generator = np.random.default_rng(seed)
-        unit = generator.random((n, sum(shapes.values())))  # row by row: run i does not depend on n
-        return self._sample(unit, shapes)
+        # row by row: run i does not depend on n
+        return self._drawn(lambda generator, size: generator.random((n, size)), _sizes(model, joints), seed)
 
     def nominal(self, model: mujoco.MjModel, joints: int, *, n: int = 1) -> Sample:
         """n runs in which nothing is perturbed."""
@@ -211,6 +220,20 @@ class Perturbation:
         values: dict[str, Array] = dict(self.nominal(model, joints, n=len(ends)).values)
         values[name] = self._scaled(name, ends)
         return Sample(values)
+
+    def _drawn(
+        self,
+        draw: Callable[[np.random.Generator, int], Array],
+        shapes: Mapping[str, int],
+        seed: int | tuple[int, ...],
+    ) -> Sample:
+        """A sample of numbers in [0, 1], shape (n, size) each, that ``draw`` makes."""
+        seeds = seed if isinstance(seed, tuple) else (seed,)
+        late = {name: size for name, size in shapes.items() if name in _LATE}
+        early = {name: size for name, size in shapes.items() if name not in _LATE}
+        unit = draw(np.random.default_rng(seed), sum(early.values()))
+        others = draw(np.random.default_rng((*seeds, _LATE_TAG)), sum(late.values()))
+        return self._sample(np.concatenate([unit, others], axis=1), {**early, **late})
 
     def _sample(self, unit: Array, shapes: Mapping[str, int]) -> Sample:
         values: dict[str, Array] = {}
