@@ -17,7 +17,7 @@ from levade.checks.certificate import Certificate
 from levade.checks.engines import Replayed, other_engines
 from levade.checks.margins import Margin, margins
 from levade.checks.numerics import Numeric, numerics
-from levade.checks.perturbed import Perturbed, Sensitivity, perturbed
+from levade.checks.perturbed import Hopeless, Perturbed, Sensitivity, perturbed
 from levade.checks.verdicts import Verdict
 from levade.engines import Perturbation
 from levade.errors import LevadeError
@@ -52,15 +52,27 @@ def check(
     demands: Demands | None = None,
     criteria: Task | None = None,
     threads: int = 0,
+    hopeless: Hopeless | None = None,
     stopping: Callable[[], bool] | None = None,
 ) -> Certificate:
     """Check a motion against its model's uncertainty, its numbers, other engines and its hardware.
 
-    divide: the time step of the perturbed runs by so much. perturbation, demands: the defaults if None. criteria: a task
-    whose success criteria are used instead of the motion's own, which are what its task calls good enough on perturbed models
-    (`levade.tasks.Robust.success`). threads: results do not depend on it.
-    stopping: asked on the way; once it says so, the certificate is of what was done by then, and says that it is interrupted.
-    Raises LevadeError if there is nothing to judge by, or no runs.
+    Args:
+        motion: The motion.
+        runs: Perturbed runs, at most.
+        seed: Seed of all random numbers.
+        divide: What to divide the time step of the perturbed runs by.
+        perturbation: Ranges of what differs. Defaults to `levade.engines.Perturbation`.
+        demands: What the certificate asks for. Defaults to `levade.tasks.Demands`.
+        criteria: A task whose success criteria are used instead of the motion's own, which are what its task calls good enough
+            on perturbed models (`levade.tasks.Robust.success`).
+        threads: Engine threads; 0 for one per core. Results do not depend on it.
+        hopeless: Asked on the way with successes and perturbed runs so far; once it says so, no more runs are made.
+        stopping: Asked on the way; once it says so, the certificate is of what was done by then, and says that it is
+            interrupted.
+
+    Raises:
+        LevadeError: If there is nothing to judge by, or no runs.
     """
     judged = motion.task.good_enough if criteria is None else criteria.success
     simulation = RecordedSimulation(motion, criteria=judged, threads=threads)
@@ -77,11 +89,20 @@ def check(
     ranges = perturbation or Perturbation()
     stop = stopping or (lambda: False)
 
-    def tried(by: Feedback | None) -> Perturbed:
-        return perturbed(simulation, ranges, runs=runs, seed=seed, divide=divide, feedback=by, stopping=stop)
+    def tried(by: Feedback | None, runs: int, hopeless: Hopeless | None = None) -> Perturbed:
+        return perturbed(
+            simulation,
+            ranges,
+            runs=runs,
+            seed=seed,
+            divide=divide,
+            feedback=by,
+            hopeless=hopeless,
+            stopping=stop,
+        )
 
-    without = tried(None)
-    found = without if feedback is None else tried(feedback)
+    found = tried(feedback, runs, hopeless)
+    without = found if feedback is None else tried(None, found.runs)
     cut = stop()
     return Certificate(
         task=simulation.task.name,

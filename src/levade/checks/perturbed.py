@@ -22,6 +22,9 @@ _POOREST = 3
 _CORNERS = 8
 """Runs with one parameter alone at the ends of its range."""
 
+Hopeless = Callable[[int, int], bool]
+"""Asked on the way with successes and runs so far: whether there is no point in more runs."""
+
 
 @dataclass(frozen=True)
 class Sensitivity:
@@ -99,12 +102,20 @@ def perturbed(
     seed: int,
     divide: int = 1,
     feedback: Feedback | None = None,
+    hopeless: Hopeless | None = None,
     stopping: Callable[[], bool] | None = None,
 ) -> Perturbed:
     """Simulate a motion on ``runs`` perturbed versions of its model, and once more with each parameter alone.
 
-    divide: the motion's time step by so much. feedback: the stabiliser, whose sensors err (`levade.feedback.SensorErrors`).
-    stopping: asked on the way; once it says so, what there is by then is the result, some runs at least.
+    Args:
+        simulation: The motion, and the criteria.
+        perturbation: Ranges of what differs.
+        runs: Perturbed versions, at most.
+        seed: Seed of all random numbers.
+        divide: What to divide the motion's time step by.
+        feedback: The stabiliser, whose sensors err (`levade.feedback.SensorErrors`).
+        hopeless: See `Hopeless`; no parameter is then tried alone. None makes all runs.
+        stopping: Asked on the way; once it says so, the result is of what there is by then, some runs at least.
     """
     simulation = simulation.divided(divide)
     model, joints = simulation.model, simulation.joints
@@ -115,11 +126,20 @@ def perturbed(
         if values.shape[1] and getattr(perturbation, name) not in (None, (PARAMETERS[name].nominal,) * 2)
     ]
     corners = {name: perturbation.corners(model, joints, name, n=_CORNERS, seed=seed) for name in names}
-    every = joined([sample, *corners.values()])
-    whole = run_trials(simulation, every, feedback=feedback, seed=seed, stopping=stopping)
-    drawn, alone, first = whole.part(0, runs), {}, runs
+
+    def stopped(_: Trials | None = None) -> bool:
+        return stopping is not None and stopping()
+
+    def ending(made: Trials) -> bool:
+        return stopped() or (hopeless is not None and hopeless(int(made.success.sum()), len(made)))
+
+    drawn = run_trials(simulation, sample, feedback=feedback, seed=seed, ending=ending)
     runs = len(drawn)
     sample = sample[:runs]
+    whole, alone, first = drawn.part(0, 0), {}, 0
+    if corners and not ending(drawn):
+        every = joined(list(corners.values()))
+        whole = run_trials(simulation, every, feedback=feedback, seed=seed, ending=stopped)
     for name, corner in corners.items():
         alone[name] = whole.part(first, first + len(corner)).success
         first += len(corner)

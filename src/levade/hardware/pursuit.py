@@ -29,6 +29,7 @@ from pathlib import Path
 
 from levade.checks import Certificate, check
 from levade.checks.record import CERTIFICATE
+from levade.checks.statistics import wilson
 from levade.document import read_yaml
 from levade.errors import LevadeError, Remedy
 from levade.hardware.page import write_certificate
@@ -72,7 +73,7 @@ _BALANCED = 0.25
 """Share of perturbed robots, below which no motion is robust by itself: one that falls over needs feedback, and at once."""
 
 _FEW = 100
-"""Perturbed runs that a certificate begins with: it is over with these if they leave no hope for the share that is demanded."""
+"""Perturbed runs that a certificate has at least: it ends once they leave no hope for the share that is demanded."""
 
 _MOST = 1000
 """Demands that a motion without a certificate counts as failing: more than there are."""
@@ -421,11 +422,16 @@ class _Pursuit:
     def _certified(self, part: Part) -> Part:
         """The part with its certificate; written, if it is the best."""
         began = time.monotonic()
-        certificate = self._check(part.motion, min(_FEW, self._runs))
-        share = self._demands.share
-        hope = share is None or certificate.perturbed.high >= share
-        if hope and not certificate.interrupted and certificate.perturbed.runs < self._runs:
-            certificate = self._check(part.motion, self._runs)
+        certificate = check(
+            part.motion,
+            runs=self._runs,
+            seed=self._seed,
+            perturbation=self._plan.perturb,
+            demands=self._demands,
+            threads=self._threads,
+            hopeless=self._hopeless,
+            stopping=self._stopping,
+        )
         if certificate.interrupted:
             self._stopped = "interrupted"
         part = replace(part, certificate=certificate, seconds=part.seconds + time.monotonic() - began)
@@ -433,16 +439,10 @@ class _Pursuit:
             self._keep(part, certificate)
         return part
 
-    def _check(self, motion: Motion, runs: int) -> Certificate:
-        return check(
-            motion,
-            runs=runs,
-            seed=self._seed,
-            perturbation=self._plan.perturb,
-            demands=self._demands,
-            threads=self._threads,
-            stopping=self._stopping,
-        )
+    def _hopeless(self, successes: int, runs: int) -> bool:
+        """Whether perturbed runs say that more of them would not bring the share that is demanded."""
+        share = self._demands.share
+        return share is not None and runs >= _FEW and wilson(successes, runs)[1] < share
 
     def _run(self, name: str, task: Task, around: Motion | None, seed: int) -> Outcome:
         directory = self._directory / name

@@ -52,6 +52,15 @@ class Trials:
         off = {name: values[at] for name, values in self.errors.items()}
         return Trials(off, self.success[at], self.diverged[at], self.miss[at])
 
+    def joined(self, others: Trials) -> Trials:
+        """These, and others after them."""
+        return Trials(
+            {name: np.concatenate([values, others.errors[name]]) for name, values in self.errors.items()},
+            np.concatenate([self.success, others.success]),
+            np.concatenate([self.diverged, others.diverged]),
+            np.concatenate([self.miss, others.miss]),
+        )
+
 
 def run_trials(
     simulation: RecordedSimulation,
@@ -59,7 +68,7 @@ def run_trials(
     *,
     feedback: Feedback | None = None,
     seed: int = 0,
-    stopping: Callable[[], bool] | None = None,
+    ending: Callable[[Trials], bool] | None = None,
 ) -> Trials:
     """Simulate a motion on all models of a sample.
 
@@ -68,26 +77,30 @@ def run_trials(
         sample: The perturbed models.
         feedback: The stabiliser, whose sensors err (`levade.feedback.SensorErrors`).
         seed: Seed of the sensors' errors.
-        stopping: Asked on the way; once it says so, the trials made by then are the result, some at least.
+        ending: Asked on the way, with the trials made so far; once it says so, these are the result.
     """
-    criteria, parts = simulation.criteria, []
+    found: Trials | None = None
     for first in range(0, len(sample), _AT_ONCE):
-        if parts and stopping is not None and stopping():
+        if found is not None and ending is not None and ending(found):
             break
         part = sample[first : first + _AT_ONCE]
         wrong = None
         if feedback is not None:
             wrong = _sensor_errors(simulation, first, feedback, seed)[: len(part)]
-        trajectories = simulation.rollout(part, feedback=feedback, sensor_errors=wrong)
-        parts.append((errors(criteria, trajectories), success(criteria, trajectories), trajectories.diverged))
-    off = {name: np.concatenate([part[0][name] for part in parts]) for name in criteria}
-    met, diverged = (np.concatenate([part[i] for part in parts]) for i in (1, 2))
-    miss = np.zeros(len(met))
+        made = _judged(simulation, simulation.rollout(part, feedback=feedback, sensor_errors=wrong))
+        found = made if found is None else found.joined(made)
+    assert found is not None
+    return found
+
+
+def _judged(simulation: RecordedSimulation, trajectories: Trajectories) -> Trials:
+    criteria, diverged = simulation.criteria, trajectories.diverged
+    off, miss = errors(criteria, trajectories), np.zeros(trajectories.n)
     for name, criterion in criteria.items():
         bound = next((abs(end) for end in (criterion.minimum, criterion.maximum) if end), 1.0)
         np.maximum(miss, np.abs(off[name]) / (criterion.tolerance or bound), out=miss)
     miss[diverged] = DIVERGED
-    return Trials(off, met, diverged, miss)
+    return Trials(off, success(criteria, trajectories), diverged, miss)
 
 
 def run_again(
