@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import levade.hardware.pursuit as pursuit_module
 from levade.checks import Demands, check
 from levade.checks.record import CERTIFICATE
 from levade.checks.statistics import wilson
@@ -204,6 +205,10 @@ def test_with_time_left_it_searches_again_with_another_seed(tmp_path: Path, monk
 
     monkeypatch.setattr(Plan, "within_limits", lambda self, number=0: shorter(within_limits(self, number)))
     monkeypatch.setattr(Plan, "robust", robust_for_short)
+    monkeypatch.setattr(
+        pursuit_module, "_GOOD", 1.1
+    )  # no share is good enough: one more motion to begin around is looked for
+    monkeypatch.setattr(pursuit_module, "MORE", 1)
     demands, begun = Demands(trunk_acceleration=1e-6), list[str]()
 
     def stop(name: str, generation: Generation) -> Stopped | None:
@@ -220,11 +225,13 @@ def test_with_time_left_it_searches_again_with_another_seed(tmp_path: Path, monk
             observe=observe,
         )
 
-    cut = pursuit(3.0, stop)
+    cut = pursuit(60.0, stop)
     assert cut.stopped == "interrupted"
     assert [part.name for part in cut.parts] == begun
-    assert begun[0] == "limits-1"
+    assert begun[:5] == ["limits-1", "limits-2", "limits-3", "limits-4", "robust"]
     assert begun[-1] == "again-1/limits-1"
+    seeds = [part.motion.provenance.seed for part in cut.parts[:4]]
+    assert len(set(seeds)) == 4
     assert cut.certificate.failed == ("trunk acceleration",)
     first = cut.parts[0].motion
     assert cut.parts[-1].motion.provenance.seed != first.provenance.seed

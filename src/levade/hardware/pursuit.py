@@ -13,9 +13,10 @@ DIR/limits-1, ...       the searches, each a run of its own (`levade.search.run`
 DIR/again-1, ...        the same once more with another seed, if no certificate passed while there was time left
 
 First motions of the nominal model within its limits, several, since motions that look alike there differ widely on other
-robots: the second search begins at the best of many rough motions, and the last is around the nearest motion, if none is within
-the limits. Around the one that holds on most robots a robust search, and around what that finds one with feedback; at once,
-where open loop holds on few. What then holds on nearly enough robots, or on so few more that other ones could say otherwise, is
+robots: the second search begins at the best of many rough motions, and the third is around the nearest motion, if none is
+within the limits. While the best motion holds on few robots, the search that found it is made again with other random numbers.
+Around the motion that holds on most robots goes a robust search, and around what that finds one with feedback; at once, where
+open loop holds on few. What then holds on nearly enough robots, or on so few more that other ones could say otherwise, is
 searched around once more, finely. A search that is needed no more is not made.
 """
 
@@ -40,6 +41,7 @@ from levade.hardware.state import (
     CLOSED,
     FINER,
     LIMITS,
+    MORE,
     PAGE,
     ROBUST,
     State,
@@ -47,6 +49,7 @@ from levade.hardware.state import (
     check_same,
     discard,
     is_pursuit,
+    within_limits,
 )
 from levade.locking import locked
 from levade.motions import Motion
@@ -65,6 +68,9 @@ _ON_LIMITS = (0.25, 0.6, 1.0)
 
 _ENOUGH = 0.4
 """Share of the time after which no further one is begun, and one that has not met them ends, once another has."""
+
+_GOOD = 0.9
+"""Share of perturbed robots on which a motion to begin the robust searches around holds, so that no other is looked for."""
 
 _ON_ROBUST = 0.7
 """Share of the time after which a robust search ends that has not met its demands, where one with feedback can follow."""
@@ -295,6 +301,7 @@ class _Pursuit:
         self._begin, self._observe, self._tell, self._stopping = begin, observe, tell, stopping
         self._began = time.monotonic()
         self._parts: list[Part] = []
+        self._kinds: dict[str, int] = {}  # which of the plan's searches within limits each is
         self._share = 1.0  # of the time, for a search that meets nothing
         self._stopped = ""
 
@@ -317,12 +324,16 @@ class _Pursuit:
 
     def go(self) -> Pursued:
         plan = self._plan
-        for number, name in enumerate(LIMITS):
+        for number in range(len(LIMITS) + MORE):
+            name = within_limits(number)
             if self._state.chosen not in (None, name):
                 continue
             found = any(part.met for part in self._parts)
-            self._share = min(_ON_LIMITS[number], _ENOUGH) if found else _ON_LIMITS[number]
-            task, near = self._last_within_limits() if name == LIMITS[-1] else (plan.within_limits(number), None)
+            if number >= len(LIMITS) and self._state.chosen is None and not (found and self._wants_another):
+                break
+            time_for_it = _ON_LIMITS[min(number, len(LIMITS) - 1)]
+            self._share = min(time_for_it, _ENOUGH) if found else time_for_it
+            task, near = self._within_limits(number)
             part = self._search(name, task, near, seed=self._seed + _APART * number)
             met = any(part.met for part in self._parts)
             if self._stopped or _sure(part) or (met and self._late(_ENOUGH)):
@@ -354,20 +365,33 @@ class _Pursuit:
         parts = tuple(replace(part, name=self._prefix + part.name) for part in self._parts)
         return Pursued(plan, parts, parts[best], self._directory, self._seed, self._stopped)
 
-    def _last_within_limits(self) -> tuple[Task, Motion | None]:
-        """The last search within limits, and what it begins around: the one that is there already, if it is of this plan."""
-        other = self._plan.within_limits(len(LIMITS) - 1)
-        directory = self._directory / LIMITS[-1]
+    @property
+    def _wants_another(self) -> bool:
+        """Whether another motion to begin the robust searches around is worth the time: the best one is not good enough yet."""
+        return max(_share(part) for part in self._parts if part.met) < _GOOD
+
+    def _within_limits(self, number: int) -> tuple[Task, Motion | None]:
+        """A search within limits, and what it begins around: the one that is there already, if it is of this plan."""
+        plan, name, last = self._plan, within_limits(number), len(LIMITS) - 1
+        directory, met = self._directory / name, [part for part in self._parts if part.met]
+        if number < last:
+            self._kinds[name] = number
+            return plan.within_limits(number), None
         if (directory / CHECKPOINT).is_file():
             known, _ = read_run(directory)
-            nearer = (self._plan.nearer(number, known.usual_horizon) for number in range(len(LIMITS) - 1))
-            for task in (other, *nearer):
-                if task_to_dict(task, code=True) == task_to_dict(known, code=True):
-                    return task, None
-        if not self._parts or any(part.met for part in self._parts):
-            return other, None
-        near = self._parts[self._nearest]  # it is worth more around this one than anywhere else
-        return self._plan.nearer(LIMITS.index(near.name), near.motion.horizon), near.motion
+            content = task_to_dict(known, code=True)
+            for kind in range(len(LIMITS)):
+                for task in (plan.within_limits(kind), plan.nearer(kind, known.usual_horizon)):
+                    if task_to_dict(task, code=True) == content:
+                        self._kinds[name] = kind
+                        return task, None
+        if number == last and self._parts and not met:  # it is worth more around the nearest than anywhere else
+            near = self._parts[self._nearest]
+            self._kinds[name] = self._kinds[near.name]
+            return plan.nearer(self._kinds[name], near.motion.horizon), near.motion
+        # with other random numbers, what has come out best
+        self._kinds[name] = self._kinds[max(met, key=_share).name] if number > last and met else last
+        return plan.within_limits(self._kinds[name]), None
 
     def _choose(self, part: Part) -> None:
         if self._state.chosen is None:
@@ -390,7 +414,7 @@ class _Pursuit:
         outcome = self._run(name, task, around, seed)
         motion = self._plan.certifiable(outcome.motion)
         # what is not within the limits would only fail; the last that there is is certified all the same
-        hopeless = name in LIMITS and not motion.met
+        hopeless = name in self._kinds and not motion.met
         part = Part(name, motion, outcome.solution.trials, time.monotonic() - began, None)
         if not hopeless:
             part = self._certified(part)
@@ -453,7 +477,7 @@ class _Pursuit:
                 self._told(name, task)
                 return resume(directory, objective=objective, observe=lambda one: self._watch(name, one))
         guess = None if around is None else initial_guess(objective.policy, around)
-        if guess is None and name == LIMITS[RUN_UP]:
+        if guess is None and self._kinds.get(name) == RUN_UP:
             guess = rough_start(objective, seed=seed)
         self._told(name, task)
         return run(

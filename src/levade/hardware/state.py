@@ -17,6 +17,10 @@ from levade.writing import write_text
 
 ASKED, PAGE = PURSUIT, CERTIFICATE_PAGE
 LIMITS, ROBUST, CLOSED, FINER = ("limits-1", "limits-2", "limits-3"), "robust", "feedback", "finer"
+"""Directories of the searches that a plan has."""
+
+MORE = 5
+"""Searches within limits that may follow those, each with other random numbers."""
 
 AGAIN = "again"
 """Begin of the names of directories in which the searches are made again, with another seed: ``again-1``, ..."""
@@ -41,7 +45,7 @@ class State:
         state = cls(directory, task, seed, demands)
         if is_pursuit(directory):
             content = read_yaml(directory / ASKED)
-            if content.get("demands") == asdict(demands) and content.get("chosen") in LIMITS:
+            if content.get("demands") == asdict(demands) and content.get("chosen") in _all_within_limits():
                 state.chosen = content["chosen"]
         return state
 
@@ -79,6 +83,15 @@ def is_pursuit(directory: Path) -> bool:
     return (directory / ASKED).is_file()
 
 
+def within_limits(number: int) -> str:
+    """The directory of a search within limits, from 0."""
+    return f"limits-{number + 1}"
+
+
+def _all_within_limits() -> list[str]:
+    return [within_limits(number) for number in range(len(LIMITS) + MORE)]
+
+
 def again(directory: Path, number: int) -> Path:
     """Where the searches of a pursuit are made again for the first, second, ... time."""
     return directory / f"{AGAIN}-{number}"
@@ -90,7 +103,7 @@ def discard(directory: Path) -> None:
     Raises:
         LevadeError: If one of them goes on.
     """
-    searches = [directory, *(directory / name for name in (*LIMITS, ROBUST, CLOSED, FINER))]
+    searches = [directory, *(directory / name for name in (*_all_within_limits(), ROBUST, CLOSED, FINER))]
     for search in searches:
         check_unlocked(search)
     number = 1
