@@ -38,11 +38,13 @@ def test_the_certificate_decides(levade, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        ("solve rearing --minutes 3", "--minutes: goes with --hardware only"),
-        ("solve rearing --demand share=0.9", "--demand: goes with --hardware only"),
+        ("solve rearing --minutes 3", "--minutes: goes with --hardware or --robust only"),
+        ("solve rearing --demand share=0.9", "--demand: goes with --hardware or --robust only"),
         ("solve rearing --hardware --trials 30 --watch", "leave out --watch and --trials"),
         ("solve rearing --hardware --minutes 0", "--minutes: 0 should be a positive number of minutes"),
         ("solve rearing --hardware --demand sped=0.1", "no 'sped'; did you mean speed?"),
+        ("solve rearing --hardware --robust", "--robust: --hardware asks for that, too"),
+        ("solve rearing --robust --from none.npz", "--robust: makes searches of its own; leave out --from"),
         ("solve rearin --hardware", "no task 'rearin'; did you mean rearing?"),
         ("solve --hardware", "name a task"),
         ("solve rearing --hardware --out /proc/none", "/proc/none"),

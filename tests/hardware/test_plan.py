@@ -204,3 +204,19 @@ def test_the_second_search_has_narrow_kernels_and_leaves_the_start_slowly(robot:
     departs = [Plan.of(task, robot).within_limits(1).policy.depart for task in (rearing, slow)]
     assert departs == [rearing.policy.depart, slow.policy.depart]
     assert Plan.of(jump, robot).nearer(1, 1.5).policy == second
+
+
+def test_without_demands_of_limits_the_goal_alone_is_searched_for_in_the_task_s_own_time(robot: Robot) -> None:
+    task = load_task("rearing")
+    plan = Plan.of(task, robot, Demands.robust())
+    within = plan.within_limits()
+    assert not plan.limits
+    assert set(within.success) == set(task.success)
+    assert within.horizon == plan.nearer(0, 0.4).horizon == task.horizon
+    assert not {"margins", "duration"} & set(within.costs)
+    assert plan.robust(0.3).robust is not None
+    partly = Plan.of(task, robot, replace(Demands(), speed=None))
+    assert set(partly.limits) == {"angle_margin", "torque_speed_margin", "self_distance"}
+    margins = partly.within_limits().costs["margins"].term
+    assert isinstance(margins, Margins)
+    assert margins.speed is None

@@ -208,7 +208,7 @@ def test_with_time_left_it_searches_again_with_another_seed(tmp_path: Path, monk
     monkeypatch.setattr(
         pursuit_module, "_GOOD", 1.1
     )  # no share is good enough: one more motion to begin around is looked for
-    monkeypatch.setattr(pursuit_module, "MORE", 1)
+    monkeypatch.setattr(pursuit_module, "MORE", pursuit_module.MORE[:1])
     demands, begun = Demands(trunk_acceleration=1e-6), list[str]()
 
     def stop(name: str, generation: Generation) -> Stopped | None:

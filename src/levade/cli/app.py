@@ -157,10 +157,13 @@ def solve(
     hardware: Annotated[
         bool, typer.Option("--hardware", help="Search on until a certificate passes: see levade check.")
     ] = False,
-    minutes: Annotated[float | None, typer.Option(help="With --hardware: time for all searches.")] = None,
+    robust: Annotated[
+        bool, typer.Option("--robust", help="As --hardware, for robots that differ from the model alone: no limits.")
+    ] = False,
+    minutes: Annotated[float | None, typer.Option(help="With --hardware or --robust: time for all searches.")] = None,
     demand: Annotated[
         list[str] | None,
-        typer.Option(metavar="FILE|NAME=VALUE", help="With --hardware: as check --demand. Repeatable."),
+        typer.Option(metavar="FILE|NAME=VALUE", help="With --hardware or --robust: as check --demand. Repeatable."),
     ] = None,
     watch: Annotated[
         bool, typer.Option("--watch", help="Show it on a page in the browser, with pause, stop and weights to move.")
@@ -175,8 +178,8 @@ def solve(
 ) -> int:
     """Search for a motion that does TASK, and write it to a directory.
 
-    Exit status: 0 the success criteria hold, with --hardware the certificate passes; 1 they do not (everything is still
-    written); 2 the input is wrong.
+    Exit status: 0 the success criteria hold, with --hardware or --robust the certificate passes; 1 they do not (everything
+    is still written); 2 the input is wrong.
     """
     from levade.cli.watching import options
 
@@ -199,6 +202,7 @@ def solve(
             "--after": after,
             "--set, --trials, --optimizer or --engine": changed or None,
             "--hardware": hardware or None,
+            "--robust": robust or None,
         }
         extra = [name for name, value in given.items() if value is not None]
         if extra:
@@ -210,13 +214,16 @@ def solve(
     from levade.search.run import PURSUIT
     from levade.tasks.files import asks_for_hardware
 
-    flag, hardware = hardware, hardware or (task is not None and asks_for_hardware(task, changed))
-    if hardware or (resume is not None and (resume / PURSUIT).is_file()):
+    if hardware and robust:
+        raise LevadeError("--robust: --hardware asks for that, too; leave out one of them")
+    flag = "--hardware" if hardware else "--robust" if robust else None
+    hardware = hardware or (task is not None and asks_for_hardware(task, changed))
+    if hardware or robust or (resume is not None and (resume / PURSUIT).is_file()):
         from levade.cli.pursuing import pursue_and_report
 
         beside = {"--watch": watch, "--from": begin, "--after": after, "--trials": trials, "--optimizer": optimizer}
         if extra := [name for name, value in beside.items() if value]:
-            asks = "hardware, which the task asks for" if not flag and resume is None else "--hardware"
+            asks = flag or ("--hardware" if resume is not None else "hardware, which the task asks for")
             raise LevadeError(f"{asks}: makes searches of its own; leave out {' and '.join(extra)}")
         return pursue_and_report(
             task=task,
@@ -227,12 +234,15 @@ def solve(
             resume_from=resume,
             force=force,
             minutes=minutes,
+            robust=robust,
             demand=demand or [],
             threads=threads,
             as_json=as_json,
         )
     if minutes is not None or demand:
-        raise LevadeError(f"{'--minutes' if minutes is not None else '--demand'}: goes with --hardware only")
+        raise LevadeError(
+            f"{'--minutes' if minutes is not None else '--demand'}: goes with --hardware or --robust only"
+        )
     from levade.cli.solving import solve_and_report
 
     return solve_and_report(

@@ -1,4 +1,4 @@
-"""``levade solve --hardware``: search until a certificate passes, and say what stands in the way if none does."""
+"""``levade solve --hardware`` and ``--robust``: search until a certificate passes, or say what is in the way."""
 
 from __future__ import annotations
 
@@ -30,11 +30,17 @@ def pursue_and_report(
     resume_from: Path | None,
     force: bool,
     minutes: float | None,
+    robust: bool,
     demand: list[str],
     threads: int,
     as_json: bool,
 ) -> int:
-    """Exit status 0 if the certificate passes, else 1."""
+    """Exit status 0 if the certificate passes, else 1.
+
+    Args:
+        robust: Whether to demand nothing of limits.
+        demand: Changes of what is demanded.
+    """
     console = make_console(stderr=as_json)
     before: Demands | None = None
     if resume_from is not None:
@@ -44,7 +50,8 @@ def pursue_and_report(
         assert task is not None
         chosen = load_task(task, robot=robot, changes=changes)
         place = directory or Path(chosen.name)
-    demands = changed(before or chosen.hardware or Demands(), demand, option="--demand")
+    asked = before or (Demands.robust() if robust else chosen.hardware or Demands())
+    demands = changed(asked, demand, option="--demand")
     loaded = chosen.robot.load()
     tell_warnings(console, loaded, chosen.robot.name)
     _tell_goal(console, Plan.of(chosen, loaded, demands))
@@ -144,9 +151,8 @@ def _found(certificate: Certificate) -> str:
 
 def _tell_goal(console: Console, plan: Plan) -> None:
     """What is asked for that the task does not say itself."""
-    task = plan.task
-    if not isinstance(task.horizon, HorizonRange):
-        horizon = plan.within_limits().horizon
+    horizon = plan.within_limits().horizon
+    if isinstance(horizon, HorizonRange) and horizon != plan.task.horizon:
         console.print(f"On hardware: T may be {horizon}, within the limits that {escape(plan.robot.name)} has.")
     for name, (asked, enough) in plan.loosened.items():
         if asked.tolerance is None or enough.tolerance is None:

@@ -134,7 +134,7 @@ class Plan:
         return {name: pair for name, pair in pairs.items() if pair[0] != pair[1]}
 
     def within_limits(self, number: int = 0) -> Task:
-        """The task on the nominal model, with limits as criteria, and its duration free up to `LONGEST`.
+        """The task on the nominal model, with limits as criteria, and its duration free up to `LONGEST` if there are any.
 
         Args:
             number: Which of the searches for it, from 0. The second one is for what takes a run-up: narrow kernels, the start
@@ -145,9 +145,11 @@ class Plan:
         run_up = number == RUN_UP
         horizon = self.task.horizon
         demanding = self._demanding(_RUN_UP_MARGINS_WEIGHT if run_up else _MARGINS_WEIGHT)
-        if not isinstance(horizon, HorizonRange):
+        costs = dict(demanding.costs)
+        if not isinstance(horizon, HorizonRange) and self.limits:
             horizon = HorizonRange(horizon, LONGEST * horizon, _BEGIN * horizon)
-        costs = {"duration": Cost(Duration(), _DURATION_WEIGHT / self.task.usual_horizon), **demanding.costs}
+        if isinstance(horizon, HorizonRange):
+            costs = {"duration": Cost(Duration(), _DURATION_WEIGHT / self.task.usual_horizon), **costs}
         return replace(
             demanding,
             costs=costs,
@@ -169,10 +171,11 @@ class Plan:
         """As `within_limits`, around a motion of that search that nearly is, of this duration [s]."""
         task = self.within_limits(number)
         free = task.horizon
-        assert isinstance(free, HorizonRange)
+        if isinstance(free, HorizonRange):
+            free = replace(free, initial=min(max(horizon, free.minimum), free.maximum))
         return replace(
             task,
-            horizon=replace(free, initial=min(max(horizon, free.minimum), free.maximum)),
+            horizon=free,
             stages=(Stage("nearer", step=_NEAR, hold=self._held),),
             search=replace(task.search, restart=None, patience=None),
         )
@@ -260,7 +263,7 @@ class Plan:
             wanted[name] = max(
                 wanted.get(name, 0.0), WANTED[name] + max(0.0, (one.minimum or 0.0) - ROOM[one.quantity])
             )
-        margins = {"margins": Cost(Margins(**wanted), margins_weight)}
+        margins = {"margins": Cost(Margins(**wanted), margins_weight)} if wanted else {}
         return replace(
             self.task,
             costs={**costs, **kept, **margins},
@@ -312,12 +315,13 @@ def _smooth(policy: PolicyChoice) -> PolicyChoice:
 
 
 def _limits(robot: Robot, demands: Demands) -> dict[str, Criterion]:
-    """A criterion for each kind of limit that the robot has, with what is demanded of it."""
+    """A criterion for each kind of limit that the robot has and of which something is demanded."""
     limits = robot.limits
     demanded = {
         "angle_margin": demands.position,
         "speed_margin": demands.speed,
         "torque_speed_margin": demands.torque_speed,
+        "self_distance": None if demands.self_collision is None else 0.0,
     }
     there = {
         "angle_margin": bool(np.isfinite([limits.lower, limits.upper]).any()),
@@ -326,9 +330,9 @@ def _limits(robot: Robot, demands: Demands) -> dict[str, Criterion]:
         "self_distance": True,
     }
     return {
-        name: Criterion(name, minimum=ROOM[name] + (demanded.get(name) or 0.0), at="min")  # type: ignore[arg-type]
-        for name, is_there in there.items()
-        if is_there
+        name: Criterion(name, minimum=ROOM[name] + demand, at="min")  # type: ignore[arg-type]
+        for name, demand in demanded.items()
+        if there[name] and demand is not None
     }
 
 

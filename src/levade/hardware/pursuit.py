@@ -49,7 +49,6 @@ from levade.hardware.state import (
     check_same,
     discard,
     is_pursuit,
-    within_limits,
 )
 from levade.locking import locked
 from levade.motions import Motion
@@ -324,16 +323,15 @@ class _Pursuit:
 
     def go(self) -> Pursued:
         plan = self._plan
-        for number in range(len(LIMITS) + MORE):
-            name = within_limits(number)
+        for number, name in enumerate((*LIMITS, *MORE)):
             if self._state.chosen not in (None, name):
                 continue
             found = any(part.met for part in self._parts)
-            if number >= len(LIMITS) and self._state.chosen is None and not (found and self._wants_another):
+            if name in MORE and self._state.chosen is None and not (found and self._wants_another):
                 break
             time_for_it = _ON_LIMITS[min(number, len(LIMITS) - 1)]
             self._share = min(time_for_it, _ENOUGH) if found else time_for_it
-            task, near = self._within_limits(number)
+            task, near = self._within_limits(name, number)
             part = self._search(name, task, near, seed=self._seed + _APART * number)
             met = any(part.met for part in self._parts)
             if self._stopped or _sure(part) or (met and self._late(_ENOUGH)):
@@ -370,9 +368,9 @@ class _Pursuit:
         """Whether another motion to begin the robust searches around is worth the time: the best one is not good enough yet."""
         return max(_share(part) for part in self._parts if part.met) < _GOOD
 
-    def _within_limits(self, number: int) -> tuple[Task, Motion | None]:
+    def _within_limits(self, name: str, number: int) -> tuple[Task, Motion | None]:
         """A search within limits, and what it begins around: the one that is there already, if it is of this plan."""
-        plan, name, last = self._plan, within_limits(number), len(LIMITS) - 1
+        plan, last = self._plan, len(LIMITS) - 1
         directory, met = self._directory / name, [part for part in self._parts if part.met]
         if number < last:
             self._kinds[name] = number

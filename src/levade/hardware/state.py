@@ -17,10 +17,8 @@ from levade.writing import write_text
 
 ASKED, PAGE = PURSUIT, CERTIFICATE_PAGE
 LIMITS, ROBUST, CLOSED, FINER = ("limits-1", "limits-2", "limits-3"), "robust", "feedback", "finer"
-"""Directories of the searches that a plan has."""
-
-MORE = 5
-"""Searches within limits that may follow those, each with other random numbers."""
+MORE = ("limits-4", "limits-5", "limits-6", "limits-7", "limits-8")
+"""Searches within limits that may follow those in `LIMITS`, each with other random numbers."""
 
 AGAIN = "again"
 """Begin of the names of directories in which the searches are made again, with another seed: ``again-1``, ..."""
@@ -45,7 +43,7 @@ class State:
         state = cls(directory, task, seed, demands)
         if is_pursuit(directory):
             content = read_yaml(directory / ASKED)
-            if content.get("demands") == asdict(demands) and content.get("chosen") in _all_within_limits():
+            if content.get("demands") == asdict(demands) and content.get("chosen") in (*LIMITS, *MORE):
                 state.chosen = content["chosen"]
         return state
 
@@ -83,15 +81,6 @@ def is_pursuit(directory: Path) -> bool:
     return (directory / ASKED).is_file()
 
 
-def within_limits(number: int) -> str:
-    """The directory of a search within limits, from 0."""
-    return f"limits-{number + 1}"
-
-
-def _all_within_limits() -> list[str]:
-    return [within_limits(number) for number in range(len(LIMITS) + MORE)]
-
-
 def again(directory: Path, number: int) -> Path:
     """Where the searches of a pursuit are made again for the first, second, ... time."""
     return directory / f"{AGAIN}-{number}"
@@ -103,7 +92,7 @@ def discard(directory: Path) -> None:
     Raises:
         LevadeError: If one of them goes on.
     """
-    searches = [directory, *(directory / name for name in (*_all_within_limits(), ROBUST, CLOSED, FINER))]
+    searches = [directory, *(directory / name for name in (*LIMITS, *MORE, ROBUST, CLOSED, FINER))]
     for search in searches:
         check_unlocked(search)
     number = 1

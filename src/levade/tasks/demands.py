@@ -46,6 +46,11 @@ class Demands:
     trunk_acceleration: float | None = None
     self_collision: float | None = 0.0
 
+    @classmethod
+    def robust(cls) -> Demands:
+        """What says nothing of limits: robots that differ from the model, numerics and engines alone."""
+        return cls(position=None, speed=None, torque=None, torque_speed=None, linkage=None, self_collision=None)
+
     def __post_init__(self) -> None:
         for one in fields(self):
             value = getattr(self, one.name)
