@@ -297,6 +297,25 @@ def _open_gl(size: tuple[int, int]) -> Any:
         raise LevadeError(_NO_GL + tried) from None
 
 
+def opengl() -> str:
+    """Make an OpenGL context off screen, and name what draws in it.
+
+    Returns:
+        The renderer, such as "llvmpipe (LLVM 15.0.6, 256 bits)".
+
+    Raises:
+        LevadeError: If there is no OpenGL. The message says what to install.
+    """
+    context = _open_gl((16, 16))
+    try:
+        context.make_current()
+        from OpenGL import GL
+
+        return GL.glGetString(GL.GL_RENDERER).decode()
+    finally:
+        context.free()
+
+
 def _context_class(name: str) -> Callable[[int, int], Any]:
     # taken from their own modules: mujoco.gl_context decides once, when mujoco is first imported
     if name == "egl":
