@@ -65,7 +65,11 @@ def read_yaml(path: Path, *, like: str = "") -> dict[str, Any]:
 
 
 def read_text(path: Path) -> str:
-    """Read the text of a file. Raises LevadeError if it cannot be read, or is far larger than a document."""
+    """Read the text of a file.
+
+    Raises:
+        LevadeError: If it cannot be read, or is far larger than a document.
+    """
     try:
         with path.open(encoding="utf-8") as file:
             text = file.read(_LARGEST + 1)

@@ -38,9 +38,13 @@ class Interval:
 class Summary:
     """What the runs of one task, robot and optimizer say.
 
-    median, least, most: trials to success over all runs; infinite for runs without.
-    ert: what is spent (a key of `BUDGETS`) -> expected running time. cost: quartiles of the final cost, (3,).
-    until: what the runs went on to, all alike or "mixed".
+    Attributes:
+        median: Trials to success over all runs; infinite for runs without.
+        least: Trials to success over all runs; infinite for runs without.
+        most: Trials to success over all runs; infinite for runs without.
+        ert: What is spent (a key of `BUDGETS`) -> expected running time.
+        cost: Quartiles of the final cost, (3,).
+        until: What the runs went on to, all alike or "mixed".
     """
 
     task: str
@@ -57,7 +61,11 @@ class Summary:
 
 
 def spent(results: Sequence[Result], what: str) -> tuple[Array, NDArray[np.bool_]]:
-    """(n,) spent until success or else the end, and (n,) whether there was success. what: a key of `BUDGETS`."""
+    """(n,) spent until success or else the end, and (n,) whether there was success.
+
+    Args:
+        what: A key of `BUDGETS`.
+    """
     to_success = [getattr(result, f"{what}_to_success") for result in results]
     whole = [getattr(result, what) for result in results]
     success = np.array([result.success for result in results], dtype=bool)

@@ -31,8 +31,11 @@ def run_cases(
 ) -> Iterator[tuple[Case, Result]]:
     """Each case and its result, as they come.
 
-    waiting: called about once a second while there is none. Ends the processes when it ends, however it does.
-    Raises LevadeError if a case does not fit together or a process dies.
+    Args:
+        waiting: Called about once a second while there is none. Ends the processes when it ends, however it does.
+
+    Raises:
+        LevadeError: If a case does not fit together or a process dies.
     """
     left = list(reversed(cases))
     workers: list[_Worker] = []
@@ -73,7 +76,11 @@ class _Worker:
         self.connection.send(case)
 
     def take(self) -> tuple[Case, Result]:
-        """What it has sent. Raises LevadeError if that is an error, or nothing because it died."""
+        """What it has sent.
+
+        Raises:
+            LevadeError: If that is an error, or nothing because it died.
+        """
         case, self.case = self.case, None
         assert case is not None
         try:

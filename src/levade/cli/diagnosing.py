@@ -75,7 +75,9 @@ def diagnose(*, as_json: bool) -> int:
     if broken:
         console.print("[red]levade cannot work here:[/] see what is broken above.")
     else:
-        console.print("levade works here. Next: levade solve rearing, or levade robots inspect FILE for your own robot.")
+        console.print(
+            "levade works here. Next: levade solve rearing, or levade robots inspect FILE for your own robot."
+        )
         missing = [finding.name for finding in findings if finding.part == "Features" and finding.state == "missing"]
         if missing:
             console.print(f"Everything at once: {escape(_pip(*missing))}")
@@ -120,7 +122,9 @@ def engines() -> Iterator[Finding]:
         from levade.engines import ENGINES
         from levade.optimizers.blas import kernels
     except ImportError as error:
-        yield Finding("Engines", "mujoco", "broken", f"cannot be imported ({error})", "pip install --force-reinstall mujoco")
+        yield Finding(
+            "Engines", "mujoco", "broken", f"cannot be imported ({error})", "pip install --force-reinstall mujoco"
+        )
         return
     for kind in ENGINES.values():
         lacks = kind.missing()
@@ -132,7 +136,9 @@ def engines() -> Iterator[Finding]:
             what, _, remedy = lacks.partition("; ")
             yield Finding("Engines", kind.name, "broken" if kind.name == "mujoco" else "missing", what, remedy)
     if kernels():
-        yield Finding("Engines", "blas", "ok", f"{kernels()}; motions have the same bits on this kind of processor only")
+        yield Finding(
+            "Engines", "blas", "ok", f"{kernels()}; motions have the same bits on this kind of processor only"
+        )
 
 
 def computer() -> Iterator[Finding]:

@@ -17,10 +17,13 @@ from levade.trajectory import Trajectories
 class Effort:
     """Squared joint torque, summed over the joints and integrated over the motion.
 
-    normalised: torques as a share of each joint's constant limit, then [s]: n joints at their limits all the time cost
-        n * T. Otherwise in [Nm], then [Nm^2 s]. The paper does not say which its tau is.
-    over: the motion proper, or the hold as well.
-    Raises LevadeError if normalised and a joint has no torque limit.
+    Attributes:
+        normalised: Torques as a share of each joint's constant limit, then [s]: n joints at their limits all the time
+            cost n * T. Otherwise in [Nm], then [Nm^2 s]. The paper does not say which its tau is.
+        over: The motion proper, or the hold as well.
+
+    Raises:
+        LevadeError: If normalised and a joint has no torque limit.
     """
 
     unit: ClassVar[str] = "s, or Nm^2 s where not normalised"

@@ -20,11 +20,16 @@ from levade.trajectory import Trajectories
 class Miss:
     """Squared distance of a quantity from a target, or from the nearest bound, as a multiple of ``scale`` [-].
 
-    quantity, target, minimum, maximum, legs: as in `levade.costs.Criterion`. tolerance: a distance from the target that
-        costs nothing; beyond, the excess counts.
-    at: when; over the hold, and over the whole motion up to the horizon ("motion"), it is the mean of the squares;
-        "max" and "min" look at the largest and the smallest value of all that was simulated: the apex of a jump.
-    scale: the distance that costs 1, in the quantity's unit.
+    Attributes:
+        quantity: As in `levade.costs.Criterion`.
+        target: As in `levade.costs.Criterion`.
+        minimum: As in `levade.costs.Criterion`.
+        maximum: As in `levade.costs.Criterion`.
+        legs: As in `levade.costs.Criterion`.
+        tolerance: A distance from the target that costs nothing; beyond, the excess counts.
+        at: When; over the hold, and over the whole motion up to the horizon ("motion"), it is the mean of the squares;
+            "max" and "min" look at the largest and the smallest value of all that was simulated: the apex of a jump.
+        scale: The distance that costs 1, in the quantity's unit.
     """
 
     unit: ClassVar[str] = "-"

@@ -16,8 +16,9 @@ Measure = Literal["mean", "cvar", "worst"]
 def risk(cost: Array, known: NDArray[np.bool_], *, measure: Measure, tail: float = 0.5) -> Array:
     """(n,) of whole roll-outs' costs (n, m), each candidate over those that are known, at least one.
 
-    measure: "mean"; "worst"; or "cvar", the mean of the worst share ``tail`` (at least one) of them: the conditional value at
-    risk of Rockafellar and Uryasev, Journal of Risk 2 (2000), of the sample.
+    Args:
+        measure: "mean"; "worst"; or "cvar", the mean of the worst share ``tail`` (at least one) of them: the
+            conditional value at risk of Rockafellar and Uryasev, Journal of Risk 2 (2000), of the sample.
     """
     descending = np.sort(np.where(known, -cost, np.inf), axis=1)  # the worst first, what is not known last
     count = known.sum(axis=1)

@@ -25,8 +25,13 @@ def simulate(
 ) -> tuple[dict[str, Array], NDArray[np.bool_]]:
     """The first n simulations of a batch, from their states through all rows of ctrl.
 
-    rows: (1 or n, size of a state). ctrl: (n, steps, nu). recorded: fields of `mujoco.MjData`.
-    Returns name -> (n, steps, ...), and which simulations broke down: later rows of theirs repeat the last one.
+    Args:
+        rows: (1 or n, size of a state).
+        ctrl: (n, steps, nu).
+        recorded: Fields of `mujoco.MjData`.
+
+    Returns:
+        Name -> (n, steps, ...), and which simulations broke down: later rows of theirs repeat the last one.
     """
     n, steps = ctrl.shape[:2]
     batch.state[:n] = rows

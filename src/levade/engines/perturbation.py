@@ -31,9 +31,12 @@ Range = tuple[float, float] | None
 class Parameter:
     """What one perturbed quantity is.
 
-    unit: "x" for a factor on what the model says, else the SI unit of what is added to it. per: what has a number of its own:
-    the model (one number), the axes, turns about them, tilts about x and y, the joints, the obstacles' axes.
-    what: in a sentence. why: the default range is as wide as it is.
+    Attributes:
+        unit: "x" for a factor on what the model says, else the SI unit of what is added to it.
+        per: What has a number of its own: the model (one number), the axes, turns about them, tilts about x and y, the
+            joints, the obstacles' axes.
+        what: In a sentence.
+        why: The default range is as wide as it is.
     """
 
     unit: str
@@ -140,8 +143,11 @@ PARAMETERS: dict[str, Parameter] = {
 class Perturbation:
     """Ranges of what may differ. Factors (unit "x") are around 1, everything else is an offset around 0, in SI units.
 
-    What each is, how many numbers it takes, and why the default is what it is: `PARAMETERS`, and docs/check.md. A robot or
-    scene without a thing (a lag, an obstacle) is not perturbed in it. Raises LevadeError for ranges that make no sense.
+    What each is, how many numbers it takes, and why the default is what it is: `PARAMETERS`, and docs/check.md. A robot
+    or scene without a thing (a lag, an obstacle) is not perturbed in it.
+
+    Raises:
+        LevadeError: For ranges that make no sense.
     """
 
     friction: Range = (0.7, 1.3)
@@ -186,7 +192,11 @@ class Perturbation:
         return self._sample((part + generator.random(part.shape)) / n, shapes)
 
     def draw(self, model: mujoco.MjModel, joints: int, *, n: int, seed: int | tuple[int, ...]) -> Sample:
-        """n runs, drawn at random. seed: one number, or several that together make one."""
+        """n runs, drawn at random.
+
+        Args:
+            seed: One number, or several that together make one.
+        """
         shapes = _sizes(model, joints)
         generator = np.random.default_rng(seed)
         unit = generator.random((n, sum(shapes.values())))  # row by row: run i does not depend on n

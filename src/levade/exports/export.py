@@ -53,7 +53,11 @@ FORMATS = {
 
 @dataclass(frozen=True, eq=False)
 class Exported:
-    """What was written. notes: sentences that the user should read."""
+    """What was written.
+
+    Attributes:
+        notes: Sentences that the user should read.
+    """
 
     format: str
     directory: Path
@@ -76,8 +80,16 @@ def export(
 ) -> Exported:
     """Write a motion in a format, all files of it or none.
 
-    rate: [Hz], instead of the format's. reference, hold, kp, kd: see `levade.exports.samples.sample`. command: how it was
-    asked for, for the record. Raises LevadeError if the format does not exist or the motion does not fit into it.
+    Args:
+        rate: [Hz], instead of the format's.
+        reference: See `levade.exports.samples.sample`.
+        hold: See `levade.exports.samples.sample`.
+        kp: See `levade.exports.samples.sample`.
+        kd: See `levade.exports.samples.sample`.
+        command: How it was asked for, for the record.
+
+    Raises:
+        LevadeError: If the format does not exist or the motion does not fit into it.
     """
     if to not in FORMATS:
         raise LevadeError(f"no format {to!r}; {did_you_mean(to, FORMATS)}", field="to")
@@ -127,7 +139,11 @@ def _feedback_notes(motion: Motion, feedback: Feedback | None) -> list[str]:
 
 
 def _sunk_notes(model: mujoco.MjModel, depth: Mapping[str, float]) -> list[str]:
-    """That the robot's feet lie in the floor at the start, where they do; depth: [m], of each foot."""
+    """That the robot's feet lie in the floor at the start, where they do;
+
+    Args:
+        depth: [m], of each foot.
+    """
     deep = sunk_feet(model, depth)
     if not deep:
         return []

@@ -23,12 +23,15 @@ from levade.rotations import exponential, multiply, rotate
 
 @dataclass(frozen=True, eq=False)
 class Link:
-    """name: of the body. parent: index of the parent's link; None for the trunk, which is free in the world.
+    """position (3,) [m] and quaternion (4,): of the link's frame in the parent's, at joint angle zero.
 
-    position (3,) [m] and quaternion (4,): of the link's frame in the parent's, at joint angle zero.
-    joint: name of the hinge, None where it is fixed to its parent. axis: (3,), of the hinge in the link's frame.
-    body: index in the model; None for a link that is only there to be between two hinges.
-    shift: (3,) [m], origin of the body's frame in the link's.
+    Attributes:
+        name: Of the body.
+        parent: Index of the parent's link; None for the trunk, which is free in the world.
+        joint: Name of the hinge, None where it is fixed to its parent.
+        axis: (3,), of the hinge in the link's frame.
+        body: Index in the model; None for a link that is only there to be between two hinges.
+        shift: (3,) [m], origin of the body's frame in the link's.
     """
 
     name: str

@@ -95,9 +95,12 @@ class Stopped(Exception):
 class Feedback:
     """A stabiliser: ``gain[j]`` times the deviation from ``reference[j]`` at tick j, in force from the next tick on.
 
-    gain: (gains, joints, sensed + joints); the last columns are for the correction in force. reference: (ticks, sensed). After
-    the last of each the last one stays. rate: [Hz], of ticks. bound: [rad], on each joint's correction.
-    Sensed are: up in trunk axes (3), angular velocity in trunk axes (3) [rad/s], joint positions [rad] and velocities [rad/s].
+    Attributes:
+        gain: (gains, joints, sensed + joints); the last columns are for the correction in force.
+        reference: (ticks, sensed). After the last of each the last one stays.
+        rate: [Hz], of ticks.
+        bound: [rad], on each joint's correction. Sensed are: up in trunk axes (3), angular velocity in trunk axes (3)
+            [rad/s], joint positions [rad] and velocities [rad/s].
     """
 
     gain: Array
@@ -106,7 +109,12 @@ class Feedback:
     bound: float
 
     def correction(self, tick: int, measured: Array, last: Array) -> Array:
-        """(joints,) [rad], from the next tick on. measured: (sensed,). last: (joints,) [rad], in force now."""
+        """(joints,) [rad], from the next tick on.
+
+        Args:
+            measured: (sensed,).
+            last: (joints,) [rad], in force now.
+        """
         off = np.concatenate([measured - self.reference[min(tick, len(self.reference) - 1)], last])
         gain = self.gain[min(tick, len(self.gain) - 1)]
         return np.clip(np.einsum("c,jc->j", off, gain), -self.bound, self.bound)
@@ -141,16 +149,29 @@ LARGEST = {"position": 1e2, "velocity": 1e3, "torque": 1e5, "gain": 1e6}
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """A motion as exported. Raises ValueError for numbers that no robot should be sent.
+    """A motion as exported.
 
-    joints: their names, in the order of all arrays over joints. rate: [Hz], of the rows.
-    position, velocity, torque: what to send, (rows, joints) [rad], [rad/s], [Nm].
-    expected, expected_velocity: what the joints did in the simulation, (rows, joints) [rad], [rad/s].
-    up: opposite of gravity in trunk axes in the simulation, (rows, 3). turning: how fast the trunk turned, (rows,) [rad/s].
-    kp, kd: gains, (joints,) [Nm/rad], [Nm s/rad].
-    start_position, start_torque: what to hold before, (joints,) [rad], [Nm].
-    lower, upper, torque_limit: (joints,) [rad], [rad], [Nm]; infinite for none.
-    held: joints without commands -> where the simulation held them [rad], slides [m].
+    Attributes:
+        joints: Their names, in the order of all arrays over joints.
+        rate: [Hz], of the rows.
+        position: What to send, (rows, joints) [rad], [rad/s], [Nm].
+        velocity: What to send, (rows, joints) [rad], [rad/s], [Nm].
+        torque: What to send, (rows, joints) [rad], [rad/s], [Nm].
+        expected: What the joints did in the simulation, (rows, joints) [rad], [rad/s].
+        expected_velocity: What the joints did in the simulation, (rows, joints) [rad], [rad/s].
+        up: Opposite of gravity in trunk axes in the simulation, (rows, 3).
+        turning: How fast the trunk turned, (rows,) [rad/s].
+        kp: Gains, (joints,) [Nm/rad], [Nm s/rad].
+        kd: Gains, (joints,) [Nm/rad], [Nm s/rad].
+        start_position: What to hold before, (joints,) [rad], [Nm].
+        start_torque: What to hold before, (joints,) [rad], [Nm].
+        lower: (joints,) [rad], [rad], [Nm]; infinite for none.
+        upper: (joints,) [rad], [rad], [Nm]; infinite for none.
+        torque_limit: (joints,) [rad], [rad], [Nm]; infinite for none.
+        held: Joints without commands -> where the simulation held them [rad], slides [m].
+
+    Raises:
+        ValueError: For numbers that no robot should be sent.
     """
 
     joints: list[str]

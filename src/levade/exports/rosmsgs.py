@@ -107,7 +107,11 @@ def string(text: str) -> bytes:
 
 
 def joint_state(stamp: int, names: Sequence[str], position: Array, velocity: Array, effort: Array) -> bytes:
-    """sensor_msgs/msg/JointState. stamp: [ns]. Arrays: (joints,)."""
+    """sensor_msgs/msg/JointState.
+
+    Args:
+        stamp: [ns]. Arrays: (joints,).
+    """
     out = _Bytes()
     out.header(stamp, "")
     out.texts(names)
@@ -119,7 +123,13 @@ def joint_state(stamp: int, names: Sequence[str], position: Array, velocity: Arr
 def tf_message(
     stamp: int, frames: Sequence[str], children: Sequence[str], positions: Array, quaternions: Array
 ) -> bytes:
-    """tf2_msgs/msg/TFMessage. stamp: [ns]. positions: (n, 3) [m]; quaternions: (n, 4), w-x-y-z, of children in frames."""
+    """tf2_msgs/msg/TFMessage.
+
+    Args:
+        stamp: [ns].
+        positions: (n, 3) [m].
+        quaternions: (n, 4), w-x-y-z, of children in frames.
+    """
     out = _Bytes()
     out.number("I", len(children))
     for frame, child, position, quaternion in zip(frames, children, positions, quaternions, strict=True):
@@ -133,7 +143,11 @@ def tf_message(
 def joint_trajectory(
     names: Sequence[str], times: Sequence[int], positions: Array, velocities: Array, efforts: Array | None
 ) -> bytes:
-    """trajectory_msgs/msg/JointTrajectory that starts when it arrives. times: [ns] from then. Arrays: (rows, joints)."""
+    """trajectory_msgs/msg/JointTrajectory that starts when it arrives.
+
+    Args:
+        times: [ns] from then. Arrays: (rows, joints).
+    """
     out = _Bytes()
     out.header(0, "")
     out.texts(names)

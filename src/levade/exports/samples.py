@@ -68,13 +68,23 @@ class Joints:
 class Samples:
     """Rows of commands and of the state that goes with them; arrays over joints in the order of ``joints.names``.
 
-    time: (rows,) [s]. rate: [Hz]. reference: one of `REFERENCES`.
-    command_position, command_velocity, command_torque: (rows, joints) [rad], [rad/s], [Nm].
-    joint_position, joint_velocity, joint_torque: (rows, joints), likewise.
-    trunk_position, trunk_com_position: (rows, 3) [m]. trunk_quaternion: (rows, 4), trunk to world, w-x-y-z.
-    trunk_linear_velocity, trunk_angular_velocity: (rows, 3) [m/s], [rad/s], world axes.
-    foot_contact_force: (rows, feet, 3) [N], on the feet, world axes.
-    analytic: whether commanded references between the simulated ones are the policy's own.
+    Attributes:
+        time: (rows,) [s].
+        rate: [Hz].
+        reference: One of `REFERENCES`.
+        command_position: (rows, joints) [rad], [rad/s], [Nm].
+        command_velocity: (rows, joints) [rad], [rad/s], [Nm].
+        command_torque: (rows, joints) [rad], [rad/s], [Nm].
+        joint_position: (rows, joints), likewise.
+        joint_velocity: (rows, joints), likewise.
+        joint_torque: (rows, joints), likewise.
+        trunk_position: (rows, 3) [m].
+        trunk_com_position: (rows, 3) [m].
+        trunk_quaternion: (rows, 4), trunk to world, w-x-y-z.
+        trunk_linear_velocity: (rows, 3) [m/s], [rad/s], world axes.
+        trunk_angular_velocity: (rows, 3) [m/s], [rad/s], world axes.
+        foot_contact_force: (rows, feet, 3) [N], on the feet, world axes.
+        analytic: Whether commanded references between the simulated ones are the policy's own.
     """
 
     time: Array
@@ -114,9 +124,14 @@ def sample(
     kp: float | None = None,
     kd: float | None = None,
 ) -> Samples:
-    """Sample a motion. rate: [Hz]. hold: go on after the horizon. kp [Nm/rad], kd [Nm s/rad]: instead of the simulation's.
+    """Sample a motion.
 
-    Raises LevadeError for a rate that is none, gains that do not go with the reference, or a motion that broke down.
+    Args:
+        rate: [Hz].
+        hold: Go on after the horizon. kp [Nm/rad], kd [Nm s/rad]: instead of the simulation's.
+
+    Raises:
+        LevadeError: For a rate that is none, gains that do not go with the reference, or a motion that broke down.
     """
     if reference not in REFERENCES:
         raise LevadeError(f"no reference {reference!r}; {did_you_mean(reference, REFERENCES)}", field="reference")

@@ -234,7 +234,12 @@ def _mistakes(form: MetaForm, arrays: Mapping[str, Array]) -> Iterator[str]:
 
 
 def _mistakes_in_joints(form: MetaForm, names: list[str], *, feet: int) -> Iterator[str]:
-    """What of the legs and joints does not fit together. names: the arrays' joints. feet: how many the arrays have."""
+    """What of the legs and joints does not fit together.
+
+    Args:
+        names: The arrays' joints.
+        feet: How many the arrays have.
+    """
     if len(form.legs) != feet:
         yield f"foot_contact_force has {feet} feet, meta.legs has {len(form.legs)}"
     for name, leg in form.legs.items():

@@ -83,7 +83,11 @@ class Sampler(ABC):
 
     @abstractmethod
     def _learn(self, z: Array, cost: Array) -> None:
-        """Move the centre, and change the spread. z: (n, m), cost: (n,)."""
+        """Move the centre, and change the spread.
+
+        Args:
+            z: (n, m), cost: (n,).
+        """
 
 
 def bounded(cost: Array) -> Array:
@@ -100,14 +104,22 @@ def softmax(value: Array) -> Array:
 
 
 def checked_share(name: str, value: float) -> float:
-    """A share, more than 0 and at most 1. Raises LevadeError."""
+    """A share, more than 0 and at most 1.
+
+    Raises:
+        LevadeError: If it cannot be done.
+    """
     if not (np.isfinite(value) and 0 < value <= 1):
         raise LevadeError(f"{name}: {value} should be a share, more than 0 and at most 1")
     return float(value)
 
 
 def checked_positive(name: str, value: float) -> float:
-    """A positive number. Raises LevadeError."""
+    """A positive number.
+
+    Raises:
+        LevadeError: If it cannot be done.
+    """
     if not (np.isfinite(value) and value > 0):
         raise LevadeError(f"{name}: {value} should be a positive number")
     return float(value)

@@ -94,10 +94,17 @@ _RC: dict[str, Any] = {
 def figures(
     motion: Motion, directory: str | Path, *, format: str = "pdf", progress_csv: str | Path | None = None
 ) -> list[Path]:
-    """Write all figures of a motion to a directory, which is made if need be. Returns what was written.
+    """Write all figures of a motion to a directory, which is made if need be.
 
-    format: "pdf", "svg" or "png". progress_csv: of the solve; without it there is no figure of the cost.
-    Raises LevadeError if the format is unknown, the directory cannot be written, or matplotlib is missing.
+    Args:
+        format: "pdf", "svg" or "png".
+        progress_csv: Of the solve; without it there is no figure of the cost.
+
+    Returns:
+        What was written.
+
+    Raises:
+        LevadeError: If the format is unknown, the directory cannot be written, or matplotlib is missing.
     """
     drawings: dict[str, Callable[[], Any]] = {
         "trunk": lambda: _trunk({"": motion}),
@@ -123,7 +130,9 @@ def compare(
 ) -> list[Path]:
     """Write figures that lay motions over one another: their trunks, and what their searches cost.
 
-    motions, progress_csv: by the motion's name in the legend; motions without a progress.csv are left out of the cost.
+    Args:
+        motions: By the motion's name in the legend; motions without a progress.csv are left out of the cost.
+        progress_csv: By the motion's name in the legend; motions without a progress.csv are left out of the cost.
     """
     drawings: dict[str, Callable[[], Any]] = {"trunk": lambda: _trunks(motions)}
     if progress_csv:

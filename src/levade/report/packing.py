@@ -31,7 +31,11 @@ def pack(values: Any, dtype: str = "f4") -> dict[str, Any]:
 
 
 def pack_unit(values: Array) -> dict[str, Any]:
-    """Numbers between -1 and 1, to 1.6e-5: quaternions, for one. Raises ValueError for others."""
+    """Numbers between -1 and 1, to 1.6e-5: quaternions, for one.
+
+    Raises:
+        ValueError: For others.
+    """
     if not (np.abs(values) <= 1.0 + 1e-9).all():
         raise ValueError("pack_unit takes numbers between -1 and 1")
     return pack(np.round(np.clip(values, -1.0, 1.0) * UNIT), "i2")

@@ -47,10 +47,15 @@ _LONGEST = 0.8
 def scene_data(
     motion: Motion, *, like: Mapping[str, Any] | None = None, model: Any = None, rate: float = RATE
 ) -> dict[str, Any]:
-    """The page's scene of a motion. Raises LevadeError if the motion's model is damaged.
+    """The page's scene of a motion.
 
-    like: a scene of another motion of the same model; shapes and colours are taken from it. model: the motion's, if it
-    is compiled already. rate: [Hz], at most so many poses a second.
+    Args:
+        like: A scene of another motion of the same model; shapes and colours are taken from it.
+        model: The motion's, if it is compiled already.
+        rate: [Hz], at most so many poses a second.
+
+    Raises:
+        LevadeError: If the motion's model is damaged.
     """
     model = motion.compiled() if model is None else model
     rows = frame_rows(motion.steps, motion.horizon_steps, motion.timestep, rate)

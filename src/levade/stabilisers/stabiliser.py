@@ -23,11 +23,16 @@ none of either: of several designs that do nothing, the best looks better than n
 
 @dataclass(frozen=True, eq=False)
 class Stabilised:
-    """What was found. motion: with the stabiliser; the motion as it was if none is surely better than none.
+    """What was found.
 
-    open_loop, share: successes of runs that it was not chosen by, as a share, without and with. Where none was chosen, both
-    of those that choose, without; nan where it was interrupted before these.
-    tried: design -> share. interrupted: whether designs were left untried.
+    Attributes:
+        motion: With the stabiliser; the motion as it was if none is surely better than none.
+        open_loop: Successes of runs that it was not chosen by, as a share, without and with. Where none was chosen,
+            both of those that choose, without; nan where it was interrupted before these.
+        share: Successes of runs that it was not chosen by, as a share, without and with. Where none was chosen, both of
+            those that choose, without; nan where it was interrupted before these.
+        tried: Design -> share.
+        interrupted: Whether designs were left untried.
     """
 
     motion: Motion
@@ -53,11 +58,16 @@ def stabilise(
 ) -> Stabilised:
     """Find a stabiliser for a motion.
 
-    rate: [Hz], of measurements; the nearest that steps allow. bound: [rad], at most, on a correction. runs: perturbed runs
-    that choose between designs, drawn from ``perturbation`` with ``seed``, apart from those of a check; what is chosen is
-    judged by as many others. tell: is told of each.
-    stopping: asked before each; once it says so, the best of those that were tried is the outcome.
-    Raises LevadeError if the motion is not MuJoCo's, broke down, has no criteria, or a number makes no sense.
+    Args:
+        rate: [Hz], of measurements; the nearest that steps allow.
+        bound: [rad], at most, on a correction.
+        runs: Perturbed runs that choose between designs, drawn from ``perturbation`` with ``seed``, apart from those of
+            a check; what is chosen is judged by as many others.
+        tell: Is told of each.
+        stopping: Asked before each; once it says so, the best of those that were tried is the outcome.
+
+    Raises:
+        LevadeError: If the motion is not MuJoCo's, broke down, has no criteria, or a number makes no sense.
     """
     simulation = RecordedSimulation(motion, criteria=motion.task.good_enough, threads=threads)
     _check(simulation, rate, bound, runs)

@@ -38,10 +38,16 @@ _SEED = 2017
 class Record:
     """What n trials did, in the multibody's order of links and hinges.
 
-    angle, speed, torque: (n, steps, J). position: (n, steps, 3), quaternion: (n, steps, 4), linear, angular: (n, steps,
-    3), of the trunk's frame: origin, orientation, velocity of the origin and angular velocity in world axes.
-    lag: (n, J), state of the drives at the end. geom_force: (n, steps, geoms asked for, 3) [N] on each geom, world axes;
-    body_force: (n, steps, bodies asked for, 3), by the world on each body. diverged: (n,).
+    Attributes:
+        angle: (n, steps, J).
+        speed: (n, steps, J).
+        torque: (n, steps, J).
+        position: (n, steps, 3), quaternion: (n, steps, 4), linear, angular: (n, steps, 3), of the trunk's frame:
+            origin, orientation, velocity of the origin and angular velocity in world axes.
+        lag: (n, J), state of the drives at the end.
+        geom_force: (n, steps, geoms asked for, 3) [N] on each geom, world axes.
+        body_force: (n, steps, bodies asked for, 3), by the world on each body.
+        diverged: (n,).
     """
 
     angle: Array

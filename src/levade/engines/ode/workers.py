@@ -36,7 +36,8 @@ _START = 20_000
 class WorkerPool:
     """Simulations of one model, in this process and others.
 
-    threads: how many processes at most, this one included; 0 for one per core.
+    Args:
+        threads: How many processes at most, this one included; 0 for one per core.
     """
 
     def __init__(self, xml: str, assets: Mapping[str, bytes], physics: Physics, threads: int) -> None:
@@ -73,7 +74,11 @@ class WorkerPool:
 
 
 def simulation(xml: str, assets: Mapping[str, bytes], physics: Physics) -> Simulation:
-    """The simulation of a model. Raises LevadeError for what ODE cannot simulate."""
+    """The simulation of a model.
+
+    Raises:
+        LevadeError: For what ODE cannot simulate.
+    """
     model = mujoco.MjModel.from_xml_string(xml, dict(assets))
     return Simulation(multibody_of(model), physics.ode, physics.timestep)
 

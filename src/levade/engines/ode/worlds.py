@@ -31,7 +31,8 @@ _ROTATION = [0, 1, 2, 4, 5, 6, 8, 9, 10]  # of a dMatrix3, whose rows have a fou
 class Worlds:
     """Worlds of one multibody. Body l of a world is link l, its centre of mass the body's origin.
 
-    resisted: (J,) bool, hinges with a motor that resists their motion (`resist`).
+    Args:
+        resisted: (J,) bool, hinges with a motor that resists their motion (`resist`).
     """
 
     def __init__(
@@ -130,7 +131,8 @@ class Worlds:
     ) -> None:
         """One step of a world under torques on its hinges, with contacts of those of ``pairs`` that touch.
 
-        touching: takes (world, pair) of every contact if it is not None; row i of `forces` is then contact i's.
+        Args:
+            touching: Takes (world, pair) of every contact if it is not None; row i of `forces` is then contact i's.
         """
         ode, at = self._ode, self._contact_at
         collide, create, attach = ode.dCollide, ode.dJointCreateContact, ode.dJointAttach
