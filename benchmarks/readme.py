@@ -48,8 +48,8 @@ def trials() -> str:
         rows = [row for row in csv.DictReader(file) if row["task"] == "rearing" and row["optimizer"] == "levade"]
     found = [int(row["trials_to_success"]) for row in rows if row["success"] == "1"]
     return (
-        f"**Few trials.** {len(found)} of {len(rows)} seeds solve the paper's rearing, after {median(found):.0f} simulated motions "
-        f"(median); the paper needs {PAPER} ([benchmarks](docs/benchmarks.md))."
+        f"**Few trials.** {len(found)} of {len(rows)} seeds solve the paper's rearing, after {median(found):.0f} simulated "
+        f"motions (median); the paper needs {PAPER} ([benchmarks](docs/benchmarks.md))."
     )
 
 

@@ -1,8 +1,8 @@
 """Build the documentation site, offline: python website/build.py, then open build/website/site/index.html.
 
-The pages are those of docs/, the README as the first page, and the project's other documents. To these come the reference of the
-command line, of task files and of the Python names, which are written here from the code. Links from a page to a file that is no
-page become the file's path; a link to nothing ends the build, and so does any warning of the generator.
+The pages are those of docs/, the README as the first page, and the project's other documents. The references of the command
+line, of task files and of the Python names are written from the code. A link to a file that is no page becomes the file's
+path. A link to nothing ends the build, and so does any warning of the generator.
 """
 
 from __future__ import annotations
@@ -50,7 +50,16 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=ROOT / "build" / "website", help="directory to write")
     out = parser.parse_args().out.resolve()
     write_pages(out)
-    command = [sys.executable, "-m", "zensical", "build", "--strict", "--clean", "--config-file", str(out / "zensical.toml")]
+    command = [
+        sys.executable,
+        "-m",
+        "zensical",
+        "build",
+        "--strict",
+        "--clean",
+        "--config-file",
+        str(out / "zensical.toml"),
+    ]
     done = subprocess.run(command, cwd=out, check=False)
     if done.returncode:
         sys.exit(done.returncode)
@@ -119,7 +128,9 @@ def _places(nav: list[Any]) -> Iterator[str]:
 
 def prepared(text: str, source: Path, place: str, sources: dict[Path, str]) -> str:
     """A page's text, with links that hold on the site, and mathematics as MathML."""
-    return outside_code(MATHS.sub(_mathml, text), lambda part: LINK.sub(lambda m: _link(m, source, place, sources), part))
+    return outside_code(
+        MATHS.sub(_mathml, text), lambda part: LINK.sub(lambda m: _link(m, source, place, sources), part)
+    )
 
 
 def outside_code(text: str, change: Callable[[str], str]) -> str:
@@ -127,9 +138,9 @@ def outside_code(text: str, change: Callable[[str], str]) -> str:
     parts = FENCE.split(text)
     for i in range(0, len(parts), 2):
         inline = CODE.split(parts[i])
-        protected = {f"\0{k}\0": code for k, code in enumerate(inline[1::2])}
         joined = "".join(piece if k % 2 == 0 else f"\0{k // 2}\0" for k, piece in enumerate(inline))
-        parts[i] = re.sub("\0\\d+\0", lambda m: protected[m.group()], change(joined))
+        pieces = re.split("\0(\\d+)\0", change(joined))
+        parts[i] = "".join(piece if k % 2 == 0 else inline[2 * int(piece) + 1] for k, piece in enumerate(pieces))
     return "".join(parts)
 
 
@@ -183,7 +194,8 @@ def notebook(path: Path) -> str:
     cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
     texts = ["".join(cell["source"]) for cell in cells]
     shown = [
-        text if cell["cell_type"] == "markdown" else f"```python\n{text}\n```" for cell, text in zip(cells, texts, strict=True)
+        text if cell["cell_type"] == "markdown" else f"```python\n{text}\n```"
+        for cell, text in zip(cells, texts, strict=True)
     ]
     return "\n\n".join([*shown, f"This is `{path.relative_to(ROOT)}`, without what its cells print."]) + "\n"
 

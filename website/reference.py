@@ -25,8 +25,8 @@ def command_line() -> str:
     text = [
         "# Command line\n",
         "This page is written from the code. `levade COMMAND --help` prints the same in a terminal.\n",
-        "Exit status of every command: 0 done, 1 done but the answer is no, 2 the input is wrong: one line on standard error says what, "
-        "where, and what would be right.\n",
+        "Exit status of every command: 0 done, 1 done but the answer is no, 2 the input is wrong: one line on standard error "
+        "says what, where, and what would be right.\n",
     ]
     for name, command in commands(get_command(app), "levade"):
         text.append(f"## {name}\n")
@@ -65,7 +65,12 @@ def _option(option: Any) -> str:
 
 def _with_default(option: Any) -> str:
     text = option.help or ""
-    if option.is_flag or option.default is None or not getattr(option, "show_default", True) or callable(option.default):
+    if (
+        option.is_flag
+        or option.default is None
+        or not getattr(option, "show_default", True)
+        or callable(option.default)
+    ):
         return text
     shown = str(option.default)
     return text if shown in ("None", "[]", "()") else f"{text} Default: `{shown}`."
@@ -77,8 +82,8 @@ def task_file() -> str:
     definitions = schema.pop("$defs")
     text = [
         "# Task files: every key\n",
-        "This page is written from the schema that `levade tasks schema` prints. [Task files](../tasks.md) explains the keys and shows "
-        "examples. Numbers are SI, or texts with a unit.\n",
+        "This page is written from the schema that `levade tasks schema` prints. [Task files](../tasks.md) explains the keys "
+        "and shows examples. Numbers are SI, or texts with a unit.\n",
         "## The task\n",
         _keys(schema, definitions),
     ]

@@ -46,8 +46,9 @@ class JointLimits:
         velocity: (joints,) [rad/s].
         torque: (joints,) [Nm].
         torque_curves: Joint index -> limit over the joint's angle, in addition to ``torque``.
-        stall_torque: (joints,) [Nm] and no_load_speed: (joints,) [rad/s], the ends of the line that limits the torque
-            while driving; None where the actuators have none.
+        stall_torque: Torque at rest [Nm], shape (joints,): one end of the line that limits the torque while driving.
+            None where the actuators have no such line.
+        no_load_speed: Speed without torque [rad/s], shape (joints,): the other end of the line.
         assumed_velocity: Indices of the joints whose limit no file gives: `levade.robots.gains` makes it up.
         assumed_torque: Indices of the joints whose limit no file gives: `levade.robots.gains` makes it up.
     """

@@ -54,6 +54,7 @@ class Feedback:
         """(..., joints) [rad], from the next tick on.
 
         Args:
+            tick: Number of the tick.
             measured: (..., sensed).
             last: (..., joints) [rad], in force now.
         """
@@ -101,9 +102,10 @@ class Feedback:
 
 
 def period_steps(rate: float, timestep: float) -> int:
-    """Physics steps from tick to tick at a rate [Hz]; the nearest number, one at least.
+    """Return the physics steps from tick to tick at a rate: the nearest number, at least one.
 
     Args:
+        rate: Ticks a second [Hz].
         timestep: [s].
     """
     return max(1, round(1.0 / (rate * timestep)))
@@ -145,9 +147,11 @@ class SensorErrors:
     """How wrong a robot's sensors are; uniform within plus and minus each.
 
     Attributes:
-        attitude: [rad] and angular velocity rate: [rad/s], constant through a run.
-        joint: [rad], an encoder's offset, constant.
-        rate_noise: [rad/s] and joint_noise: [rad/s], of angular and joint velocities, another one each tick.
+        attitude: Error of the attitude [rad], constant through a run.
+        rate: Error of the angular velocity [rad/s], constant through a run.
+        joint: Offset of each encoder [rad], constant through a run.
+        rate_noise: Noise of the angular velocity [rad/s], drawn for each tick.
+        joint_noise: Noise of the joint velocities [rad/s], drawn for each tick.
     """
 
     attitude: float = 0.01
@@ -206,6 +210,8 @@ class Correcting:
         """What the servos are told in the steps from a tick to the next, (n, rows, joints) [rad].
 
         Args:
+            tick: Number of the tick.
+            rows: Rows of the reference that the correction is added to.
             measured: (n, sensed), at the tick.
             told: (n or 1, rows, joints), what they are told without feedback.
         """

@@ -50,6 +50,7 @@ class JointReference:
 
     @property
     def steps(self) -> int:
+        """Physics steps of a trial."""
         return self.position.shape[1]
 
     @property
@@ -243,10 +244,12 @@ class Trajectories:
 
     @property
     def n(self) -> int:
+        """Number of trials."""
         return self.joint_position.shape[0]
 
     @property
     def steps(self) -> int:
+        """Physics steps of a trial."""
         return self.joint_position.shape[1]
 
     @cached_property

@@ -64,14 +64,20 @@ def bench(
     """Run the cases of a plan that have no result in the directory yet.
 
     Args:
-        plan: None goes on with the directory's own.
+        plan: What to run. None continues the directory's own plan.
+        directory: Directory with the results, which is made if need be.
         processes: Cases at a time, each on one thread; results do not depend on it.
-        force: Begin anew.
-        others: Results that will be reported beside these.
+        force: Whether to begin again and lose the results in the directory.
+        others: Results that will be reported next to these.
         observe: Called before the first case, after each, and about once a second between. KeyboardInterrupt, from it
-            or from the keyboard, ends the bench; what is done is kept. Raises LevadeError before anything is written if
-            a case does not fit together, or if results in the directory are of other tasks, budgets or versions under
-            the same names, or if one of ``others`` has the name of a case.
+            or from the keyboard, ends the bench; what is done is kept.
+
+    Returns:
+        The results, and how many cases are left.
+
+    Raises:
+        LevadeError: Before anything is written, if a case does not fit together, if results in the directory belong to
+            other tasks, budgets or versions under the same names, or if one of ``others`` has the name of a case.
     """
     plan = plan or plan_of(directory)
     wanted = cases(plan)

@@ -64,6 +64,7 @@ def spent(results: Sequence[Result], what: str) -> tuple[Array, NDArray[np.bool_
     """(n,) spent until success or else the end, and (n,) whether there was success.
 
     Args:
+        results: Results of runs.
         what: A key of `BUDGETS`.
     """
     to_success = [getattr(result, f"{what}_to_success") for result in results]

@@ -74,6 +74,7 @@ class Plan:
 
     @property
     def seed_list(self) -> tuple[int, ...]:
+        """The seeds, one by one."""
         return tuple(range(self.seeds)) if isinstance(self.seeds, int) else self.seeds
 
 

@@ -29,10 +29,14 @@ _FOR_THE_PARENT = (signal.SIGINT, signal.SIGTERM)
 def run_cases(
     cases: Sequence[Case], *, processes: int, waiting: Callable[[], object] | None = None
 ) -> Iterator[tuple[Case, Result]]:
-    """Each case and its result, as they come.
+    """Yield each case and its result, as they come.
+
+    The processes end when the iteration does, however it ends.
 
     Args:
-        waiting: Called about once a second while there is none. Ends the processes when it ends, however it does.
+        cases: Cases to run.
+        processes: Cases at a time.
+        waiting: Called about once a second while there is no result.
 
     Raises:
         LevadeError: If a case does not fit together or a process dies.

@@ -24,7 +24,7 @@ class GroundContact:
         measure: "time" in contact [s], each body on its own; the "impulse" of the contact forces [Ns], which also tells
             a touch from a blow; or the "peak", the largest force on any of the bodies [N]. Time and impulse are sums
             over the bodies.
-        over: The motion proper, or the hold as well.
+        over: "horizon", the motion proper, or "all", the hold as well.
 
     Raises:
         LevadeError: If the contact force of a body was not recorded.

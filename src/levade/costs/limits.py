@@ -25,7 +25,7 @@ class JointLimitExcess:
     """Squared excess of the measured joint angles beyond their range, over joints and time [rad^2 s] (eq. 6).
 
     Attributes:
-        over: The motion proper, or the hold as well.
+        over: "horizon", the motion proper, or "all", the hold as well.
     """
 
     unit: ClassVar[str] = "rad^2 s"
@@ -62,7 +62,7 @@ class TorqueLimitExcess:
     nothing, 1 % of the joint's best.
 
     Attributes:
-        over: The motion proper, or the hold as well.
+        over: "horizon", the motion proper, or "all", the hold as well.
 
     Raises:
         LevadeError: If a joint has a torque limit of zero.
@@ -92,7 +92,7 @@ class SpeedLimitExcess:
     """Squared excess of the joint speed over its limit, as a share of that limit [s].
 
     Attributes:
-        over: The motion proper, or the hold as well.
+        over: "horizon", the motion proper, or "all", the hold as well.
 
     Raises:
         LevadeError: If a joint has a speed limit of zero.

@@ -33,7 +33,7 @@ class Margins:
             not collide.
         self_distance: [m], between parts of the robot. None for what does not count; joints without a limit never miss
             its margin.
-        over: The motion proper, or the hold as well.
+        over: "horizon", the motion proper, or "all", the hold as well.
     """
 
     unit: ClassVar[str] = "-"

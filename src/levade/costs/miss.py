@@ -21,15 +21,16 @@ class Miss:
     """Squared distance of a quantity from a target, or from the nearest bound, as a multiple of ``scale`` [-].
 
     Attributes:
-        quantity: As in `levade.costs.Criterion`.
-        target: As in `levade.costs.Criterion`.
-        minimum: As in `levade.costs.Criterion`.
-        maximum: As in `levade.costs.Criterion`.
-        legs: As in `levade.costs.Criterion`.
-        tolerance: A distance from the target that costs nothing; beyond, the excess counts.
-        at: When; over the hold, and over the whole motion up to the horizon ("motion"), it is the mean of the squares;
-            "max" and "min" look at the largest and the smallest value of all that was simulated: the apex of a jump.
-        scale: The distance that costs 1, in the quantity's unit.
+        quantity: What is judged, as in `levade.costs.Criterion`.
+        target: Required value.
+        minimum: Required lower bound, instead of a target.
+        maximum: Required upper bound, instead of a target.
+        legs: Legs that a quantity of the feet looks at.
+        tolerance: Distance from the target that costs nothing; the excess counts.
+        at: When it is judged. Over the hold, and over the whole motion up to the horizon ("motion"), the cost is the mean of the
+            squares. "max" and "min" look at the largest and the smallest value of all that was simulated: the apex of a
+            jump.
+        scale: Distance that costs 1, in the quantity's unit.
     """
 
     unit: ClassVar[str] = "-"

@@ -37,11 +37,11 @@ class Orientation:
       that pass there, ask for pitch too.
 
     Attributes:
-        roll: Required angles [rad], intrinsic z-y-x; nose up is negative pitch. Pitch may go beyond +-pi/2.
-        pitch: Required angles [rad], intrinsic z-y-x; nose up is negative pitch. Pitch may go beyond +-pi/2.
-        yaw: Required angles [rad], intrinsic z-y-x; nose up is negative pitch. Pitch may go beyond +-pi/2.
-        at: When; over the hold it is the mean.
-        tolerance: [rad], an angle that costs nothing; beyond, the excess is squared.
+        roll: Required roll [rad], intrinsic z-y-x; None is free.
+        pitch: Required pitch [rad], intrinsic z-y-x; None is free. Nose up is negative. It may go beyond +-pi/2.
+        yaw: Required yaw [rad], intrinsic z-y-x; None is free.
+        at: When it is judged; over the hold it is the mean.
+        tolerance: Angle that costs nothing [rad]; the excess is squared.
     """
 
     unit: ClassVar[str] = "rad^2"
@@ -95,10 +95,10 @@ def wrap(angle: Array) -> Array:
 
 
 def geodesic(a: Array, b: Array) -> Array:
-    """Angle [rad], 0 to pi, of the rotation between the attitudes of two quaternions (..., 4), exact near 0 and near
-    pi.
+    """Angle [rad], 0 to pi, of the rotation between the attitudes of two quaternions (..., 4).
 
-    Norm of the rotation vector log(B'A). Half that angle lies between the quaternions as vectors, up to their sign.
+    It is exact near 0 and near pi: the norm of the rotation vector log(B'A). Half that angle lies between the quaternions as
+    vectors, up to their sign.
     """
     difference, total = np.linalg.norm(a - b, axis=-1), np.linalg.norm(a + b, axis=-1)
     return 4.0 * np.arctan2(np.minimum(difference, total), np.maximum(difference, total))

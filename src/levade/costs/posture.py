@@ -17,7 +17,7 @@ class Posture:
 
     Attributes:
         position: One angle [rad] per joint, in the robot's joint order.
-        at: When; over the hold it is the mean.
+        at: When it is judged; over the hold it is the mean.
 
     Raises:
         LevadeError: If the robot has another number of joints.

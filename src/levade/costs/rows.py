@@ -70,6 +70,8 @@ def squared_distance(values: Array, target: tuple[float | None, ...], tolerance:
 
     Args:
         values: (n, rows, components).
+        target: Required value of each component; None where it is free.
+        tolerance: Distance that costs nothing.
 
     Returns:
         (n,).

@@ -30,12 +30,12 @@ class LinearVelocity:
     """Squared difference [m^2/s^2] from a required velocity of the trunk's centre of mass, components left out are free.
 
     Attributes:
-        x: [m/s].
-        y: [m/s].
-        z: [m/s].
-        frame: Their axes, see `Frame`; "heading" means forward, left and up.
-        tolerance: [m/s], a difference that costs nothing.
-        at: When; over the hold it is the mean.
+        x: Required component [m/s]; None is free.
+        y: Required component [m/s]; None is free.
+        z: Required component [m/s]; None is free.
+        frame: Axes of x, y and z, see `Frame`; "heading" means forward, left and up.
+        tolerance: Difference that costs nothing [m/s].
+        at: When it is judged; over the hold it is the mean.
     """
 
     unit: ClassVar[str] = "m^2/s^2"
@@ -66,12 +66,12 @@ class AngularVelocity:
     """Squared difference [rad^2/s^2] from a required angular velocity of the trunk, components left out are free.
 
     Attributes:
-        x: [rad/s]; in trunk axes roll, pitch and yaw rate of the gyroscope.
-        y: [rad/s]; in trunk axes roll, pitch and yaw rate of the gyroscope.
-        z: [rad/s]; in trunk axes roll, pitch and yaw rate of the gyroscope.
-        frame: Their axes, see `Frame`.
-        tolerance: [rad/s], a difference that costs nothing.
-        at: When; over the hold it is the mean.
+        x: Required component [rad/s]; None is free. In trunk axes, what a gyroscope reads.
+        y: Required component [rad/s]; None is free. In trunk axes, what a gyroscope reads.
+        z: Required component [rad/s]; None is free. In trunk axes, what a gyroscope reads.
+        frame: Axes of x, y and z, see `Frame`.
+        tolerance: Difference that costs nothing [rad/s].
+        at: When it is judged; over the hold it is the mean.
     """
 
     unit: ClassVar[str] = "rad^2/s^2"
@@ -104,8 +104,8 @@ class JointVelocity:
 
     Attributes:
         velocity: [rad/s] per joint, in the robot's joint order; joints set to None are free. All at rest if left out.
-        tolerance: [rad/s], a difference of each joint that costs nothing.
-        at: When; over the hold it is the mean.
+        tolerance: Difference of each joint that costs nothing [rad/s].
+        at: When it is judged; over the hold it is the mean.
 
     Raises:
         LevadeError: If the robot has another number of joints.

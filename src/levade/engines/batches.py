@@ -26,6 +26,7 @@ def simulate(
     """The first n simulations of a batch, from their states through all rows of ctrl.
 
     Args:
+        batch: The batch to simulate.
         rows: (1 or n, size of a state).
         ctrl: (n, steps, nu).
         recorded: Fields of `mujoco.MjData`.

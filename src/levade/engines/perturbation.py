@@ -46,6 +46,7 @@ class Parameter:
 
     @property
     def nominal(self) -> float:
+        """The value of the nominal model."""
         return 1.0 if self.unit == "x" else 0.0
 
 
@@ -181,10 +182,16 @@ class Perturbation:
                 raise LevadeError(f"perturb.{name}: {low} is too low; {least} or more, {about.nominal:g} is nominal")
 
     def spread(self, model: mujoco.MjModel, joints: int, *, n: int, seed: int | tuple[int, ...]) -> Sample:
-        """n runs that together cover every range evenly: a Latin hypercube, for few runs that have to stand for many.
+        """Sample n runs that together cover every range evenly: a Latin hypercube, for few runs that stand for many.
 
         Each number's range is cut into n parts, and each run has it in another one (McKay, Beckman and Conover, Technometrics
         21, 1979).
+
+        Args:
+            model: The nominal model.
+            joints: Number of joints.
+            n: Number of runs.
+            seed: One number, or several that together make one.
         """
         shapes = _sizes(model, joints)
         generator = np.random.default_rng(seed)
@@ -192,9 +199,12 @@ class Perturbation:
         return self._sample((part + generator.random(part.shape)) / n, shapes)
 
     def draw(self, model: mujoco.MjModel, joints: int, *, n: int, seed: int | tuple[int, ...]) -> Sample:
-        """n runs, drawn at random.
+        """Draw n runs at random. Run i does not depend on n.
 
         Args:
+            model: The nominal model.
+            joints: Number of joints.
+            n: Number of runs.
             seed: One number, or several that together make one.
         """
         shapes = _sizes(model, joints)
@@ -203,7 +213,7 @@ class Perturbation:
         return self._sample(unit, shapes)
 
     def nominal(self, model: mujoco.MjModel, joints: int, *, n: int = 1) -> Sample:
-        """n runs in which nothing is perturbed."""
+        """Return n runs in which nothing is perturbed."""
         sizes = _sizes(model, joints)
         return Sample({name: np.full((n, size), PARAMETERS[name].nominal) for name, size in sizes.items()})
 

@@ -40,10 +40,16 @@ UNITS = {
 
 @dataclass(frozen=True, eq=False)
 class Content:
-    """samples: at the rate asked for. playing: at a rate that a robot can follow; mostly the same.
+    """What an export writes.
 
-    provenance: task, robot, scene, seed, versions, command. simulation: see `levade.exports.simulation`.
-    feedback: the stabiliser; None if none goes with the rows.
+    Attributes:
+        motion: The motion.
+        model: Its compiled model.
+        samples: The motion at the rate that was asked for.
+        playing: The motion at a rate that a robot can follow; mostly the same.
+        provenance: Task, robot, scene, seed, versions, command.
+        simulation: See `levade.exports.simulation`.
+        feedback: The stabiliser; None if none goes with the rows.
     """
 
     motion: Motion

@@ -27,10 +27,14 @@ Write = Callable[[Content, Path], list[str]]
 
 @dataclass(frozen=True)
 class Format:
-    """write: puts the files into a directory, returns notes for the user. rate: [Hz]; None for the simulation's.
+    """A format of exports.
 
-    plays: whether its rows are fit to be sent to a robot; else the files for playing are at the simulation's rate.
-    check: raises LevadeError where the motion cannot be put into the format.
+    Attributes:
+        description: What it is for.
+        write: Puts the files into a directory, and returns notes for the user.
+        rate: Rows a second [Hz]; None for the simulation's.
+        plays: Whether its rows can be sent to a robot. If not, the files for playing are at the simulation's rate.
+        check: Raises LevadeError where the motion cannot be put into the format.
     """
 
     description: str
@@ -81,12 +85,18 @@ def export(
     """Write a motion in a format, all files of it or none.
 
     Args:
-        rate: [Hz], instead of the format's.
-        reference: See `levade.exports.samples.sample`.
-        hold: See `levade.exports.samples.sample`.
-        kp: See `levade.exports.samples.sample`.
-        kd: See `levade.exports.samples.sample`.
-        command: How it was asked for, for the record.
+        motion: A motion.
+        to: Name of the format, a key of `FORMATS`.
+        directory: Directory to write; it is made if need be.
+        rate: Rows a second [Hz]. Defaults to the format's own.
+        reference: What to send, "measured" or "commanded": see `levade.exports.samples.sample`.
+        hold: Whether to go on after the horizon.
+        kp: Position gain of all joints [Nm/rad]. Defaults to the simulation's.
+        kd: Velocity gain of all joints [Nm s/rad]. Defaults to the simulation's.
+        command: The command that asked for it, for the provenance.
+
+    Returns:
+        What was written, with its samples and notes.
 
     Raises:
         LevadeError: If the format does not exist or the motion does not fit into it.
@@ -139,10 +149,11 @@ def _feedback_notes(motion: Motion, feedback: Feedback | None) -> list[str]:
 
 
 def _sunk_notes(model: mujoco.MjModel, depth: Mapping[str, float]) -> list[str]:
-    """That the robot's feet lie in the floor at the start, where they do;
+    """Note that the robot's feet lie in the floor at the start, if they do.
 
     Args:
-        depth: [m], of each foot.
+        model: The compiled model of the motion.
+        depth: How deep each foot is in the floor [m], by name.
     """
     deep = sunk_feet(model, depth)
     if not deep:

@@ -46,9 +46,15 @@ class Link:
 
 @dataclass(frozen=True, eq=False)
 class Frames:
-    """Frames in the world: position and linear_velocity (rows, n, 3) [m], [m/s] of their origins, quaternion (rows, n, 4) and
-    angular_velocity (rows, n, 3) [rad/s], all in world axes. relative_position (rows, n, 3), relative_quaternion (rows, n,
-    4): in the parent's frame, the trunk's in the world.
+    """Frames of links over time.
+
+    Attributes:
+        position: Origins in the world [m], shape (rows, n, 3).
+        quaternion: Frame to world, shape (rows, n, 4).
+        linear_velocity: Velocities of the origins, world axes [m/s], shape (rows, n, 3).
+        angular_velocity: Angular velocities, world axes [rad/s], shape (rows, n, 3).
+        relative_position: Origins in the parent's frame, the trunk's in the world [m], shape (rows, n, 3).
+        relative_quaternion: Frame to the parent's, shape (rows, n, 4).
     """
 
     position: Array

@@ -14,7 +14,7 @@ from levade.motions import Motion
 
 
 def gains(model: mujoco.MjModel, joints: Sequence[str]) -> tuple[Array, Array]:
-    """kp [Nm/rad] and kd [Nm s/rad] of each joint's actuator, (joints,) each.
+    """Position gain [Nm/rad] and velocity gain [Nm s/rad] of each joint's actuator, shape (joints,) each.
 
     The actuators are MuJoCo's dcmotor with a controller, or pid (see `levade.robots.actuation`).
 

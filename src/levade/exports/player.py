@@ -112,6 +112,7 @@ class Feedback:
         """(joints,) [rad], from the next tick on.
 
         Args:
+            tick: Number of the tick.
             measured: (sensed,).
             last: (joints,) [rad], in force now.
         """
@@ -712,9 +713,11 @@ class StandIn:
         self._position, self.calls = motion.start_position + 0.05, 0
 
     def read(self) -> tuple[Array, Array]:
+        """Return joint angles [rad] and velocities [rad/s]."""
         return self._position, np.zeros_like(self._position)
 
     def write(self, position: Array, velocity: Array, torque: Array, kp: Array, kd: Array) -> None:
+        """Take the command of each drive."""
         row = self.calls - self._ticks + 1
         self._position = position if row <= 0 else self._motion.expected[min(row, len(self._motion.expected) - 1)]
         self.calls += 1

@@ -107,10 +107,14 @@ def string(text: str) -> bytes:
 
 
 def joint_state(stamp: int, names: Sequence[str], position: Array, velocity: Array, effort: Array) -> bytes:
-    """sensor_msgs/msg/JointState.
+    """Encode a sensor_msgs/msg/JointState.
 
     Args:
-        stamp: [ns]. Arrays: (joints,).
+        stamp: Time stamp [ns].
+        names: Names of the joints.
+        position: Positions [rad], shape (joints,).
+        velocity: Velocities [rad/s], shape (joints,).
+        effort: Torques [Nm], shape (joints,).
     """
     out = _Bytes()
     out.header(stamp, "")
@@ -123,10 +127,12 @@ def joint_state(stamp: int, names: Sequence[str], position: Array, velocity: Arr
 def tf_message(
     stamp: int, frames: Sequence[str], children: Sequence[str], positions: Array, quaternions: Array
 ) -> bytes:
-    """tf2_msgs/msg/TFMessage.
+    """Encode a tf2_msgs/msg/TFMessage.
 
     Args:
-        stamp: [ns].
+        stamp: Time stamp [ns].
+        frames: Names of the parent frames.
+        children: Names of the child frames.
         positions: (n, 3) [m].
         quaternions: (n, 4), w-x-y-z, of children in frames.
     """
@@ -143,10 +149,14 @@ def tf_message(
 def joint_trajectory(
     names: Sequence[str], times: Sequence[int], positions: Array, velocities: Array, efforts: Array | None
 ) -> bytes:
-    """trajectory_msgs/msg/JointTrajectory that starts when it arrives.
+    """Encode a trajectory_msgs/msg/JointTrajectory that starts when it arrives.
 
     Args:
-        times: [ns] from then. Arrays: (rows, joints).
+        names: Names of the joints.
+        times: Times from the start [ns].
+        positions: Positions [rad], shape (rows, joints).
+        velocities: Velocities [rad/s], shape (rows, joints).
+        efforts: Torques [Nm], shape (rows, joints); None for none.
     """
     out = _Bytes()
     out.header(0, "")

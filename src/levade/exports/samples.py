@@ -49,8 +49,10 @@ _MOST = 1_000_000
 
 @dataclass(frozen=True, eq=False)
 class Joints:
-    """What holds for each joint, (joints,): gains [Nm/rad], [Nm s/rad]; limits [rad], [rad/s], [Nm], infinite for none;
-    angle [rad] and torque [Nm] to hold before the motion starts.
+    """What holds for each joint, shape (joints,).
+
+    Gains are in Nm/rad and Nm s/rad. Limits are in rad, rad/s and Nm, infinite for none. Angle [rad] and torque [Nm] are
+    to be held before the motion starts.
     """
 
     names: tuple[str, ...]
@@ -127,8 +129,17 @@ def sample(
     """Sample a motion.
 
     Args:
-        rate: [Hz].
-        hold: Go on after the horizon. kp [Nm/rad], kd [Nm s/rad]: instead of the simulation's.
+        motion: A motion.
+        model: Its compiled model.
+        rate: Rows a second [Hz].
+        reference: "measured": what the joints did, with the torque that they delivered. "commanded": what they were
+            commanded.
+        hold: Whether to go on after the horizon.
+        kp: Position gain of all joints [Nm/rad], instead of the simulation's; with "measured" only.
+        kd: Velocity gain of all joints [Nm s/rad], instead of the simulation's; with "measured" only.
+
+    Returns:
+        The motion at this rate.
 
     Raises:
         LevadeError: For a rate that is none, gains that do not go with the reference, or a motion that broke down.

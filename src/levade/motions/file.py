@@ -152,6 +152,7 @@ def with_infinity(values: Sequence[float | None], infinity: float = np.inf) -> A
     """The inverse of `finite`.
 
     Args:
+        values: Numbers; None stands for infinity.
         infinity: What stands for no limit, ``-np.inf`` for a lower one.
     """
     return np.array([infinity if value is None else value for value in values], dtype=float)

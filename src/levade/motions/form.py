@@ -56,7 +56,7 @@ class GeometryForm(_Form):
 
 
 class LegForm(_Form):
-    """joints: from the trunk outward. foot: name of a geom."""
+    """A leg: its joints from the trunk outward, and the name of its foot's geom."""
 
     joints: Annotated[list[Name], Field(min_length=1)]
     foot: Name
@@ -237,6 +237,7 @@ def _mistakes_in_joints(form: MetaForm, names: list[str], *, feet: int) -> Itera
     """What of the legs and joints does not fit together.
 
     Args:
+        form: The form.
         names: The arrays' joints.
         feet: How many the arrays have.
     """

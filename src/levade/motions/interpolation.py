@@ -1,5 +1,6 @@
-"""Values between the recorded instants, which are evenly spaced. At a recorded instant every function returns what was
-recorded, to the bit.
+"""Values between the recorded instants, which are evenly spaced.
+
+At a recorded instant every function returns what was recorded, to the bit.
 
     interval, share = locate(time, timestep, intervals)
     position = hermite(interval, share, positions, velocities, timestep)
@@ -33,7 +34,10 @@ def locate(time: Array, timestep: float, intervals: int) -> tuple[Index, Array]:
     """In which interval between recorded instants each time is, and how far into it.
 
     Args:
-        time: (rows,) [s]; instant i is at ``i * timestep``, from 0 to ``intervals``; later times are its end.
+        time: Times [s], shape (rows,). Instant i is at ``i * timestep``, from 0 to ``intervals``; later times are its
+            end.
+        timestep: Time between instants [s].
+        intervals: Number of intervals.
 
     Returns:
         Interval (rows,), from 0 to intervals - 1, and share (rows,) in [0, 1].
@@ -49,8 +53,11 @@ def hermite(interval: Index, share: Array, values: Array, rates: Array, timestep
     """Cubics through the values with the given rates.
 
     Args:
-        values: (instants, n).
-        rates: (instants, n).
+        interval: Interval that each time is in, shape (rows,).
+        share: How far into it each time is, shape (rows,), in [0, 1].
+        values: Values at the instants, shape (instants, n).
+        rates: Their rates of change, shape (instants, n).
+        timestep: Time between instants [s].
 
     Returns:
         (rows, n).
@@ -67,8 +74,11 @@ def hermite_rate(interval: Index, share: Array, values: Array, rates: Array, tim
     """How fast the cubics of `hermite` change by time.
 
     Args:
-        values: (instants, n).
-        rates: (instants, n).
+        interval: Interval that each time is in, shape (rows,).
+        share: How far into it each time is, shape (rows,), in [0, 1].
+        values: Values at the instants, shape (instants, n).
+        rates: Their rates of change, shape (instants, n).
+        timestep: Time between instants [s].
 
     Returns:
         (rows, n).
@@ -94,6 +104,7 @@ def mean(start: Array, stop: Array, values: Array, timestep: float) -> Array:
         start: (rows,) [s].
         stop: (rows,) [s].
         values: (steps, n), row k in force from ``k * timestep`` to ``(k + 1) * timestep``; the last goes on for ever.
+        timestep: Duration of a step [s].
 
     Returns:
         (rows, n).
@@ -118,9 +129,12 @@ def rotations(interval: Index, share: Array, quaternions: Array, rates: Array, t
     """Rotations through the given ones with the given angular velocities.
 
     Args:
+        interval: Interval that each time is in, shape (rows,).
+        share: How far into it each time is, shape (rows,), in [0, 1].
         quaternions: (instants, 4), body to world, w-x-y-z.
         rates: (instants, 3) [rad/s], in body axes. The rotation vector from the start of each interval on is a cubic
             with the rates at both ends.
+        timestep: Time between instants [s].
 
     Returns:
         (rows, 4).

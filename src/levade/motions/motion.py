@@ -316,8 +316,9 @@ class Motion:
 
     @cached_property
     def start(self) -> State:
-        """The state at the start, one row. Files of early versions do not say what the joints were commanded last: there
-        it is where they are.
+        """The state at the start, one row.
+
+        Files of early versions do not say what the joints were commanded last. For them it is where the joints are.
         """
         joint_position = self["qpos0"][self.addresses(self.compiled()).joint_qpos]
         commanded = self.arrays.get("joint_position_reference0", joint_position)
@@ -395,6 +396,7 @@ class Motion:
         """The same motion with a stabiliser, or without.
 
         Args:
+            feedback: The stabiliser.
             about: What its meta says next to what it is.
         """
         arrays = {

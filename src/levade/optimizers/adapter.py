@@ -48,10 +48,12 @@ class Adapted:
 
     @property
     def step(self) -> float:
+        """Step size: standard deviation in the coordinates z of the space."""
         return float(getattr(self._optimizer, "step", np.nan))
 
     @property
     def mean(self) -> Array | None:
+        """Mean of the search distribution, shape (d,)."""
         mean = getattr(self._optimizer, "mean", None)
         return None if mean is None else np.asarray(mean, dtype=np.float64)
 

@@ -43,6 +43,7 @@ class Sampler(ABC):
 
     @property
     def population(self) -> int:
+        """Candidates per generation."""
         return self._population
 
     @property
@@ -87,6 +88,7 @@ class Sampler(ABC):
 
         Args:
             z: (n, m), cost: (n,).
+            cost: Costs of the candidates, shape (n,).
         """
 
 

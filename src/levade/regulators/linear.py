@@ -105,13 +105,16 @@ def linearise(
     size: float = 0.6,
     threads: int = 0,
 ) -> Linear:
-    """Of a motion in MuJoCo.
+    """Linearise a motion in MuJoCo by finite differences, from tick to tick.
 
     Args:
-        start: One row.
-        reference: Of one trial.
-        period: Steps from tick to tick.
-        size: [m], of the robot.
+        model: The compiled model.
+        layout: Where the robot is in it.
+        start: Start of the motion, one row.
+        reference: Reference of one trial.
+        period: Physics steps from tick to tick.
+        size: Size of the robot [m], which deviations of its trunk are scaled by.
+        threads: Number of engine threads; 0 for one per core.
     """
     model = copy.deepcopy(model)
     model.opt.disableflags |= RESET_OFF | SENSORS_OFF

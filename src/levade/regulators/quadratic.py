@@ -36,6 +36,9 @@ def steady(a: Array, b: Array, state: Array, correction: Array, *, most: int = 5
     Args:
         a: Of one tick.
         b: Of one tick.
+        state: Weight of the state, shape (states, states).
+        correction: Weight of the correction, shape (joints, joints).
+        most: Most iterations.
     """
     size = len(a) + len(correction)
     value, gain = np.zeros((size, size)), np.zeros((len(correction), size))
@@ -51,7 +54,9 @@ def project(gain: Array, expected: Array, sensed: int) -> Array:
     """A gain (joints, states + joints) on what is sensed and the correction in force alone.
 
     Args:
+        gain: Gain on the whole state, shape (..., joints, states).
         expected: (states - sensed, sensed), of the rest of the state, per unit of what is sensed.
+        sensed: Number of states that are sensed; the first ones.
     """
     states = sensed + len(expected)
     own, rest, last = np.split(gain, [sensed, states], axis=1)
@@ -62,6 +67,8 @@ def expectation(seen: Array, hidden: Array, noise: Array) -> Array:
     """Least-squares estimate of hidden (runs, h) from seen (runs, s), deviations both: (h, s).
 
     Args:
+        seen: What is sensed, shape (runs, seen).
+        hidden: What is not sensed, shape (runs, hidden).
         noise: (s,), of sensing.
     """
     covariance = seen.T @ seen / len(seen) + np.diag(noise**2)

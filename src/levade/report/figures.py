@@ -97,8 +97,10 @@ def figures(
     """Write all figures of a motion to a directory, which is made if need be.
 
     Args:
+        motion: A motion.
+        directory: Directory to write; it is made if need be.
         format: "pdf", "svg" or "png".
-        progress_csv: Of the solve; without it there is no figure of the cost.
+        progress_csv: The progress.csv of the search. Without it there is no figure of the cost.
 
     Returns:
         What was written.
@@ -131,8 +133,14 @@ def compare(
     """Write figures that lay motions over one another: their trunks, and what their searches cost.
 
     Args:
-        motions: By the motion's name in the legend; motions without a progress.csv are left out of the cost.
-        progress_csv: By the motion's name in the legend; motions without a progress.csv are left out of the cost.
+        motions: Motions by their names in the legend.
+        directory: Directory to write; it is made if need be.
+        format: "pdf", "svg" or "png".
+        progress_csv: The progress.csv of searches, by the motions' names. A motion without one is left out of the
+            figure of the cost.
+
+    Returns:
+        What was written.
     """
     drawings: dict[str, Callable[[], Any]] = {"trunk": lambda: _trunks(motions)}
     if progress_csv:

@@ -23,7 +23,15 @@ _DTYPES = ("f4", "i2", "u2", "u4")
 
 
 def pack(values: Any, dtype: str = "f4") -> dict[str, Any]:
-    """dtype: "f4", "i2", "u2" or "u4". Numbers that do not fit are the caller's mistake: nothing is clipped."""
+    """Pack numbers for a page. Nothing is clipped: numbers have to fit into the type.
+
+    Args:
+        values: Numbers of any shape.
+        dtype: "f4", "i2", "u2" or "u4".
+
+    Returns:
+        Type, shape and data in base64.
+    """
     values = np.asarray(values)
     assert dtype in _DTYPES
     data = np.ascontiguousarray(values, dtype=f"<{dtype}").tobytes()

@@ -82,6 +82,8 @@ def save_page(text: str, path: str | Path, *, instead: str) -> Path:
     """Write a page, or leave the file that is there.
 
     Args:
+        text: The page.
+        path: File to write.
         instead: What else could be done, for the message. Raises LevadeError as `write_page` does.
 
     Returns:

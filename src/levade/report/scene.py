@@ -50,6 +50,7 @@ def scene_data(
     """The page's scene of a motion.
 
     Args:
+        motion: A motion.
         like: A scene of another motion of the same model; shapes and colours are taken from it.
         model: The motion's, if it is compiled already.
         rate: [Hz], at most so many poses a second.

@@ -44,7 +44,11 @@ class Progress:
 
 
 def read_progress(path: str | Path) -> Progress:
-    """Raises LevadeError if there is no progress.csv of a solve."""
+    """Read a progress.csv.
+
+    Raises:
+        LevadeError: If the file is not there, or is no progress.csv of a search.
+    """
     path = Path(path)
     try:
         with path.open(newline="", encoding="utf-8") as file:
@@ -72,6 +76,7 @@ def series_data(motion: Motion, progress: Progress | None = None) -> dict[str, A
     """All curves of a motion, for web/src/plots.js: SI units; arrays over time as in `levade.report.packing`.
 
     Args:
+        motion: A motion.
         progress: Of the motion's search; None for no curve of the cost.
     """
     names, limits = motion.joint_names, motion.embodiment.limits
@@ -212,6 +217,7 @@ def policy_names(motion: Motion, count: int) -> list[str]:
     """Name each policy after the joints that it moves: "LF, RF HAA".
 
     Args:
+        motion: A motion.
         count: Number of policies.
     """
     policy = ReferenceCurve.of(motion).policy

@@ -45,9 +45,16 @@ def video(
     """Write a motion as .mp4, .gif or .webp; the last two loop for ever.
 
     Args:
-        slow: The motion up to the horizon runs this many times slower than it was; the hold always runs at true speed.
-        fps: Pictures per second, 30, or 20 for .gif and .webp.
-        size: (width, height) [pixels], (960, 720), or (480, 360).
+        motion: A motion.
+        path: File to write; its ending says which kind.
+        slow: How many times slower than it was the motion runs up to the horizon. The hold always runs at true speed.
+        fps: Pictures per second. Defaults to 30, or 20 for .gif and .webp.
+        size: Width and height [pixels]. Defaults to (960, 720), or (480, 360) for .gif and .webp.
+        camera: Where to look from.
+        progress: Called after each picture with the number of those done and of all.
+
+    Returns:
+        The path.
 
     Raises:
         LevadeError: If any of these is impossible, the file cannot be written, or OpenGL or a library is missing.
@@ -92,11 +99,19 @@ def strip(
 ) -> Path:
     """Write n poses side by side as .png, evenly spaced over the horizon; with a hold, the last one is its end.
 
-    Several motions are put one below the other, all to the same scale;
+    Several motions are put one below the other, all to the same scale.
 
     Args:
-        labels: Their names.
-        height: Of a pose [pixels]. Raises LevadeError as `video` does.
+        motion: A motion, or several.
+        path: File to write, a .png.
+        n: Poses of each motion.
+        labels: Names of the motions.
+        height: Height of a pose [pixels].
+        camera: Where to look from.
+        progress: As `video` takes it.
+
+    Raises:
+        LevadeError: As `video` does.
     """
     path = Path(path)
     motions = [motion] if isinstance(motion, Motion) else list(motion)

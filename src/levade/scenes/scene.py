@@ -93,6 +93,8 @@ def compose(robot: Robot, scene: Scene, *, gain_scale: float = 1.0, damping_scal
     """The robot with its actuators, put into the scene.
 
     Args:
+        robot: The robot.
+        scene: The scene.
         gain_scale: See `levade.robots.Robot.spec`. Simulate what is compiled from the spec's ``to_xml()``, which is
             what a motion file keeps.
         damping_scale: See `levade.robots.Robot.spec`. Simulate what is compiled from the spec's ``to_xml()``, which is

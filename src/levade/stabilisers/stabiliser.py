@@ -59,12 +59,19 @@ def stabilise(
     """Find a stabiliser for a motion.
 
     Args:
-        rate: [Hz], of measurements; the nearest that steps allow.
-        bound: [rad], at most, on a correction.
+        motion: A motion, recorded in MuJoCo.
+        rate: Measurements a second [Hz]; the nearest rate that the time step allows is taken.
+        bound: Largest correction of a joint's reference [rad].
         runs: Perturbed runs that choose between designs, drawn from ``perturbation`` with ``seed``, apart from those of
-            a check; what is chosen is judged by as many others.
-        tell: Is told of each.
-        stopping: Asked before each; once it says so, the best of those that were tried is the outcome.
+            a check. As many others judge what is chosen.
+        seed: Seed of these runs.
+        perturbation: Ranges in which robots differ. Defaults to `levade.engines.Perturbation`.
+        threads: Number of engine threads; 0 for one per core.
+        tell: Called with one line about each design that was tried.
+        stopping: Asked before each design. Once it returns True, the best design so far is the outcome.
+
+    Returns:
+        The motion with its stabiliser, and how often it succeeds with and without.
 
     Raises:
         LevadeError: If the motion is not MuJoCo's, broke down, has no criteria, or a number makes no sense.
@@ -164,8 +171,7 @@ def _designs(bound: float, *, hold: bool) -> Iterator[dict[str, float]]:
 
 
 def _surely_more(before: NDArray[np.bool_], after: NDArray[np.bool_]) -> bool:
-    """Whether the runs that succeed only after outnumber those that did only before by more than chance: two standard
-    deviations (McNemar's test)."""
+    """Whether more runs gain success than lose it, by more than chance: two standard deviations (McNemar's test)."""
     gained, lost = int((after & ~before).sum()), int((before & ~after).sum())
     return gained > lost and (gained - lost) ** 2 >= 4 * (gained + lost)
 

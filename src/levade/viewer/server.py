@@ -87,6 +87,7 @@ class Server:
 
     @property
     def port(self) -> int:
+        """The port that it listens on."""
         return int(self._http.server_address[1])
 
     @property

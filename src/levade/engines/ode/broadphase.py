@@ -60,6 +60,7 @@ class BroadPhase:
         Args:
             state: As `levade.engines.ode.worlds.Worlds.read` gives it, one ``timestep`` [s] after that of the call
                 before.
+            timestep: Duration of a step [s].
         """
         if self._moved is not None:
             speed = np.sqrt(np.sum(state["linear"] ** 2, axis=2))

@@ -24,8 +24,12 @@ _PRIMITIVES = {
 
 @dataclass(frozen=True, eq=False)
 class Hull:
-    """A convex hull: points (V, 3) [m], planes (F, 4) with outward normals, polygons as ODE reads them: for each, the
-    number of its corners and their indices.
+    """A convex hull.
+
+    Attributes:
+        points: Corners [m], shape (V, 3).
+        planes: Planes with outward normals, shape (F, 4).
+        polygons: As ODE reads them: for each, the number of its corners and their indices.
     """
 
     points: Array

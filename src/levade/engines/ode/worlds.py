@@ -104,8 +104,11 @@ class Worlds:
                 ode.dBodySetTorque(body, 0.0, 0.0, 0.0)
 
     def read(self, n: int) -> dict[str, Array]:
-        """Of the first n worlds' links, (n, L, ...): position of the centre of mass, quaternion, rotation (row by row),
-        linear and angular velocity, in world axes.
+        """Read the links of the first n worlds, in world axes.
+
+        Returns:
+            Position of the centre of mass, quaternion, rotation (row by row), linear and angular velocity, by name;
+            shape (n, L, ...).
         """
         row = self._memory.take(self._where[:n]).astype(float, copy=False)
         parts, start = {}, 0
@@ -129,10 +132,14 @@ class Worlds:
         seed: int,
         touching: list[tuple[int, int]] | None,
     ) -> None:
-        """One step of a world under torques on its hinges, with contacts of those of ``pairs`` that touch.
+        """Advance a world by one step under torques on its hinges, with contacts of those of ``pairs`` that touch.
 
         Args:
-            touching: Takes (world, pair) of every contact if it is not None; row i of `forces` is then contact i's.
+            world: Index of the world.
+            torque: Torque on each hinge [Nm].
+            pairs: Indices of the pairs of shapes that may touch.
+            seed: Seed of the solver's random order.
+            touching: If not None, takes (world, pair) of every contact; row i of `forces` is then contact i's.
         """
         ode, at = self._ode, self._contact_at
         collide, create, attach = ode.dCollide, ode.dJointCreateContact, ode.dJointAttach
