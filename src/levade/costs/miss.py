@@ -27,8 +27,8 @@ class Miss:
         maximum: Required upper bound, instead of a target.
         legs: Legs that a quantity of the feet looks at.
         tolerance: Distance from the target that costs nothing; the excess counts.
-        at: When it is judged. Over the hold, and over the whole motion up to the horizon ("motion"), the cost is the mean of the
-            squares. "max" and "min" look at the largest and the smallest value of all that was simulated: the apex of a
+        at: When it is judged. Over the hold, and over the whole motion up to the horizon ("motion"), the cost is the mean of
+            the squares. "max" and "min" look at the largest and the smallest value of all that was simulated: the apex of a
             jump.
         scale: Distance that costs 1, in the quantity's unit.
     """
