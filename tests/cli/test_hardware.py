@@ -46,8 +46,8 @@ def test_the_certificate_decides(levade, tmp_path: Path, monkeypatch: pytest.Mon
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        ("solve rearing --minutes 3", "--minutes: goes with --hardware only"),
-        ("solve rearing --demand share=0.9", "--demand: goes with --hardware only"),
+        ("solve rearing --minutes 3", "--minutes: only works with --hardware"),
+        ("solve rearing --demand share=0.9", "--demand: only works with --hardware"),
         ("solve rearing --hardware --trials 30 --watch", "leave out --watch and --trials"),
         ("solve rearing --hardware --minutes 0", "--minutes: 0 should be a positive number of minutes"),
         ("solve rearing --hardware --demand sped=0.1", "no 'sped'; did you mean speed?"),

@@ -41,9 +41,7 @@ def export_motion(
         raise LevadeError(f"--out {directory}: several files are written; give a directory, such as {directory.stem}")
     motion = Motion.load(path)
     if certificate is not None and (reason := doubt(certificate, motion)) is not None:
-        raise LevadeError(
-            f"--certificate {certificate}: {reason}; nothing is written. levade check says what there is to mend"
-        )
+        raise LevadeError(f"--certificate {certificate}: {reason}; nothing is written. levade check says what to fix")
     options = [
         ("--rate", rate),
         ("--reference", None if reference == "measured" else reference),
