@@ -207,13 +207,13 @@ class Correcting:
             yield tick, slice(first, min(first + self.period, self._steps))
 
     def corrected(self, tick: int, rows: slice, measured: Array, told: Array) -> Array:
-        """What the servos are told in the steps from a tick to the next, (n, rows, joints) [rad].
+        """What the servos are commanded in the steps from a tick to the next, (n, rows, joints) [rad].
 
         Args:
             tick: Number of the tick.
             rows: Rows of the reference that the correction is added to.
             measured: (n, sensed), at the tick.
-            told: (n or 1, rows, joints), what they are told without feedback.
+            told: (n or 1, rows, joints), what they are commanded without feedback.
         """
         if self.errors is not None:
             measured = measured + self.errors[:, min(tick, self.errors.shape[1] - 1)]

@@ -35,7 +35,7 @@ class JointReference:
         velocity: (n, steps, joints) [rad/s], its analytic time derivative.
         timestep: [s].
         horizon_steps: Number of rows up to the horizon T; later rows are the hold.
-        before: (joints,) or (n, joints) [rad], what the joints were told until the first row came, at rest; None where
+        before: (joints,) or (n, joints) [rad], what the joints were commanded until the first row came, at rest; None where
             it is not known.
         horizons: (n,) rows up to the horizon of each trial, at most ``horizon_steps``; None where all have that. After
             a trial's own horizon and a hold as long as that of the longest, its last row repeats, and is not simulated.

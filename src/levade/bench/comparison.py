@@ -188,7 +188,7 @@ def _begin(directory: Path, stack: ExitStack) -> None:
 
 
 def _check_others(others: Sequence[Result], wanted: Sequence[Case], before: Sequence[Result]) -> None:
-    """Raise LevadeError if a result that is reported beside these has the name of one."""
+    """Raise LevadeError if a result that is reported next to these has the name of one."""
     keys = {case.key for case in wanted} | {result.key for result in before}
     for other in others:
         if other.key in keys:

@@ -2,7 +2,7 @@
 
 The expected running time (ERT) is that of COCO (Hansen et al., COCO: a platform for comparing continuous optimizers in a
 black-box setting, 2021): of all runs of a case, what was spent until a first success or the end of the run, over the number
-of successes. It is what one expects to spend until a success when starting anew after each run that fails.
+of successes. It is what one expects to spend until a success when starting again after each run that fails.
 """
 
 from __future__ import annotations

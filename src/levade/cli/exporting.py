@@ -74,7 +74,7 @@ def export_motion(
 
 
 def _uncertified(path: Path, motion: Motion) -> tuple[str, ...]:
-    """What to say of a motion that goes to a robot without a certificate beside it that passes."""
+    """What to say of a motion that goes to a robot without a passing certificate next to it."""
     beside = path.with_name(CERTIFICATE)
     try:
         reason = doubt(beside, motion) if beside.is_file() else f"there is no {beside}"

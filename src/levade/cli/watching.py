@@ -1,4 +1,4 @@
-"""``levade solve --watch``: the page beside the run."""
+"""``levade solve --watch``: the page next to the run."""
 
 from __future__ import annotations
 
@@ -79,5 +79,5 @@ def tell_where(console: Console, server: Server, what: str) -> None:
     console.print(f"{what} [link={server.url}]{escape(server.url)}[/link]")
     if server.public:
         console.print(
-            "[yellow]Other machines can reach this page[/]: whoever has its address sees it and can use its buttons."
+            "[yellow]Other machines can reach this page[/]: anybody with its address can see it and use its buttons."
         )

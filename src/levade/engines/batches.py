@@ -66,7 +66,7 @@ def simulate(
 
 @contextmanager
 def quiet() -> Iterator[None]:
-    """Simulations that break down are told to the caller, not to standard error and a MUJOCO_LOG.TXT."""
+    """Simulations that break down are reported to the caller, not to standard error and a MUJOCO_LOG.TXT."""
     before = mujoco.get_mju_user_warning()
     mujoco.set_mju_user_warning(_ignore)
     try:

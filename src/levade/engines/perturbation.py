@@ -68,13 +68,13 @@ PARAMETERS: dict[str, Parameter] = {
     ),
     "inertia": Parameter(
         *("x", "model"),
-        "rotational inertia of all bodies, beside that of mass",
+        "rotational inertia of all bodies, next to that of mass",
         "seldom measured; CAD leaves out what mass leaves out, and further from the centre",
     ),
     "kp": Parameter(
         *("x", "joint"),
         "position gain of each joint",
-        "the inner torque loop delivers 10 to 20 % more or less than it is told",
+        "the inner torque loop delivers 10 to 20 % more or less than commanded",
     ),
     "kd": Parameter(
         *("x", "joint"),
@@ -93,7 +93,7 @@ PARAMETERS: dict[str, Parameter] = {
     ),
     "latency": Parameter(
         *("s", "model"),
-        "delay from a reference to its servo, which until then has what it was told before the start",
+        "delay from a reference to its servo, which until then keeps its command from before the start",
         "up to two cycles of a 500 Hz controller or field bus",
     ),
     "start_joint": Parameter(

@@ -85,7 +85,7 @@ def provenance(motion: Motion, command: str | None) -> dict[str, Any]:
 
 
 def surroundings(motion: Motion) -> str:
-    """What the motion meets beside flat ground, in words; empty if nothing."""
+    """What the motion meets besides flat ground, in words; empty if nothing."""
     scene = motion.task.scene
     count = lambda what, plural, items: [f"{len(items)} {what if len(items) == 1 else plural}"] * bool(items)  # noqa: E731
     parts = count("box", "boxes", scene.boxes) + count("gap", "gaps", scene.gaps)

@@ -4,7 +4,7 @@
     python player.py motion.csv --dry-run                       # without a robot: the file and the sequence, not the timing
     python player.py motion.csv --robot my_robot:MyRobot        # MyRobot is yours, see below
 
-motion.csv is read together with the meta.json beside it; motion.json needs nothing beside it. Your robot is a class with two
+motion.csv is read together with the meta.json next to it; motion.json needs no other file. Your robot is a class with two
 methods; arrays are in the order of `Motion.joints`, SI units:
 
     class MyRobot:
@@ -19,7 +19,7 @@ methods; arrays are in the order of `Motion.joints`, SI units:
         def read_trunk(self):                                   # needed for a stabiliser; optional without one
             return quaternion, rate                             # trunk to world, w x y z; (3,) [rad/s] in trunk axes
 
-A motion with a stabiliser (`feedback` in its meta; feedback.npz beside motion.csv) corrects the positions by what the robot
+A motion with a stabiliser (`feedback` in its meta; feedback.npz next to motion.csv) corrects the positions by what the robot
 senses, from the first row on; --no-feedback plays it without, and does not read the trunk.
 
 At the rate of the file:
@@ -36,7 +36,7 @@ Every position sent is within the joint's range and every torque within its limi
 - the trunk is tilted further from the simulation than the tilt tolerance,
 - a reading has another shape or is not finite, or a robot's method raises an exception,
 - the loop, or a reading in it, is late,
-- the program is told to end.
+- the program gets a signal to end.
 
 To stop means: for a second kp and torque are 0, kd is the file's, and the position is the last reading that passed every check.
 Drives then damp, or stay where they are if they know no gains but their own. A write that fails does not end it. Then it is
@@ -80,7 +80,7 @@ class Robot(Protocol):
 
 
 class SensingRobot(Robot, Protocol):
-    """What the player asks of a robot beside, if the motion has a stabiliser; without one, it watches the trunk by it."""
+    """What the player also asks of a robot, if the motion has a stabiliser; without one, it watches the trunk by it."""
 
     def read_trunk(self) -> tuple[Array, Array]:
         """Attitude, trunk to world, w-x-y-z (yaw does not matter), and angular velocity in trunk axes [rad/s]."""
@@ -227,7 +227,7 @@ class Motion:
 
     @classmethod
     def load(cls, path: str | Path) -> Motion:
-        """Read motion.json, or motion.csv and the meta.json beside it.
+        """Read motion.json, or motion.csv and the meta.json next to it.
 
         Args:
             path: The file.
@@ -249,7 +249,9 @@ class Motion:
             raise ValueError(f"{path}: {_line(error)}; export the motion again") from None
         except Exception as error:
             what = f"{type(error).__name__}: {_line(error)}".rstrip(": ")
-            raise ValueError(f"{path}: it, or a file beside it, is damaged ({what}); export the motion again") from None
+            raise ValueError(
+                f"{path}: it, or a file next to it, is damaged ({what}); export the motion again"
+            ) from None
 
     @classmethod
     def _load(cls, path: Path) -> Motion:
@@ -292,7 +294,7 @@ class Motion:
             if path.suffix != ".json" and not (over(f"command/{{}}/{name}") == getattr(motion, name)).all():
                 raise ValueError(f"{name}: its rows have other gains than meta.json")
         if meta.get("checksum") != sealed:
-            raise ValueError("was changed since it was exported, or a file beside it was (checksum)")
+            raise ValueError("was changed since it was exported, or a file next to it was (checksum)")
         return motion
 
     def sent(self, row: int, added: Array, clamp: bool) -> Array:
@@ -726,7 +728,7 @@ class StandIn:
 def main(arguments: list[str] | None = None) -> int:
     """The command line."""
     parser = argparse.ArgumentParser(description="Play an exported motion on a robot.")
-    parser.add_argument("motion", help="motion.csv (with meta.json beside it) or motion.json")
+    parser.add_argument("motion", help="motion.csv (with meta.json next to it) or motion.json")
     parser.add_argument("--dry-run", action="store_true", help="without a robot, as fast as it goes")
     parser.add_argument("--robot", metavar="MODULE:CLASS", help="your class with read and write")
     parser.add_argument("--ramp", type=float, default=2.0, help="to the start [s]; 2")
@@ -738,7 +740,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--tilt-tolerance", type=float, default=1.0, help="of the trunk, from the simulation [rad]; 1")
     parser.add_argument("--no-feedback", action="store_true", help="without stabiliser, and without reading the trunk")
     parser.add_argument(
-        "--no-clamp", action="store_true", help="send positions beyond the joints' ranges, too, as told"
+        "--no-clamp", action="store_true", help="send positions beyond the joints' ranges, too, as commanded"
     )
     parser.add_argument("--hold", type=float, default=0.0, help="send the last row for longer [s]; 0")
     options = parser.parse_args(arguments)

@@ -1,4 +1,4 @@
-"""A motion at the rate of whoever is to play or look at it: what to send to the joints, and what the robot then does.
+"""A motion at the rate of the program that plays or shows it: what to send to the joints, and what the robot then does.
 
     samples = sample(motion, rate=500.0)
     samples.command_position, samples.command_torque     # (rows, joints) [rad], [Nm]
@@ -10,7 +10,7 @@ so that no impulse is lost or made up.
 Two kinds of command make a motion:
 
     measured   the angles and velocities that the joints had in the simulation, and the torque that they delivered
-    commanded  the angles and velocities that they were told in the simulation, and no torque
+    commanded  the angles and velocities that they were commanded in the simulation, and no torque
 
 A drive delivers ``kp (position - q) + kd (velocity - qd) + torque``. On the motion, q and qd are the measured ones: with
 measured commands the drive then delivers the recorded torque whatever its gains are; with commanded ones it does so if it
@@ -156,7 +156,7 @@ def sample(
                 field=field,
             )
     if motion.result.diverged or not all(np.isfinite(v).all() for v in motion.arrays.values() if v.dtype.kind == "f"):
-        raise LevadeError("motion: its simulation broke down, there is nothing to export; solve the task anew")
+        raise LevadeError("motion: its simulation broke down, there is nothing to export; solve the task again")
     timestep, steps = motion.timestep, motion.steps
     end = (steps if hold else motion.horizon_steps) * timestep
     time = _times(rate, end)

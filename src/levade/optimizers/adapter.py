@@ -77,7 +77,7 @@ class Adapted:
             scale(factor)
 
     def _next(self) -> Array:
-        """Candidates that costs have not been told of yet, from an earlier call or from the optimizer."""
+        """Candidates whose costs are not known yet, from an earlier call or from the optimizer."""
         if self._candidates is None:
             self._candidates = self._checked(self._optimizer.ask())
         return self._candidates

@@ -18,7 +18,7 @@ from levade.optimizers.blas import single_threaded
 from levade.optimizers.space import SearchSpace
 
 _FAR = 10.0
-"""Costs beyond so many times the median's distance from the best count as that: a trial that broke down costs 1e12, and
+"""Costs beyond this many times the median's distance from the best count as that: a trial that broke down costs 1e12, and
 on that scale all others are the same."""
 
 
@@ -93,7 +93,7 @@ class Sampler(ABC):
 
 
 def bounded(cost: Array) -> Array:
-    """Costs (n,) with what lies far beyond the others brought back to where they can still be told apart."""
+    """Costs (n,) with what lies far beyond the others brought back to where they can still be distinguished."""
     best = cost.min()
     reach = _FAR * (np.median(cost) - best)
     return np.minimum(cost, best + reach) if reach > 0 else cost

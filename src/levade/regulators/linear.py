@@ -84,7 +84,7 @@ class Linear:
         b: (ticks, states, joints). x: deviation of what is sensed, then of the trunk's height [m], its velocity in
             trunk axes [m/s], and the actuators' states. c: corrections [rad] in force.
         reference: (ticks of the whole motion, sensed).
-        state: Likewise, (ticks, states).
+        state: The whole state, (ticks, states).
         drives: (na,), largest state of each.
     """
 

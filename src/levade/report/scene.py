@@ -32,10 +32,10 @@ from levade.rotations import roll_pitch_yaw
 Rows = NDArray[np.int64]
 
 RATE = 250.0
-"""[Hz], at most so many poses a second: what is between them is interpolated."""
+"""[Hz], at most this many poses a second: what is between them is interpolated."""
 
 FRAMES = 3000
-"""At most so many poses."""
+"""At most this many poses."""
 
 _ARROW = 0.22
 """Length of an arrow as large as the robot's weight, by the reach of its legs."""
@@ -53,7 +53,7 @@ def scene_data(
         motion: A motion.
         like: A scene of another motion of the same model; shapes and colours are taken from it.
         model: The motion's, if it is compiled already.
-        rate: [Hz], at most so many poses a second.
+        rate: [Hz], at most this many poses a second.
 
     Raises:
         LevadeError: If the motion's model is damaged.

@@ -36,8 +36,8 @@ class Theme:
         muted: Text and axes, secondary text, grid lines.
         grid: Text and axes, secondary text, grid lines.
         accent: Controls and the time cursor.
-        good: Success and failure (always beside a word).
-        bad: Success and failure (always beside a word).
+        good: Success and failure (always next to a word).
+        bad: Success and failure (always next to a word).
         measured: Lines that belong to no leg. limit is also the shade beyond a limit.
         reference: Lines that belong to no leg. limit is also the shade beyond a limit.
         goal: Lines that belong to no leg. limit is also the shade beyond a limit.

@@ -76,7 +76,7 @@ class Terrain:
             raise LevadeError(f"terrain.position: {list(self.position)} should be finite numbers")
 
     def height(self, x: Array, y: Array) -> Array:
-        """[m], the highest point of the field's cell below each x, y; 0 beside the field."""
+        """[m], the highest point of the field's cell below each x, y; 0 outside the field."""
         heights = np.array(self.heights)[::-1]  # now from the least y
         rows, columns = heights.shape
         column = (x - self.position[0] + self.size[0] / 2) / self.size[0] * (columns - 1)

@@ -136,7 +136,7 @@ def _check(simulation: RecordedSimulation, rate: float, bound: float, runs: int)
         )
     if motion.result.diverged:
         raise LevadeError(
-            "stabilise: the motion's simulation broke down, there is nothing to hold; solve the task anew"
+            "stabilise: the motion's simulation broke down, there is nothing to hold; solve the task again"
         )
     if not simulation.criteria:
         raise LevadeError(f"stabilise: the task {simulation.task.name} has no success criteria to choose by")

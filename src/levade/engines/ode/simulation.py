@@ -3,7 +3,7 @@
 simulation = Simulation(multibody, Ode(), timestep=0.002)
 record = simulation.run(qpos, qvel, act, position, velocity)
 
-The trials share every numpy call, but no number: a trial gives the same bits alone, beside others, and in another
+The trials share every numpy call, but no number: a trial gives the same bits alone, among others, and in another
 process. Time costs mostly ODE: about 0.1 ms a step and trial for a robot of 12 joints on its feet.
 """
 
@@ -100,8 +100,8 @@ class Simulation:
 
         Args:
             qpos: Where they start, in the model's order, shape (1 or n, nq).
-            qvel: Likewise, shape (1 or n, nv).
-            act: Likewise, shape (1 or n, na).
+            qvel: Velocities at the start, shape (1 or n, nv).
+            act: Actuator states at the start, shape (1 or n, na).
             position: Desired hinge angles [rad], shape (n, steps, J).
             velocity: Desired hinge speeds [rad/s], shape (n, steps, J).
             geoms: Geoms of the model whose contact forces are recorded.

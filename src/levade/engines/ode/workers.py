@@ -1,6 +1,6 @@
 """Processes that share the trials of a roll-out: ODE draws from one random generator a process, so threads will not do.
 
-The processes are started with this module as their program, not forked: whoever calls may have threads, and needs no
+The processes are started with this module as their program, not forked: the caller may have threads, and needs no
 ``if __name__ == "__main__"``. What they compute does not depend on how many there are.
 """
 

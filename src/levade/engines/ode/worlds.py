@@ -163,14 +163,14 @@ class Worlds:
         ode.dJointGroupEmpty(group)
 
     def forces(self, count: int) -> Array:
-        """(count, 3) [N], world axes, on the first shape of each contact that was told of."""
+        """(count, 3) [N], world axes, on the first shape of each contact that was reported."""
         return self._feedback[:count, :3].astype(float)
 
     def _feedback_at(self, row: int) -> int:
         return self._feedback.ctypes.data + row * self._feedback.strides[0]
 
     def make_room(self, contacts: int) -> None:
-        """Have room for the forces of so many contacts: before the step, since joints keep the addresses."""
+        """Have room for the forces of this many contacts: before the step, since joints keep the addresses."""
         if len(self._feedback) < contacts:
             self._feedback = np.zeros((contacts, 16), self._ode.dtype)
 
