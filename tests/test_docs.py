@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import os
 import re
 import subprocess
@@ -112,3 +113,58 @@ def test_your_robot_step_by_step(
     command = [sys.executable, "-m", "levade", "robots", "inspect", "pony.urdf"]
     environment = {**os.environ, "PYTHONPATH": str(ROOT / "src")}
     assert said in subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout
+
+
+@pytest.mark.slow
+def test_get_started_step_by_step(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    follow("docs/get-started.md", tmp_path)
+    assert "120\n" in capsys.readouterr().out
+    assert {"rearing", "lower", "mine.yaml", "from-python.npz"} <= {path.name for path in tmp_path.iterdir()}
+    assert (tmp_path / "rearing" / "report.html").is_file()
+
+
+def test_the_numbers_of_the_readme_are_those_of_the_results() -> None:
+    """After new results: python benchmarks/readme.py --write."""
+    spec = importlib.util.spec_from_file_location("readme_numbers", ROOT / "benchmarks" / "readme.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert text == module.with_numbers(text)
+    assert text.count("\n") <= 120
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "smaller"),
+    [
+        ("first_motion", "TRIALS = 60"),
+        ("compare_optimizers", "TASK, OPTIMIZERS, SEEDS, TRIALS = 'rearing', ('cma-aimed', 'cem'), 1, 24"),
+    ],
+)
+def test_a_notebook_runs(name: str, smaller: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """At reduced size, in a kernel of its own."""
+    nbformat = pytest.importorskip("nbformat", reason="notebooks: pip install levade[notebooks]")
+    nbclient = pytest.importorskip("nbclient", reason="notebooks: pip install levade[notebooks]")
+    monkeypatch.setenv("PYTHONPATH", str(ROOT / "src"))
+    notebook = nbformat.read(ROOT / "examples" / "notebooks" / f"{name}.ipynb", as_version=4)
+    (settings,) = (cell for cell in notebook.cells if "parameters" in cell.metadata.get("tags", []))
+    settings.source = smaller
+    nbclient.NotebookClient(notebook, timeout=120, resources={"metadata": {"path": str(tmp_path)}}).execute()
+    outputs = [output for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs]
+    shown = {kind for output in outputs for kind in output.get("data", {})}
+    assert "image/png" in shown
+    if name == "first_motion":
+        pages = [output["data"]["text/html"] for output in outputs if "text/html" in output.get("data", {})]
+        assert "srcdoc=" in pages[0]
+        assert "levade.report();" in pages[0]  # the page's script is in it
+
+
+def test_the_citation_is_of_this_version() -> None:
+    from levade.version import __version__
+
+    assert yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))["version"] == __version__

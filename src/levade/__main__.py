@@ -1,4 +1,4 @@
-"""``python -m levade``"""
+"""Run the command line: ``python -m levade``."""
 
 from levade.cli import main
 

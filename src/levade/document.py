@@ -65,7 +65,11 @@ def read_yaml(path: Path, *, like: str = "") -> dict[str, Any]:
 
 
 def read_text(path: Path) -> str:
-    """Read the text of a file. Raises LevadeError if it cannot be read, or is far larger than a document."""
+    """Read the text of a file.
+
+    Raises:
+        LevadeError: If it cannot be read, or is far larger than a document.
+    """
     try:
         with path.open(encoding="utf-8") as file:
             text = file.read(_LARGEST + 1)
@@ -236,9 +240,7 @@ _CLASS = re.compile(r"([A-Z][a-z]+){2,}")
 
 
 def first_mistake(error: Any) -> str:
-    """One line about the first mistake of a pydantic.ValidationError: the path of its key, what is wrong, what is
-    there.
-    """
+    """Say the first mistake of a pydantic.ValidationError in one line: the path of its key, what is wrong, what is there."""
     # pydantic tries each alternative of a union, and names it in the path; the one that it got furthest with was meant
     tags = ("str", "bool", "float", "int")
     paths = [
@@ -261,8 +263,9 @@ def first_mistake(error: Any) -> str:
 
 
 def kind_of(value: Any) -> str:
-    """Say what a value is, for a message: itself if it is short, else how it begins. Never a line end, nor a command to a
-    terminal.
+    """Say what a value is, for a message: itself if it is short, else how it begins.
+
+    The text never holds a line end or a command to a terminal.
     """
     names = {type(None): "empty", dict: "a table", list: "a list", bool: "true or false"}
     if type(value) in names:
@@ -277,9 +280,7 @@ def kind_of(value: Any) -> str:
 
 
 def _check_keys(kind: Any, content: Any, where: str) -> None:
-    """Unknown keys of a dataclass, and of the dataclasses within it; and true or false for a number, which Python
-    allows.
-    """
+    """Refuse unknown keys of a dataclass and of those within it, and true or false for a number, which Python allows."""
     options = [kind, *typing.get_args(kind)] if _is_union(kind) else [kind]
     if isinstance(content, bool) and bool not in options and (float in options or int in options):
         raise LevadeError(f"{where}: should be a number, is {kind_of(content)}")

@@ -21,7 +21,10 @@ from levade.rotations import rotate
 class TorqueCurve:
     """Torque that a joint's linkage can transmit, over its angle: ``peak * cos(rate * (|angle| - centre))``.
 
-    peak: [Nm]; rate: [-]; centre: [rad], the angle of the best lever arm.
+    Attributes:
+        peak: [Nm].
+        rate: [-].
+        centre: [rad], the angle of the best lever arm.
     """
 
     peak: float
@@ -37,11 +40,17 @@ class TorqueCurve:
 class JointLimits:
     """What the joints may do; infinite where the robot's description gives no limit.
 
-    lower, upper: (joints,) [rad]. velocity: (joints,) [rad/s]. torque: (joints,) [Nm].
-    torque_curves: joint index -> limit over the joint's angle, in addition to ``torque``.
-    stall_torque: (joints,) [Nm] and no_load_speed: (joints,) [rad/s], the ends of the line that limits the torque while
-    driving; None where the actuators have none.
-    assumed_velocity, assumed_torque: indices of the joints whose limit no file gives: `levade.robots.gains` makes it up.
+    Attributes:
+        lower: (joints,) [rad].
+        upper: (joints,) [rad].
+        velocity: (joints,) [rad/s].
+        torque: (joints,) [Nm].
+        torque_curves: Joint index -> limit over the joint's angle, in addition to ``torque``.
+        stall_torque: Torque at rest [Nm], shape (joints,): one end of the line that limits the torque while driving.
+            None where the actuators have no such line.
+        no_load_speed: Speed without torque [rad/s], shape (joints,): the other end of the line.
+        assumed_velocity: Indices of the joints whose limit no file gives: `levade.robots.gains` makes it up.
+        assumed_torque: Indices of the joints whose limit no file gives: `levade.robots.gains` makes it up.
     """
 
     lower: Array
@@ -84,9 +93,14 @@ class JointLimits:
 class LegGeometry:
     """Where a leg's joints and foot are in the trunk frame with every joint at zero.
 
-    side: "left" or "right". end: "front" or "hind". joints: indices in the robot's joint order, from the trunk outward.
-    anchors: (k, 3) [m], a point on each joint's axis. axes: (k, 3), unit. foot: (3,) [m], centre of the foot.
-    sole: [m], how far the foot reaches below its centre, standing in the neutral posture.
+    Attributes:
+        side: "left" or "right".
+        end: "front" or "hind".
+        joints: Indices in the robot's joint order, from the trunk outward.
+        anchors: (k, 3) [m], a point on each joint's axis.
+        axes: (k, 3), unit.
+        foot: (3,) [m], centre of the foot.
+        sole: [m], how far the foot reaches below its centre, standing in the neutral posture.
     """
 
     name: str

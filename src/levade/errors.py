@@ -55,8 +55,9 @@ class LevadeError(Exception):
 
 
 def one_line(text: str) -> str:
-    r"""Make text fit for a line on a terminal: line ends become spaces, control characters are escaped, and of a very long
-    one the middle is left out.
+    r"""Make text fit for a line on a terminal.
+
+    Line ends become spaces, control characters are escaped, and a very long text loses its middle.
 
     >>> one_line("joint \x1b[31mknee")
     'joint \\x1b[31mknee'

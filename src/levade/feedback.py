@@ -37,10 +37,12 @@ META = ("rate", "period_steps", "bound", "sensed")
 class Feedback:
     """A stabiliser.
 
-    gain: (gains, joints, sensed + joints) [rad per unit sensed; rad/rad for the correction in force].
-    reference: (ticks, sensed), what is sensed on the motion itself; or (n, ticks, sensed), on that of each of n runs.
-    period: [s], from tick to tick; tick 0 is at 0 s.
-    bound: [rad], on each joint's correction.
+    Attributes:
+        gain: (gains, joints, sensed + joints) [rad per unit sensed; rad/rad for the correction in force].
+        reference: (ticks, sensed), what is sensed on the motion itself; or (n, ticks, sensed), on that of each of n
+            runs.
+        period: [s], from tick to tick; tick 0 is at 0 s.
+        bound: [rad], on each joint's correction.
     """
 
     gain: Array
@@ -49,7 +51,13 @@ class Feedback:
     bound: float
 
     def correction(self, tick: int, measured: Array, last: Array) -> Array:
-        """(..., joints) [rad], from the next tick on. measured: (..., sensed). last: (..., joints) [rad], in force now."""
+        """(..., joints) [rad], from the next tick on.
+
+        Args:
+            tick: Number of the tick.
+            measured: (..., sensed).
+            last: (..., joints) [rad], in force now.
+        """
         row = min(tick, self.reference.shape[-2] - 1)
         off = np.concatenate([measured - self.reference[..., row, :], last], axis=-1)
         gain = self.gain[min(tick, len(self.gain) - 1)]
@@ -57,7 +65,11 @@ class Feedback:
         return np.clip(np.einsum("...c,jc->...j", off, gain), -self.bound, self.bound)
 
     def steps(self, timestep: float) -> int:
-        """Physics steps in a period. Raises LevadeError if they do not make it up."""
+        """Physics steps in a period.
+
+        Raises:
+            LevadeError: If they do not make it up.
+        """
         steps = round(self.period / timestep)
         if steps < 1 or abs(steps * timestep - self.period) > 1e-9:
             raise LevadeError(
@@ -90,20 +102,32 @@ class Feedback:
 
 
 def period_steps(rate: float, timestep: float) -> int:
-    """Physics steps from tick to tick at a rate [Hz]; the nearest number, one at least. timestep: [s]."""
+    """Return the physics steps from tick to tick at a rate: the nearest number, at least one.
+
+    Args:
+        rate: Ticks a second [Hz].
+        timestep: [s].
+    """
     return max(1, round(1.0 / (rate * timestep)))
 
 
 def up_in_trunk(quaternion: Array) -> Array:
-    """Which way is up in trunk axes, (..., 3): attitude without yaw. quaternion: (..., 4), trunk frame to world."""
+    """Which way is up in trunk axes, (..., 3): attitude without yaw.
+
+    Args:
+        quaternion: (..., 4), trunk frame to world.
+    """
     return rotate(conjugate(quaternion), np.array([0.0, 0.0, 1.0]))
 
 
 def sensed(quaternion: Array, rate: Array, joint_position: Array, joint_velocity: Array) -> Array:
     """What a robot senses, (..., 6 + 2 joints).
 
-    quaternion: (..., 4), trunk frame to world. rate: (..., 3) [rad/s], angular velocity in trunk axes, a gyroscope's.
-    joint_position, joint_velocity: (..., joints) [rad], [rad/s].
+    Args:
+        quaternion: (..., 4), trunk frame to world.
+        rate: (..., 3) [rad/s], angular velocity in trunk axes, a gyroscope's.
+        joint_position: (..., joints) [rad], [rad/s].
+        joint_velocity: (..., joints) [rad], [rad/s].
     """
     return np.concatenate([up_in_trunk(quaternion), rate, joint_position, joint_velocity], axis=-1)
 
@@ -122,8 +146,12 @@ def names(joints: Sequence[str]) -> list[str]:
 class SensorErrors:
     """How wrong a robot's sensors are; uniform within plus and minus each.
 
-    attitude: [rad] and angular velocity rate: [rad/s], constant through a run. joint: [rad], an encoder's offset, constant.
-    rate_noise: [rad/s] and joint_noise: [rad/s], of angular and joint velocities, another one each tick.
+    Attributes:
+        attitude: Error of the attitude [rad], constant through a run.
+        rate: Error of the angular velocity [rad/s], constant through a run.
+        joint: Offset of each encoder [rad], constant through a run.
+        rate_noise: Noise of the angular velocity [rad/s], drawn for each tick.
+        joint_noise: Noise of the joint velocities [rad/s], drawn for each tick.
     """
 
     attitude: float = 0.01
@@ -144,8 +172,13 @@ class SensorErrors:
 class Correcting:
     """Runs under feedback, tick by tick: keeps the corrections, which reach the servos late by each run's delay.
 
-    steps: of the roll-out. timestep: [s]. delay: (n,) [s]. lower, upper: (joints,) [rad]: no correction takes a reference out
-    of these, or further out. errors: (n, ticks, sensed), added to what is sensed; none if None.
+    Args:
+        steps: Of the roll-out.
+        timestep: [s].
+        delay: (n,) [s].
+        lower: (joints,) [rad]: no correction takes a reference out of these, or further out.
+        upper: (joints,) [rad]: no correction takes a reference out of these, or further out.
+        errors: (n, ticks, sensed), added to what is sensed; none if None.
     """
 
     def __init__(
@@ -174,9 +207,13 @@ class Correcting:
             yield tick, slice(first, min(first + self.period, self._steps))
 
     def corrected(self, tick: int, rows: slice, measured: Array, told: Array) -> Array:
-        """What the servos are told in the steps from a tick to the next, (n, rows, joints) [rad].
+        """What the servos are commanded in the steps from a tick to the next, (n, rows, joints) [rad].
 
-        measured: (n, sensed), at the tick. told: (n or 1, rows, joints), what they are told without feedback.
+        Args:
+            tick: Number of the tick.
+            rows: Rows of the reference that the correction is added to.
+            measured: (n, sensed), at the tick.
+            told: (n or 1, rows, joints), what they are commanded without feedback.
         """
         if self.errors is not None:
             measured = measured + self.errors[:, min(tick, self.errors.shape[1] - 1)]

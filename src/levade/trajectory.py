@@ -30,14 +30,15 @@ from levade.rotations import conjugate, cross, rotate
 class JointReference:
     """Desired joint motion of n trials.
 
-    position: (n, steps, joints) [rad], desired angle during each step.
-    velocity: (n, steps, joints) [rad/s], its analytic time derivative.
-    timestep: [s].
-    horizon_steps: number of rows up to the horizon T; later rows are the hold.
-    before: (joints,) or (n, joints) [rad], what the joints were told until the first row came, at rest; None where it is not
-        known.
-    horizons: (n,) rows up to the horizon of each trial, at most ``horizon_steps``; None where all have that. After a trial's
-        own horizon and a hold as long as that of the longest, its last row repeats, and is not simulated.
+    Attributes:
+        position: (n, steps, joints) [rad], desired angle during each step.
+        velocity: (n, steps, joints) [rad/s], its analytic time derivative.
+        timestep: [s].
+        horizon_steps: Number of rows up to the horizon T; later rows are the hold.
+        before: (joints,) or (n, joints) [rad], what the joints were commanded until the first row came, at rest; None where
+            it is not known.
+        horizons: (n,) rows up to the horizon of each trial, at most ``horizon_steps``; None where all have that. After
+            a trial's own horizon and a hold as long as that of the longest, its last row repeats, and is not simulated.
     """
 
     position: Array
@@ -49,6 +50,7 @@ class JointReference:
 
     @property
     def steps(self) -> int:
+        """Physics steps of a trial."""
         return self.position.shape[1]
 
     @property
@@ -108,26 +110,28 @@ class JointReference:
 class Trajectories:
     """What n trials did, and everything a cost may look at.
 
-    joint_position: (n, steps, joints) [rad] at the end of each step.
-    joint_velocity: (n, steps, joints) [rad/s].
-    joint_torque: (n, steps, joints) [Nm], delivered by the actuators during each step.
-    trunk_position: (n, steps, 3) [m], origin of the trunk frame, in the world.
-    trunk_quaternion: (n, steps, 4), trunk frame to world, w-x-y-z, unit length.
-    trunk_linear_velocity: (n, steps, 3) [m/s], of the frame origin, in world axes.
-    trunk_angular_velocity: (n, steps, 3) [rad/s], in trunk axes: what a gyroscope on the trunk reads.
-    reference: what was asked of the joints, same n and steps.
-    embodiment: what is known of the robot: its limits, legs and where its trunk's centre of mass is.
-    timestep: [s]. horizon_steps: rows up to the horizon T.
-    diverged: (n,) bool, trials whose simulation broke down; their later rows repeat the last sound one.
-    foot_contact_force: (n, steps, feet, 3) [N], net contact force on each foot in world axes, in the robot's leg order;
-        None unless asked for.
-    body_contact_force: body name -> (n, steps) [N], magnitude of the net force that the ground and the obstacles put on
-        the body; holds the bodies that were asked for.
-    self_distance: (n, steps) [m], least distance between two parts of the robot at the end of each step; negative where they
-        are in each other, and never more than the clearance that was asked for (`levade.engines.clearance`). None unless
-        asked for.
-    begin: (n,) the row in which each trial begins; rows before it repeat that one and do not count. None where all begin in
-        row 0.
+    Attributes:
+        joint_position: (n, steps, joints) [rad] at the end of each step.
+        joint_velocity: (n, steps, joints) [rad/s].
+        joint_torque: (n, steps, joints) [Nm], delivered by the actuators during each step.
+        trunk_position: (n, steps, 3) [m], origin of the trunk frame, in the world.
+        trunk_quaternion: (n, steps, 4), trunk frame to world, w-x-y-z, unit length.
+        trunk_linear_velocity: (n, steps, 3) [m/s], of the frame origin, in world axes.
+        trunk_angular_velocity: (n, steps, 3) [rad/s], in trunk axes: what a gyroscope on the trunk reads.
+        reference: What was asked of the joints, same n and steps.
+        embodiment: What is known of the robot: its limits, legs and where its trunk's centre of mass is.
+        timestep: [s].
+        horizon_steps: Rows up to the horizon T.
+        diverged: (n,) bool, trials whose simulation broke down; their later rows repeat the last sound one.
+        foot_contact_force: (n, steps, feet, 3) [N], net contact force on each foot in world axes, in the robot's leg
+            order; None unless asked for.
+        body_contact_force: Body name -> (n, steps) [N], magnitude of the net force that the ground and the obstacles
+            put on the body; holds the bodies that were asked for.
+        self_distance: (n, steps) [m], least distance between two parts of the robot at the end of each step; negative
+            where they are in each other, and never more than the clearance that was asked for
+            (`levade.engines.clearance`). None unless asked for.
+        begin: (n,) the row in which each trial begins; rows before it repeat that one and do not count. None where all
+            begin in row 0.
     """
 
     joint_position: Array
@@ -240,10 +244,12 @@ class Trajectories:
 
     @property
     def n(self) -> int:
+        """Number of trials."""
         return self.joint_position.shape[0]
 
     @property
     def steps(self) -> int:
+        """Physics steps of a trial."""
         return self.joint_position.shape[1]
 
     @cached_property

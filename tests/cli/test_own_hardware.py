@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import re
 from pathlib import Path
@@ -10,6 +11,8 @@ import mujoco
 import numpy as np
 import pytest
 
+from levade import hardware
+from levade.cli import pursuing
 from levade.motions import Motion
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -17,8 +20,11 @@ DOCS = Path(__file__).parents[2] / "docs"
 pytestmark = pytest.mark.slow
 
 
-def test_a_task_and_a_robot_of_one_s_own(levade, tmp_path: Path, quadruped: type) -> None:
+def test_a_task_and_a_robot_of_one_s_own(
+    levade, tmp_path: Path, quadruped: type, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """A URDF says torque and speed limits and ranges; MuJoCo alone says whether the motion keeps them."""
+    monkeypatch.setattr(pursuing, "pursue", functools.partial(hardware.pursue, runs=60))
     text = (DOCS / "your-task.md").read_text(encoding="utf-8")
     bow = next(block for block in re.findall(r"```yaml\n(.*?)```", text, re.S) if block.startswith("# bow.yaml"))
     (tmp_path / "bow.yaml").write_text(bow)

@@ -49,8 +49,8 @@ def test_a_motion_is_shown_as_its_report(levade) -> None:
         ("view hyq2max --port 70000", "Invalid value for '--port'"),
         ("view mine.html", "mine.html: cannot be read as a motion"),
         ("view", "Missing argument"),
-        ("solve rearing --watch-port 8000", "--watch-port: of the page, so say --watch too"),
-        ("solve rearing --open --keep-open", "--open and --keep-open: of the page, so say --watch too"),
+        ("solve rearing --watch-port 8000", "--watch-port only works with --watch"),
+        ("solve rearing --open --keep-open", "--open and --keep-open only work with --watch"),
         ("solve rearing --watch --watch-host no.such.host.invalid", "no.such.host.invalid:0: cannot be listened at"),
     ],
 )

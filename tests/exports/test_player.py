@@ -445,7 +445,7 @@ def test_its_command_line(
         ("motion.csv", "", "motion.csv: not a whole table; export the motion again"),
         ("motion.csv", "a,b\n1,2\n3", "motion.csv: not a whole table; export the motion again"),
         ("motion.csv", "a,b\n1,2\n", r"motion.csv: has no 'command/lf_haa/position'; give motion.csv or motion.json"),
-        ("meta.json", "[]", "motion.csv: it, or a file beside it, is damaged .*; export the motion again"),
+        ("meta.json", "[]", "motion.csv: it, or a file next to it, is damaged .*; export the motion again"),
     ],
 )
 def test_files_that_are_not_of_an_export_are_said(

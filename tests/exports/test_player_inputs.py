@@ -262,7 +262,7 @@ def test_one_row_changed_by_a_digit_is_said(copied: Path, capsys: pytest.Capture
     assert main([str(table), "--dry-run"]) == 2
     said = capsys.readouterr().err
     assert said == (
-        f"player: {table}: was changed since it was exported, or a file beside it was (checksum); export the motion again\n"
+        f"player: {table}: was changed since it was exported, or a file next to it was (checksum); export the motion again\n"
     )
 
 

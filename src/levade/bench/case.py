@@ -14,7 +14,11 @@ from levade.tasks import Task
 
 
 def run_case(case: Case) -> Result:
-    """Solve one case on one thread. Raises LevadeError for whatever does not fit together."""
+    """Solve one case on one thread.
+
+    Raises:
+        LevadeError: For whatever does not fit together.
+    """
     objective = _objective(case)
     engine = objective.engine
     at_success: tuple[int, float, float] | None = None

@@ -33,7 +33,11 @@ PLAN, RESULTS, PARQUET, TABLE = "bench.yaml", "results.csv", "results.parquet", 
 
 @dataclass(frozen=True)
 class Progress:
-    """How far a bench is. result: the latest one; None before the first."""
+    """How far a bench is.
+
+    Attributes:
+        result: The latest one; None before the first.
+    """
 
     done: int
     total: int
@@ -59,12 +63,21 @@ def bench(
 ) -> Bench:
     """Run the cases of a plan that have no result in the directory yet.
 
-    plan: None goes on with the directory's own. processes: cases at a time, each on one thread; results do not depend
-    on it. force: begin anew. others: results that will be reported beside these.
-    observe: called before the first case, after each, and about once a second between.
-    KeyboardInterrupt, from it or from the keyboard, ends the bench; what is done is kept.
-    Raises LevadeError before anything is written if a case does not fit together, or if results in the directory are of
-    other tasks, budgets or versions under the same names, or if one of ``others`` has the name of a case.
+    Args:
+        plan: What to run. None continues the directory's own plan.
+        directory: Directory with the results, which is made if need be.
+        processes: Cases at a time, each on one thread; results do not depend on it.
+        force: Whether to begin again and lose the results in the directory.
+        others: Results that will be reported next to these.
+        observe: Called before the first case, after each, and about once a second between. KeyboardInterrupt, from it
+            or from the keyboard, ends the bench; what is done is kept.
+
+    Returns:
+        The results, and how many cases are left.
+
+    Raises:
+        LevadeError: Before anything is written, if a case does not fit together, if results in the directory belong to
+            other tasks, budgets or versions under the same names, or if one of ``others`` has the name of a case.
     """
     plan = plan or plan_of(directory)
     wanted = cases(plan)
@@ -119,7 +132,11 @@ def _bench(
 
 
 def plan_of(directory: Path) -> Plan:
-    """The plan that a directory was last called with. Raises LevadeError if there is none."""
+    """The plan that a directory was last called with.
+
+    Raises:
+        LevadeError: If there is none.
+    """
     if not (directory / PLAN).is_file():
         raise LevadeError(
             f"{directory}: no bench to go on with",
@@ -129,10 +146,13 @@ def plan_of(directory: Path) -> Plan:
 
 
 def report(results: Sequence[Result], directory: Path, *, format: str = "pdf") -> tuple[list[Path], list[str]]:
-    """Write the table, the figures and the Parquet file. Returns what was written, and what could not be for want of an
-    extra, in words.
+    """Write the table, the figures and the Parquet file.
 
-    Raises LevadeError if a file cannot be written.
+    Returns:
+        What was written, and what could not be for want of an extra, in words.
+
+    Raises:
+        LevadeError: If a file cannot be written.
     """
     table = directory / TABLE
     try:
@@ -168,7 +188,7 @@ def _begin(directory: Path, stack: ExitStack) -> None:
 
 
 def _check_others(others: Sequence[Result], wanted: Sequence[Case], before: Sequence[Result]) -> None:
-    """Raise LevadeError if a result that is reported beside these has the name of one."""
+    """Raise LevadeError if a result that is reported next to these has the name of one."""
     keys = {case.key for case in wanted} | {result.key for result in before}
     for other in others:
         if other.key in keys:

@@ -36,9 +36,13 @@ _MARKERS = "osD^vP*X"
 
 
 def draw(results: Sequence[Result], directory: Path, *, format: str = "pdf") -> list[Path]:
-    """Write ``trials`` and ``steps`` to a directory. Returns what was written.
+    """Write ``trials`` and ``steps`` to a directory.
 
-    Raises LevadeError if the format is unknown, the directory cannot be written, or matplotlib is missing.
+    Returns:
+        What was written.
+
+    Raises:
+        LevadeError: If the format is unknown, the directory cannot be written, or matplotlib is missing.
     """
     groups = grouped(results)
     names = list(dict.fromkeys(name for optimizers in groups.values() for name in optimizers))

@@ -2,7 +2,7 @@
 
 The expected running time (ERT) is that of COCO (Hansen et al., COCO: a platform for comparing continuous optimizers in a
 black-box setting, 2021): of all runs of a case, what was spent until a first success or the end of the run, over the number
-of successes. It is what one expects to spend until a success when starting anew after each run that fails.
+of successes. It is what one expects to spend until a success when starting again after each run that fails.
 """
 
 from __future__ import annotations
@@ -38,9 +38,13 @@ class Interval:
 class Summary:
     """What the runs of one task, robot and optimizer say.
 
-    median, least, most: trials to success over all runs; infinite for runs without.
-    ert: what is spent (a key of `BUDGETS`) -> expected running time. cost: quartiles of the final cost, (3,).
-    until: what the runs went on to, all alike or "mixed".
+    Attributes:
+        median: Trials to success over all runs; infinite for runs without.
+        least: Trials to success over all runs; infinite for runs without.
+        most: Trials to success over all runs; infinite for runs without.
+        ert: What is spent (a key of `BUDGETS`) -> expected running time.
+        cost: Quartiles of the final cost, (3,).
+        until: What the runs went on to, all alike or "mixed".
     """
 
     task: str
@@ -57,7 +61,12 @@ class Summary:
 
 
 def spent(results: Sequence[Result], what: str) -> tuple[Array, NDArray[np.bool_]]:
-    """(n,) spent until success or else the end, and (n,) whether there was success. what: a key of `BUDGETS`."""
+    """(n,) spent until success or else the end, and (n,) whether there was success.
+
+    Args:
+        results: Results of runs.
+        what: A key of `BUDGETS`.
+    """
     to_success = [getattr(result, f"{what}_to_success") for result in results]
     whole = [getattr(result, what) for result in results]
     success = np.array([result.success for result in results], dtype=bool)

@@ -33,13 +33,16 @@ _MOST_SEEDS = 1_000_000
 class Plan:
     """What a bench runs.
 
-    tasks: names or files. robots: names or files; each task's own if there are none.
-    optimizers: names, or a name of one's own -> path in the task -> value; each task's own if there are none.
-    seeds: how many, from 0, or which. trials, steps: budget of each run, in trials (the task's own if None) and in
-    physics steps (any number if None).
-    until: "success": a run ends as the task says, at its first success and what it polishes. "budget": it goes on to the
-    end of its budget.
-    changes: path in every task -> value.
+    Attributes:
+        tasks: Names or files.
+        robots: Names or files; each task's own if there are none.
+        optimizers: Names, or a name of one's own -> path in the task -> value; each task's own if there are none.
+        seeds: How many, from 0, or which.
+        trials: Budget of each run, in trials (the task's own if None) and in physics steps (any number if None).
+        steps: Budget of each run, in trials (the task's own if None) and in physics steps (any number if None).
+        until: "success": a run ends as the task says, at its first success and what it polishes. "budget": it goes on
+            to the end of its budget.
+        changes: Path in every task -> value.
     """
 
     tasks: tuple[str, ...]
@@ -71,12 +74,18 @@ class Plan:
 
     @property
     def seed_list(self) -> tuple[int, ...]:
+        """The seeds, one by one."""
         return tuple(range(self.seeds)) if isinstance(self.seeds, int) else self.seeds
 
 
 @dataclass(frozen=True)
 class Case:
-    """One run of a bench. task: with every change applied. budget_steps: physics steps; None for any number."""
+    """One run of a bench.
+
+    Attributes:
+        task: With every change applied.
+        budget_steps: Physics steps; None for any number.
+    """
 
     task: Task
     robot: str
@@ -100,7 +109,11 @@ class Case:
 
 
 def read_plan(path: Path) -> Plan:
-    """A plan from its YAML file. Raises LevadeError."""
+    """A plan from its YAML file.
+
+    Raises:
+        LevadeError: If it cannot be done.
+    """
     return build(Plan, read_yaml(path, like="tasks and optimizers"), where=str(path))
 
 
@@ -113,7 +126,11 @@ def plan_to_yaml(plan: Plan) -> str:
 
 
 def cases(plan: Plan) -> list[Case]:
-    """Every case, in the plan's order. Raises LevadeError for whatever does not fit together."""
+    """Every case, in the plan's order.
+
+    Raises:
+        LevadeError: For whatever does not fit together.
+    """
     found: list[Case] = []
     named: dict[tuple[str, str], tuple[str, str | None]] = {}
     for task in plan.tasks:

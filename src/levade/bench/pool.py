@@ -29,10 +29,17 @@ _FOR_THE_PARENT = (signal.SIGINT, signal.SIGTERM)
 def run_cases(
     cases: Sequence[Case], *, processes: int, waiting: Callable[[], object] | None = None
 ) -> Iterator[tuple[Case, Result]]:
-    """Each case and its result, as they come.
+    """Yield each case and its result, as they come.
 
-    waiting: called about once a second while there is none. Ends the processes when it ends, however it does.
-    Raises LevadeError if a case does not fit together or a process dies.
+    The processes end when the iteration does, however it ends.
+
+    Args:
+        cases: Cases to run.
+        processes: Cases at a time.
+        waiting: Called about once a second while there is no result.
+
+    Raises:
+        LevadeError: If a case does not fit together or a process dies.
     """
     left = list(reversed(cases))
     workers: list[_Worker] = []
@@ -73,7 +80,11 @@ class _Worker:
         self.connection.send(case)
 
     def take(self) -> tuple[Case, Result]:
-        """What it has sent. Raises LevadeError if that is an error, or nothing because it died."""
+        """What it has sent.
+
+        Raises:
+            LevadeError: If that is an error, or nothing because it died.
+        """
         case, self.case = self.case, None
         assert case is not None
         try:

@@ -22,13 +22,22 @@ from levade.optimizers import canonical
 class Result:
     """What came of one run.
 
-    budget_trials, budget_steps: the most it might spend; no limit where None.
-    trials, steps: spent, physics steps of all roll-outs. core_seconds: CPU time of the search.
-    trials_to_success, steps_to_success, core_seconds_to_success: spent when a trial first met every success criterion, in
-    whole generations; None if none did. cost_to_success: of the best trial at that moment.
-    success: whether one did. cost: of the run's best trial at its end, by the task's own weights.
-    stopped: why it ended: "success" (and polished), "budget" or "steps".
-    checksum: of the task and the budget. versions: of what made it.
+    Attributes:
+        budget_trials: The most it might spend; no limit where None.
+        budget_steps: The most it might spend; no limit where None.
+        trials: Spent, physics steps of all roll-outs.
+        steps: Spent, physics steps of all roll-outs.
+        core_seconds: CPU time of the search.
+        trials_to_success: Spent when a trial first met every success criterion, in whole generations; None if none did.
+        steps_to_success: Spent when a trial first met every success criterion, in whole generations; None if none did.
+        core_seconds_to_success: Spent when a trial first met every success criterion, in whole generations; None if
+            none did.
+        cost_to_success: Of the best trial at that moment.
+        success: Whether one did.
+        cost: Of the run's best trial at its end, by the task's own weights.
+        stopped: Why it ended: "success" (and polished), "budget" or "steps".
+        checksum: Of the task and the budget.
+        versions: Of what made it.
     """
 
     task: str
@@ -63,7 +72,11 @@ _KINDS = {field.name: str(field.type) for field in dataclasses.fields(Result)}
 
 
 def append(path: Path, result: Result) -> None:
-    """Add a row to a file, which is begun if need be. Raises LevadeError if it cannot be written."""
+    """Add a row to a file, which is begun if need be.
+
+    Raises:
+        LevadeError: If it cannot be written.
+    """
     new = not path.exists() or path.stat().st_size == 0
     text = (_line(COLUMNS) if new else "") + _line([_text(getattr(result, name)) for name in COLUMNS])
     try:
@@ -75,7 +88,11 @@ def append(path: Path, result: Result) -> None:
 
 
 def write(path: Path, results: Iterable[Result]) -> None:
-    """Replace a file by these rows, or leave it as it is. Raises LevadeError if it cannot be written."""
+    """Replace a file by these rows, or leave it as it is.
+
+    Raises:
+        LevadeError: If it cannot be written.
+    """
     lines = [_line(COLUMNS), *(_line([_text(getattr(result, name)) for name in COLUMNS]) for result in results)]
     try:
         writing.write_text(path, "".join(lines))
@@ -86,7 +103,8 @@ def write(path: Path, results: Iterable[Result]) -> None:
 def read(path: Path) -> list[Result]:
     """The rows of a file, without a last one that was cut off; of rows with one key, the first.
 
-    Raises LevadeError if the file cannot be read or is none of a bench.
+    Raises:
+        LevadeError: If the file cannot be read or is none of a bench.
     """
     try:
         text = path.read_bytes().decode("utf-8", errors="replace")
@@ -109,7 +127,11 @@ def read(path: Path) -> list[Result]:
 
 
 def write_parquet(path: Path, results: Sequence[Result]) -> None:
-    """Write rows to a Parquet file. Raises LevadeError if it cannot be written or pyarrow is missing."""
+    """Write rows to a Parquet file.
+
+    Raises:
+        LevadeError: If it cannot be written or pyarrow is missing.
+    """
     try:
         import pyarrow
         import pyarrow.parquet

@@ -20,7 +20,17 @@ from levade.errors import LevadeError, one_line
 
 app = typer.Typer(
     name="levade",
-    help="Whole-body, single-shot motions for legged robots: state the goal, get a motion.",
+    help="""Whole-body motions for legged robots: state the goal, get a motion.
+
+    \b
+    Begin:   levade solve rearing                 find a motion
+             levade show rearing/motion.npz       see it in the browser
+             levade tasks                         what else there is to do
+    Robot:   levade robots inspect FILE           your URDF or MJCF: what is understood of it
+             levade solve squat-jump --robot FILE
+    Check:   levade solve TASK --hardware         search until a certificate passes
+    Stuck:   levade doctor                        what is missing here, and how to get it
+    """,
     add_completion=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
@@ -30,7 +40,7 @@ Json = Annotated[bool, typer.Option("--json", help="Print one JSON object, and n
 
 
 _SEVERAL = ("--tasks", "--robots", "--optimizers", "--add")
-"""Options of ``bench`` that take all words up to the next option."""
+"""Options of ``bench`` that take every word up to the next option."""
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -91,7 +101,7 @@ def _command(word: str) -> Any:
 
 
 def _spread(arguments: Sequence[str]) -> list[str]:
-    """``bench --tasks A B`` as ``bench --tasks A --tasks B``, which is how several values can be told to typer."""
+    """``bench --tasks A B`` as ``bench --tasks A --tasks B``, which is how typer takes several values."""
     if not arguments or arguments[0] != "bench":
         return list(arguments)
     taken: list[str] = []
@@ -124,20 +134,21 @@ def _levade(
         print(context.get_help())
 
 
-@app.command()
+@app.command(short_help="Find a motion that does a task.")
 def solve(
     task: Annotated[str | None, typer.Argument(help="Name of a built-in task, or a YAML file.")] = None,
     robot: Annotated[
-        str | None, typer.Option(help="Another robot: a name, or a file: URDF, MJCF or robot.yaml.")
+        str | None, typer.Option(help="Robot instead of the task's: a name, or a URDF, MJCF or robot.yaml file.")
     ] = None,
     seed: Annotated[
-        int | None, typer.Option(min=0, help="Of the search, by default 0; the same seed gives the same motion.")
+        int | None, typer.Option(min=0, help="Seed of the search; by default 0. The same seed gives the same motion.")
     ] = None,
-    trials: Annotated[int | None, typer.Option(help="Budget, instead of the task's.")] = None,
+    trials: Annotated[int | None, typer.Option(help="Number of trials, instead of the task's.")] = None,
     optimizer: Annotated[
-        str | None, typer.Option(help="cma-aimed, cma, pi2, pi2-cma, mppi, cem or random, instead of the task's.")
+        str | None,
+        typer.Option(help="Optimizer instead of the task's: cma-aimed, cma, pi2, pi2-cma, mppi, cem or random."),
     ] = None,
-    engine: Annotated[str | None, typer.Option(help="mujoco or ode, instead of the task's.")] = None,
+    engine: Annotated[str | None, typer.Option(help="Engine instead of the task's: mujoco or ode.")] = None,
     changes: Annotated[
         list[str] | None, typer.Option("--set", metavar="PATH=VALUE", help="Change a value of the task. Repeatable.")
     ] = None,
@@ -145,38 +156,65 @@ def solve(
     begin: Annotated[
         list[Path] | None,
         typer.Option(
-            "--from", metavar="MOTION", help="Begin around the motion in this file. Repeatable: the best is taken."
+            "--from", metavar="MOTION", help="Begin around the motion in this file. Repeatable: the best one is used."
         ),
     ] = None,
     after: Annotated[
-        Path | None, typer.Option(metavar="MOTION", help="Start as the motion in this file ends, not as TASK says.")
+        Path | None,
+        typer.Option(metavar="MOTION", help="Start where the motion in this file ends, instead of the task's start."),
     ] = None,
-    resume: Annotated[Path | None, typer.Option(metavar="DIR", help="Go on with the interrupted run in DIR.")] = None,
+    resume: Annotated[Path | None, typer.Option(metavar="DIR", help="Continue the interrupted run in DIR.")] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace an interrupted run in the directory.")] = False,
-    threads: Annotated[int, typer.Option(min=0, help="0 for one per core; no effect on the result.")] = 0,
+    threads: Annotated[
+        int, typer.Option(min=0, help="Number of engine threads; 0 for one per core. No effect on the result.")
+    ] = 0,
     hardware: Annotated[
-        bool, typer.Option("--hardware", help="Search on until a certificate passes: see levade check.")
+        bool, typer.Option("--hardware", help="Search until a certificate passes: see levade check.")
     ] = False,
     robust: Annotated[
-        bool, typer.Option("--robust", help="As --hardware, for robots that differ from the model alone: no limits.")
+        bool,
+        typer.Option("--robust", help="Like --hardware, but without limits: robots that differ from the model only."),
     ] = False,
-    minutes: Annotated[float | None, typer.Option(help="With --hardware or --robust: time for all searches.")] = None,
+    minutes: Annotated[
+        float | None, typer.Option(help="With --hardware or --robust: minutes for all searches together.")
+    ] = None,
     demand: Annotated[
         list[str] | None,
-        typer.Option(metavar="FILE|NAME=VALUE", help="With --hardware or --robust: as check --demand. Repeatable."),
+        typer.Option(
+            metavar="FILE|NAME=VALUE",
+            help="With --hardware or --robust: what the certificate demands, as in levade check. Repeatable.",
+        ),
     ] = None,
     watch: Annotated[
-        bool, typer.Option("--watch", help="Show it on a page in the browser, with pause, stop and weights to move.")
+        bool,
+        typer.Option(
+            "--watch",
+            help="Show the best motion so far on a page in the browser, with pause, stop and sliders for weights.",
+        ),
     ] = False,
     watch_host: Annotated[
-        str | None, typer.Option(metavar="ADDRESS", help="Of the page; by default only this machine can reach it.")
+        str | None,
+        typer.Option(
+            metavar="ADDRESS", help="Address to serve the page at; by default only this machine can reach it."
+        ),
     ] = None,
-    watch_port: Annotated[int | None, typer.Option(min=0, max=65535, help="Of the page; 0 for a free one.")] = None,
+    watch_port: Annotated[
+        int | None, typer.Option(min=0, max=65535, help="Port to serve the page at; 0 for a free one.")
+    ] = None,
     open_page: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
-    keep_open: Annotated[bool, typer.Option("--keep-open", help="Serve the page on at the end, until Ctrl-C.")] = False,
+    keep_open: Annotated[
+        bool, typer.Option("--keep-open", help="Keep serving the page after the search, until Ctrl-C.")
+    ] = False,
     as_json: Json = False,
 ) -> int:
-    """Search for a motion that does TASK, and write it to a directory.
+    r"""Search for a motion that does TASK, and write it to a directory.
+
+    \b
+    levade solve rearing                          a built-in task; levade tasks lists them
+    levade solve squat-jump --robot my.urdf       on your robot
+    levade solve my-task.yaml --hardware          within limits, on robots that differ
+    levade solve --resume DIR                     continue after Ctrl-C or a crash
+    Next: levade show DIR/motion.npz, levade check DIR/motion.npz
 
     Exit status: 0 the success criteria hold, with --hardware or --robust the certificate passes; 1 they do not (everything
     is still written); 2 the input is wrong.
@@ -206,7 +244,7 @@ def solve(
         }
         extra = [name for name, value in given.items() if value is not None]
         if extra:
-            raise LevadeError(f"--resume {resume}: the run says all; leave out {' and '.join(extra)}")
+            raise LevadeError(f"--resume {resume} takes its settings from the run; leave out {' and '.join(extra)}")
     elif task is None:
         raise LevadeError(
             "solve: name a task, such as: levade solve rearing (levade tasks lists them), or --resume DIR"
@@ -224,7 +262,7 @@ def solve(
         beside = {"--watch": watch, "--from": begin, "--after": after, "--trials": trials, "--optimizer": optimizer}
         if extra := [name for name, value in beside.items() if value]:
             asks = flag or ("--hardware" if resume is not None else "hardware, which the task asks for")
-            raise LevadeError(f"{asks}: makes searches of its own; leave out {' and '.join(extra)}")
+            raise LevadeError(f"{asks}: makes its own searches; leave out {' and '.join(extra)}")
         return pursue_and_report(
             task=task,
             robot=robot,
@@ -241,7 +279,7 @@ def solve(
         )
     if minutes is not None or demand:
         raise LevadeError(
-            f"{'--minutes' if minutes is not None else '--demand'}: goes with --hardware or --robust only"
+            f"{'--minutes' if minutes is not None else '--demand'}: only works with --hardware or --robust"
         )
     from levade.cli.solving import solve_and_report
 
@@ -261,25 +299,39 @@ def solve(
     )
 
 
-@app.command()
+@app.command(short_help="Summarise motions; write a page, pictures, figures.")
 def show(
     motions: Annotated[list[Path], typer.Argument(metavar="MOTION", help="A motion.npz; several are compared.")],
     figures: Annotated[Path | None, typer.Option(metavar="DIR", help="Write figures for a paper to DIR.")] = None,
-    format: Annotated[str | None, typer.Option(help="Of the figures: pdf (default), svg or png.")] = None,
+    format: Annotated[str | None, typer.Option(help="Format of the figures: pdf (default), svg or png.")] = None,
     strip: Annotated[Path | None, typer.Option(metavar="FILE", help="Write poses side by side, as .png.")] = None,
-    poses: Annotated[int | None, typer.Option(help="In the strip; by default 6.")] = None,
+    poses: Annotated[int | None, typer.Option(help="Number of poses in the strip; by default 6.")] = None,
     video: Annotated[Path | None, typer.Option(metavar="FILE", help="Write a video: .mp4, .gif or .webp.")] = None,
-    slow: Annotated[float | None, typer.Option(help="Times slower than it was, in the video; by default 8.")] = None,
+    slow: Annotated[
+        float | None, typer.Option(help="How many times slower than real time the video runs; by default 8.")
+    ] = None,
     camera: Annotated[
-        str | None, typer.Option(metavar="AZ,EL[,DIST]", help="Of strip and video: degrees and m, such as 118,-12.")
+        str | None,
+        typer.Option(
+            metavar="AZ,EL[,DIST]",
+            help="View of strip and video: azimuth and elevation in degrees, distance in m, such as 118,-12.",
+        ),
     ] = None,
     report: Annotated[
         bool | None,
-        typer.Option("--report/--no-report", help="Write report.html beside the motion; without --json the default."),
+        typer.Option("--report/--no-report", help="Write report.html next to the motion. Default, except with --json."),
     ] = None,
     as_json: Json = False,
 ) -> int:
-    """Summarise a motion, and write its page beside it: report.html, to open in any browser."""
+    r"""Summarise motions, and write a page next to each: report.html, to open in any browser.
+
+    \b
+    levade show rearing/motion.npz                               numbers, and the page
+    levade show a/motion.npz b/motion.npz                        several motions side by side
+    levade show rearing/motion.npz --strip s.png --video v.mp4   pictures (extra video)
+
+    Exit status: 0 every motion meets its criteria; 1 one does not; 2 the input is wrong.
+    """
     from levade.cli.picturing import Pictures
     from levade.cli.showing import show_motions
 
@@ -287,7 +339,7 @@ def show(
     return show_motions(motions, pictures, report=not as_json if report is None else report, as_json=as_json)
 
 
-@app.command()
+@app.command(short_help="Compare optimizers over tasks, robots and seeds.")
 def bench(
     plan: Annotated[Path | None, typer.Argument(metavar="FILE", help="A plan: see docs/bench.md.")] = None,
     tasks: Annotated[list[str] | None, typer.Option(metavar="NAME ...", help="Names or files.")] = None,
@@ -295,25 +347,30 @@ def bench(
         list[str] | None, typer.Option(metavar="NAME ...", help="Names or files, instead of each task's own.")
     ] = None,
     optimizers: Annotated[
-        list[str] | None, typer.Option(metavar="NAME ...", help="Instead of each task's own; see solve --optimizer.")
+        list[str] | None,
+        typer.Option(metavar="NAME ...", help="Optimizers instead of each task's own; see solve --optimizer."),
     ] = None,
-    seeds: Annotated[int | None, typer.Option(help="How many, from 0; by default 5.")] = None,
-    trials: Annotated[int | None, typer.Option(help="Budget of a run, instead of the task's.")] = None,
-    steps: Annotated[float | None, typer.Option(help="Budget of a run in physics steps, too.")] = None,
+    seeds: Annotated[int | None, typer.Option(help="Number of seeds, from 0; by default 5.")] = None,
+    trials: Annotated[int | None, typer.Option(help="Trials of a run, instead of the task's.")] = None,
+    steps: Annotated[float | None, typer.Option(help="Largest number of physics steps of a run.")] = None,
     until: Annotated[
         str | None, typer.Option(help="When a run ends: success (and polished; the default) or budget.")
     ] = None,
     changes: Annotated[
         list[str] | None, typer.Option("--set", metavar="PATH=VALUE", help="Change a value of every task. Repeatable.")
     ] = None,
-    out: Annotated[Path, typer.Option(help="Directory to write, or to go on in.")] = Path("bench"),
-    processes: Annotated[int, typer.Option(min=0, help="Runs at a time; 0 for one per core. No effect on them.")] = 0,
-    force: Annotated[bool, typer.Option("--force", help="Begin anew; the directory's results are lost.")] = False,
-    add: Annotated[list[Path] | None, typer.Option(metavar="FILE ...", help="Report these results.csv, too.")] = None,
-    format: Annotated[str, typer.Option(help="Of the figures: pdf, svg or png.")] = "pdf",
+    out: Annotated[Path, typer.Option(help="Directory to write, or to continue in.")] = Path("bench"),
+    processes: Annotated[
+        int, typer.Option(min=0, help="Runs at a time; 0 for one per core. No effect on the results.")
+    ] = 0,
+    force: Annotated[bool, typer.Option("--force", help="Begin again; the results in the directory are lost.")] = False,
+    add: Annotated[
+        list[Path] | None, typer.Option(metavar="FILE ...", help="Other results.csv files to report as well.")
+    ] = None,
+    format: Annotated[str, typer.Option(help="Format of the figures: pdf, svg or png.")] = "pdf",
     as_json: Json = False,
 ) -> int:
-    """Compare optimizers: tasks x robots x optimizers x seeds, in parallel. Called again, goes on where it stopped.
+    """Compare optimizers: tasks x robots x optimizers x seeds, in parallel. Called again, it continues where it stopped.
 
     Exit status: 0 every run is done, 1 it was interrupted, 2 the input is wrong.
     """
@@ -341,21 +398,21 @@ def bench(
     )
 
 
-@app.command()
+@app.command(short_help="Say whether a motion can be trusted.")
 def check(
     motion: Annotated[Path, typer.Argument(metavar="MOTION", help="A motion.npz.")],
-    runs: Annotated[int, typer.Option(help="Perturbed runs.")] = 500,
-    seed: Annotated[int, typer.Option(min=0, help="Of the perturbations; the same seed gives the same runs.")] = 0,
+    runs: Annotated[int, typer.Option(help="Number of perturbed runs.")] = 500,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of the perturbations; the same seed gives the same runs.")] = 0,
     divide: Annotated[int, typer.Option(help="Divide the time step of the perturbed runs by this.")] = 1,
     perturb: Annotated[
         list[str] | None,
         typer.Option(
-            metavar="FILE|NAME=RANGE", help="Ranges instead of the defaults, as friction=[0.5,1.5]. Repeatable."
+            metavar="FILE|NAME=RANGE", help="Ranges instead of the defaults, such as friction=[0.5,1.5]. Repeatable."
         ),
     ] = None,
     demand: Annotated[
         list[str] | None,
-        typer.Option(metavar="FILE|NAME=VALUE", help="What to demand instead, as share=0.9. Repeatable."),
+        typer.Option(metavar="FILE|NAME=VALUE", help="Demands instead of the defaults, such as share=0.9. Repeatable."),
     ] = None,
     criteria: Annotated[
         str | None, typer.Option(metavar="TASK", help="Judge by this task's success criteria, not the motion's own.")
@@ -364,12 +421,18 @@ def check(
     page: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Write it as one HTML page, with the poorest runs to play.")
     ] = None,
-    threads: Annotated[int, typer.Option(min=0, help="0 for one per core; no effect on the result.")] = 0,
+    threads: Annotated[
+        int, typer.Option(min=0, help="Number of engine threads; 0 for one per core. No effect on the result.")
+    ] = 0,
     as_json: Json = False,
 ) -> int:
-    """Say whether a motion can be trusted: perturbed, in other numbers, in another engine, against the hardware.
+    r"""Say whether a motion can be trusted: on perturbed robots, at other time steps, in another engine, within limits.
 
-    Exit status: 0 it meets every demand, 1 it does not, 2 the input is wrong.
+    \b
+    levade check rearing/motion.npz --page certificate.html      then open the page
+    Fails? levade solve TASK --hardware searches until it passes.
+
+    Exit status: 0 the motion meets every demand; 1 it does not; 2 the input is wrong.
     """
     from levade.cli.checking import check_motion
 
@@ -388,25 +451,31 @@ def check(
     )
 
 
-@app.command()
+@app.command(short_help="Add a feedback to a motion.")
 def stabilise(
     motion: Annotated[Path, typer.Argument(metavar="MOTION", help="A motion.npz.")],
     out: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="To write; by default MOTION-stabilised.npz, beside it.")
+        Path | None, typer.Option(metavar="FILE", help="File to write; by default MOTION-stabilised.npz next to it.")
     ] = None,
-    rate: Annotated[float, typer.Option(metavar="HZ", help="Measurements a second; one period of latency.")] = 250.0,
+    rate: Annotated[
+        float, typer.Option(metavar="HZ", help="Measurements per second; a correction is late by one period.")
+    ] = 250.0,
     bound: Annotated[float, typer.Option(metavar="RAD", help="Largest correction of a joint's reference.")] = 0.5,
-    runs: Annotated[int, typer.Option(help="Perturbed runs that choose the stabiliser.")] = 96,
-    seed: Annotated[int, typer.Option(min=0, help="Of these runs; they are none of those of a check.")] = 0,
+    runs: Annotated[int, typer.Option(help="Number of perturbed runs that choose the stabiliser.")] = 96,
+    seed: Annotated[
+        int, typer.Option(min=0, help="Seed of these runs. They differ from the runs of levade check.")
+    ] = 0,
     perturb: Annotated[
         list[str] | None, typer.Option(metavar="FILE|NAME=RANGE", help="Ranges, as in levade check. Repeatable.")
     ] = None,
-    threads: Annotated[int, typer.Option(min=0, help="0 for one per core; no effect on the result.")] = 0,
+    threads: Annotated[
+        int, typer.Option(min=0, help="Number of engine threads; 0 for one per core. No effect on the result.")
+    ] = 0,
     as_json: Json = False,
 ) -> int:
-    """Find a feedback that keeps a motion on its way, from gyroscope, attitude and joint angles, and save it with it.
+    """Find a feedback from gyroscope, attitude and joint angles that keeps a motion on its path, and save both.
 
-    Exit status: 0 it is written, 1 the motion is better without and nothing is written, 2 the input is wrong.
+    Exit status: 0 written; 1 the motion is better without, and nothing is written; 2 the input is wrong.
     """
     from levade.cli.stabilising import stabilise_motion
 
@@ -423,17 +492,20 @@ def stabilise(
     )
 
 
-@app.command()
+@app.command(short_help="Look at a motion, a robot or a task in the browser.")
 def view(
     what: Annotated[
         str,
         typer.Argument(metavar="MOTION|ROBOT|TASK", help="A built-in name, or a file: motion.npz, robot.yaml, task."),
     ],
-    out: Annotated[Path | None, typer.Option(metavar="FILE", help="Write the page, as .html, and serve none.")] = None,
-    host: Annotated[
-        str | None, typer.Option(metavar="ADDRESS", help="To serve at; by default only this machine can reach it.")
+    out: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Write the page to this .html file instead of serving it.")
     ] = None,
-    port: Annotated[int | None, typer.Option(min=0, max=65535, help="To serve at; 0 for a free one.")] = None,
+    host: Annotated[
+        str | None,
+        typer.Option(metavar="ADDRESS", help="Address to serve at; by default only this machine can reach it."),
+    ] = None,
+    port: Annotated[int | None, typer.Option(min=0, max=65535, help="Port to serve at; 0 for a free one.")] = None,
     open_page: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
 ) -> None:
     """Look at a motion, a robot (its joints to move) or a task (start, scene, goal) in the browser."""
@@ -442,30 +514,40 @@ def view(
     show_page(what, out=out, host=host, port=port, browse=open_page)
 
 
-@app.command()
+@app.command(short_help="Write a motion for a robot or another tool.")
 def export(
     motion: Annotated[Path, typer.Argument(metavar="MOTION", help="A motion.npz.")],
     to: Annotated[
         str | None,
         typer.Option(metavar="FORMAT", help="csv, json, ros2, mjlab, unitree, urdf or mjcf; see docs/export.md."),
     ] = None,
-    out: Annotated[Path | None, typer.Option(metavar="DIR", help="To write; by default MOTION-FORMAT.")] = None,
-    rate: Annotated[float | None, typer.Option(metavar="HZ", help="Rows a second; by default the format's.")] = None,
+    out: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Directory to write; by default MOTION-FORMAT.")
+    ] = None,
+    rate: Annotated[float | None, typer.Option(metavar="HZ", help="Rows per second; by default the format's.")] = None,
     reference: Annotated[
         str, typer.Option(help="What to send: measured (with feed-forward torque) or commanded (as simulated).")
     ] = "measured",
     hold: Annotated[bool, typer.Option("--hold/--no-hold", help="Go on after the horizon, or stop there.")] = True,
-    kp: Annotated[float | None, typer.Option(help="Of all joints [Nm/rad]; by default the simulation's.")] = None,
-    kd: Annotated[float | None, typer.Option(help="Of all joints [Nm s/rad]; by default the simulation's.")] = None,
+    kp: Annotated[
+        float | None, typer.Option(help="Position gain of all joints [Nm/rad]; by default the simulation's.")
+    ] = None,
+    kd: Annotated[
+        float | None, typer.Option(help="Velocity gain of all joints [Nm s/rad]; by default the simulation's.")
+    ] = None,
     certificate: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="Write nothing unless this certificate is the motion's, and passes."),
+        typer.Option(metavar="FILE", help="Write nothing unless this certificate belongs to the motion and passes."),
     ] = None,
     as_json: Json = False,
 ) -> int:
-    """Write a motion for a robot or another tool, with a player.py that plays it.
+    r"""Write a motion for a robot or another tool, with a player.py that plays it.
 
-    Exit status: 0 it is written, 2 the input is wrong.
+    \b
+    levade export rearing/motion.npz --to csv
+    python rearing/motion-csv/player.py rearing/motion-csv/motion.csv --dry-run
+
+    Exit status: 0 written; 2 the input is wrong.
     """
     from levade.cli.exporting import export_motion
 
@@ -481,6 +563,24 @@ def export(
         certificate=certificate,
         as_json=as_json,
     )
+
+
+@app.command(short_help="Say what this computer has and what it lacks.")
+def doctor(
+    robot: Annotated[str | None, typer.Argument(hidden=True)] = None,
+    as_json: Json = False,
+) -> int:
+    """Say what this computer has for levade: versions, engines, OpenGL, browser, GPU, and what each feature still needs.
+
+    Exit status: 0 searches can run; 1 a package is missing or too old; 2 the input is wrong.
+    """
+    if robot is not None:
+        raise LevadeError(
+            f"doctor: looks at this computer and takes no {robot}; to look at a robot: levade robots inspect {robot}"
+        )
+    from levade.cli.diagnosing import diagnose
+
+    return diagnose(as_json=as_json)
 
 
 _library = typer.Typer(
@@ -565,7 +665,7 @@ def _check_library(
     return check_the_library(library, starts=starts, seed=seed, threads=threads, as_json=as_json)
 
 
-_tasks = typer.Typer(help="List the built-in tasks; print one, or the form of them all.", rich_markup_mode=None)
+_tasks = typer.Typer(help="List the built-in tasks; print one, or the schema of task files.", rich_markup_mode=None)
 app.add_typer(_tasks, name="tasks")
 
 
@@ -586,14 +686,14 @@ def _list_tasks(context: typer.Context, as_json: Json = False) -> None:
 @_tasks.command("show")
 def _show_task(
     task: Annotated[str, typer.Argument(help="Name of a built-in task, or a YAML file.")],
-    robot: Annotated[str | None, typer.Option(help="Another robot, for --full.")] = None,
-    full: Annotated[bool, typer.Option("--full", help="With every default filled in, in SI, for its robot.")] = False,
+    robot: Annotated[str | None, typer.Option(help="Robot instead of the task's, for --full.")] = None,
+    full: Annotated[bool, typer.Option("--full", help="Fill in every default, in SI, for the task's robot.")] = False,
 ) -> None:
     """Print TASK as it was written, to start your own from."""
     from levade.tasks import load_task, task_text, task_to_yaml
 
     if robot is not None and not full:
-        raise LevadeError("tasks show: --robot goes with --full, which gives numbers for a robot; add it")
+        raise LevadeError("tasks show: --robot only works with --full; add --full")
     print(task_to_yaml(load_task(task, robot=robot)) if full else task_text(task), end="")
 
 
@@ -627,7 +727,7 @@ def _inspect_robot(
 ) -> None:
     """Say what is understood of a robot (legs, limits, posture, actuators) and what is suspicious, with remedies.
 
-    Exit status: 0 it can be used, 2 it cannot: one line says why.
+    Exit status: 0 the robot can be used; 2 it cannot, and one line says why.
     """
     from levade.cli.inspecting import inspect_robot
 

@@ -1,4 +1,4 @@
-"""What a search's summary says beside success: limits that are not known, and motions that live by their numbers alone."""
+"""What a search's summary says next to success: limits that are not known, and motions that live by their numbers alone."""
 
 from __future__ import annotations
 

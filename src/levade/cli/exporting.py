@@ -41,9 +41,7 @@ def export_motion(
         raise LevadeError(f"--out {directory}: several files are written; give a directory, such as {directory.stem}")
     motion = Motion.load(path)
     if certificate is not None and (reason := doubt(certificate, motion)) is not None:
-        raise LevadeError(
-            f"--certificate {certificate}: {reason}; nothing is written. levade check says what there is to mend"
-        )
+        raise LevadeError(f"--certificate {certificate}: {reason}; nothing is written. levade check says what to fix")
     options = [
         ("--rate", rate),
         ("--reference", None if reference == "measured" else reference),
@@ -76,7 +74,7 @@ def export_motion(
 
 
 def _uncertified(path: Path, motion: Motion) -> tuple[str, ...]:
-    """What to say of a motion that goes to a robot without a certificate beside it that passes."""
+    """What to say of a motion that goes to a robot without a passing certificate next to it."""
     beside = path.with_name(CERTIFICATE)
     try:
         reason = doubt(beside, motion) if beside.is_file() else f"there is no {beside}"

@@ -1,4 +1,4 @@
-"""Library errors speak of fields and of plain actions; here they are told in options and commands."""
+"""Library errors speak of fields and of plain actions; here they are turned into options and commands."""
 
 from __future__ import annotations
 

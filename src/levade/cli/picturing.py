@@ -86,7 +86,7 @@ def draw(motions: Mapping[Path, Motion], wanted: Pictures) -> list[Path]:
 
 
 def progress_beside(path: Path, motion: Motion) -> Path | None:
-    """progress.csv of the motion's search, if it lies beside the motion and is not another search's."""
+    """progress.csv of the motion's search, if it lies next to the motion and is not another search's."""
     progress = path.parent / "progress.csv"
     try:
         last = progress.read_text(encoding="utf-8").splitlines()[-1].split(",")

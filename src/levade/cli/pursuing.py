@@ -35,12 +35,7 @@ def pursue_and_report(
     threads: int,
     as_json: bool,
 ) -> int:
-    """Exit status 0 if the certificate passes, else 1.
-
-    Args:
-        robust: Whether to demand nothing of limits.
-        demand: Changes of what is demanded.
-    """
+    """Exit status 0 if the certificate passes, else 1. With ``robust``, nothing is demanded of limits."""
     console = make_console(stderr=as_json)
     before: Demands | None = None
     if resume_from is not None:

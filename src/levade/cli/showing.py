@@ -43,7 +43,7 @@ def _listed(paths: Sequence[Path]) -> str:
 
 
 def report_path(motion: Path) -> Path:
-    """Where a motion's page goes: report.html beside motion.npz, best-report.html beside best.npz."""
+    """Where a motion's page goes: report.html next to motion.npz, best-report.html next to best.npz."""
     return motion.with_name("report.html" if motion.stem == "motion" else f"{motion.stem}-report.html")
 
 

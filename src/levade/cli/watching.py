@@ -1,4 +1,4 @@
-"""``levade solve --watch``: the page beside the run."""
+"""``levade solve --watch``: the page next to the run."""
 
 from __future__ import annotations
 
@@ -36,7 +36,9 @@ def options(watch: bool, host: str | None, port: int | None, browse: bool, keep:
     given = {"--watch-host": host, "--watch-port": port, "--open": browse or None, "--keep-open": keep or None}
     named = [name for name, value in given.items() if value is not None]
     if named and not watch:
-        raise LevadeError(f"{' and '.join(named)}: of the page, so say --watch too")
+        raise LevadeError(
+            f"{' and '.join(named)} only {'work' if len(named) > 1 else 'works'} with --watch; add --watch"
+        )
     return Watching(host or "127.0.0.1", port or 0, browse, keep) if watch else None
 
 
@@ -77,5 +79,5 @@ def tell_where(console: Console, server: Server, what: str) -> None:
     console.print(f"{what} [link={server.url}]{escape(server.url)}[/link]")
     if server.public:
         console.print(
-            "[yellow]Other machines can reach this page[/]: whoever has its address sees it and can use its buttons."
+            "[yellow]Other machines can reach this page[/]: anybody with its address can see it and use its buttons."
         )

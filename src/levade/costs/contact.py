@@ -20,10 +20,14 @@ CONTACT_FORCE = 1e-9
 class GroundContact:
     """Contact of the named bodies with the ground and the obstacles.
 
-    measure: "time" in contact [s], each body on its own; the "impulse" of the contact forces [Ns], which also tells a touch
-        from a blow; or the "peak", the largest force on any of the bodies [N]. Time and impulse are sums over the bodies.
-    over: the motion proper, or the hold as well.
-    Raises LevadeError if the contact force of a body was not recorded.
+    Attributes:
+        measure: "time" in contact [s], each body on its own; the "impulse" of the contact forces [Ns], which also tells
+            a touch from a blow; or the "peak", the largest force on any of the bodies [N]. Time and impulse are sums
+            over the bodies.
+        over: "horizon", the motion proper, or "all", the hold as well.
+
+    Raises:
+        LevadeError: If the contact force of a body was not recorded.
     """
 
     unit: ClassVar[str] = "s, Ns for the impulse, N for the peak"

@@ -17,10 +17,13 @@ from levade.trajectory import Trajectories
 class Effort:
     """Squared joint torque, summed over the joints and integrated over the motion.
 
-    normalised: torques as a share of each joint's constant limit, then [s]: n joints at their limits all the time cost
-        n * T. Otherwise in [Nm], then [Nm^2 s]. The paper does not say which its tau is.
-    over: the motion proper, or the hold as well.
-    Raises LevadeError if normalised and a joint has no torque limit.
+    Attributes:
+        normalised: Whether torques count as a share of each joint's constant limit. The cost is then in s, and n joints
+            that are always at their limits cost n * T. Otherwise it is in Nm^2 s. The paper does not say which its tau is.
+        over: "horizon", the motion proper, or "all", the hold as well.
+
+    Raises:
+        LevadeError: If normalised and a joint has no torque limit.
     """
 
     unit: ClassVar[str] = "s, or Nm^2 s where not normalised"

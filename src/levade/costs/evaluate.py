@@ -29,7 +29,9 @@ def evaluate(terms: Mapping[str, Term], trajectories: Trajectories) -> dict[str,
     """Each term of each trial, unweighted: name -> (n,), always finite.
 
     Trials that diverged have `DIVERGED` in every term; so has a term that is not finite. Others are within +-`HIGHEST`.
-    Raises LevadeError if a term does not return one number per trial.
+
+    Raises:
+        LevadeError: If a term does not return one number per trial.
     """
     values: dict[str, Array] = {}
     with np.errstate(all="ignore"):  # broken trials overflow; they are dealt with below
@@ -45,8 +47,10 @@ def evaluate(terms: Mapping[str, Term], trajectories: Trajectories) -> dict[str,
 def total(values: Mapping[str, Array], weights: Mapping[str, float]) -> Array:
     """The cost (n,) of each trial: ``sum weight * term`` (eq. 5), always finite.
 
-    values: as `evaluate` returns them. weights: the paper's Q_i, one per term, no more and no fewer.
-    A trial with a term at `DIVERGED` costs `DIVERGED`, whatever the weight; any other at most `HIGHEST`.
+    Args:
+        values: As `evaluate` returns them.
+        weights: The paper's Q_i, one per term, no more and no fewer. A trial with a term at `DIVERGED` costs
+            `DIVERGED`, whatever the weight; any other at most `HIGHEST`.
     """
     if not values:
         raise LevadeError("costs: no terms; a task needs at least one")

@@ -24,7 +24,8 @@ LEAST_TORQUE_SHARE = 0.01
 class JointLimitExcess:
     """Squared excess of the measured joint angles beyond their range, over joints and time [rad^2 s] (eq. 6).
 
-    over: the motion proper, or the hold as well.
+    Attributes:
+        over: "horizon", the motion proper, or "all", the hold as well.
     """
 
     unit: ClassVar[str] = "rad^2 s"
@@ -58,8 +59,13 @@ class TorqueLimitExcess:
     """Squared excess of the torque over its limit at the joint's angle, as a share of that limit [s].
 
     The limit is `JointLimits.torque_at`: the constant limit lowered by the linkage curve; where the curve goes to
-    nothing, 1 % of the joint's best. over: the motion proper, or the hold as well.
-    Raises LevadeError if a joint has a torque limit of zero.
+    nothing, 1 % of the joint's best.
+
+    Attributes:
+        over: "horizon", the motion proper, or "all", the hold as well.
+
+    Raises:
+        LevadeError: If a joint has a torque limit of zero.
     """
 
     unit: ClassVar[str] = "s"
@@ -85,7 +91,11 @@ class TorqueLimitExcess:
 class SpeedLimitExcess:
     """Squared excess of the joint speed over its limit, as a share of that limit [s].
 
-    over: the motion proper, or the hold as well. Raises LevadeError if a joint has a speed limit of zero.
+    Attributes:
+        over: "horizon", the motion proper, or "all", the hold as well.
+
+    Raises:
+        LevadeError: If a joint has a speed limit of zero.
     """
 
     unit: ClassVar[str] = "s"

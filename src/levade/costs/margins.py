@@ -21,15 +21,19 @@ _WANTED = ("angle", "speed", "torque_speed", "midplane", "self_distance")
 class Margins:
     """Squared shortfall of the margins that are wanted, each as a multiple of itself, over joints and kinds of limit [-].
 
-    A joint that just reaches a limit costs 1; one that leaves the margin costs nothing. It is the extreme over time that
-    counts, not how long: the excess of an integral that is weighed against other costs never quite goes.
+    A joint that just reaches a limit costs 1; one that leaves the margin costs nothing. It is the extreme over time
+    that counts, not how long: the excess of an integral that is weighed against other costs never quite goes.
 
-    angle: [rad] to the ends of the range. speed: share of the speed limit. torque_speed: share of the stall torque to the
-        actuator's line |torque| / stall_torque + |speed| / no_load_speed = 1 while driving; a drive is beyond it where its
-        torque lags behind its speed. midplane: [m], how far each foot stays on its own side of the trunk's middle plane: legs
-        that do not cross do not collide. self_distance: [m], between parts of the robot. None for what does not count; joints
-        without a limit never miss its margin.
-    over: the motion proper, or the hold as well.
+    Attributes:
+        angle: [rad] to the ends of the range.
+        speed: Share of the speed limit.
+        torque_speed: Share of the stall torque to the actuator's line |torque| / stall_torque + |speed| / no_load_speed
+            = 1 while driving; a drive is beyond it where its torque lags behind its speed.
+        midplane: [m], how far each foot stays on its own side of the trunk's middle plane: legs that do not cross do
+            not collide.
+        self_distance: [m], between parts of the robot. None for what does not count; joints without a limit never miss
+            its margin.
+        over: "horizon", the motion proper, or "all", the hold as well.
     """
 
     unit: ClassVar[str] = "-"

@@ -20,11 +20,17 @@ from levade.trajectory import Trajectories
 class Miss:
     """Squared distance of a quantity from a target, or from the nearest bound, as a multiple of ``scale`` [-].
 
-    quantity, target, minimum, maximum, legs: as in `levade.costs.Criterion`. tolerance: a distance from the target that
-        costs nothing; beyond, the excess counts.
-    at: when; over the hold, and over the whole motion up to the horizon ("motion"), it is the mean of the squares;
-        "max" and "min" look at the largest and the smallest value of all that was simulated: the apex of a jump.
-    scale: the distance that costs 1, in the quantity's unit.
+    Attributes:
+        quantity: What is judged, as in `levade.costs.Criterion`.
+        target: Required value.
+        minimum: Required lower bound, instead of a target.
+        maximum: Required upper bound, instead of a target.
+        legs: Legs that a quantity of the feet looks at.
+        tolerance: Distance from the target that costs nothing; the excess counts.
+        at: When it is judged. Over the hold, and over the whole motion up to the horizon ("motion"), the cost is the mean of
+            the squares. "max" and "min" look at the largest and the smallest value of all that was simulated: the apex of a
+            jump.
+        scale: Distance that costs 1, in the quantity's unit.
     """
 
     unit: ClassVar[str] = "-"

@@ -25,10 +25,6 @@ from levade.trajectory import Trajectories
 class Orientation:
     """Squared angle [rad^2] between the trunk's orientation and the required one; angles left out are free.
 
-    roll, pitch, yaw: required angles [rad], intrinsic z-y-x; nose up is negative pitch. Pitch may go beyond +-pi/2.
-    at: when; over the hold it is the mean.
-    tolerance: [rad], an angle that costs nothing; beyond, the excess is squared.
-
     - roll, pitch and yaw: the angle of the one rotation that takes the trunk to the goal (geodesic distance on SO(3)).
     - roll and pitch: the smallest such angle over all yaws, which is the angle between the world's up as the trunk sees
       it and as it would see it at the goal. Upside down is pi away from level, by whichever way the robot got there.
@@ -39,6 +35,13 @@ class Orientation:
       upside down is not mistaken for the goal, and nothing jumps on the way. Lying on the side is free, as roll is.
     - roll, yaw, or both: wrapped differences of the z-y-x angles. These are not unique at pitch = +-pi/2: for motions
       that pass there, ask for pitch too.
+
+    Attributes:
+        roll: Required roll [rad], intrinsic z-y-x; None is free.
+        pitch: Required pitch [rad], intrinsic z-y-x; None is free. Nose up is negative. It may go beyond +-pi/2.
+        yaw: Required yaw [rad], intrinsic z-y-x; None is free.
+        at: When it is judged; over the hold it is the mean.
+        tolerance: Angle that costs nothing [rad]; the excess is squared.
     """
 
     unit: ClassVar[str] = "rad^2"
@@ -92,10 +95,10 @@ def wrap(angle: Array) -> Array:
 
 
 def geodesic(a: Array, b: Array) -> Array:
-    """Angle [rad], 0 to pi, of the rotation between the attitudes of two quaternions (..., 4), exact near 0 and near
-    pi.
+    """Angle [rad], 0 to pi, of the rotation between the attitudes of two quaternions (..., 4).
 
-    Norm of the rotation vector log(B'A). Half that angle lies between the quaternions as vectors, up to their sign.
+    It is exact near 0 and near pi: the norm of the rotation vector log(B'A). Half that angle lies between the quaternions as
+    vectors, up to their sign.
     """
     difference, total = np.linalg.norm(a - b, axis=-1), np.linalg.norm(a + b, axis=-1)
     return 4.0 * np.arctan2(np.minimum(difference, total), np.maximum(difference, total))

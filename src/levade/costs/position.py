@@ -14,8 +14,12 @@ from levade.trajectory import Trajectories
 class Position:
     """Squared distance [m^2] of the trunk's centre of mass from the required place; coordinates left out are free.
 
-    x, y, z: [m], world axes. at: when; over the hold it is the mean.
-    tolerance: [m], a distance that costs nothing; beyond, the excess is squared.
+    Attributes:
+        x: Required coordinate [m], world axes; None is free.
+        y: Required coordinate [m], world axes; None is free.
+        z: Required coordinate [m], world axes; None is free.
+        at: When it is judged; over the hold it is the mean.
+        tolerance: Distance that costs nothing [m]; the excess is squared.
     """
 
     unit: ClassVar[str] = "m^2"

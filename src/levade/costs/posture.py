@@ -15,8 +15,12 @@ from levade.trajectory import Trajectories
 class Posture:
     """Sum over the joints of the squared distance [rad^2] from a required posture; joints set to None are free.
 
-    position: one angle [rad] per joint, in the robot's joint order. at: when; over the hold it is the mean.
-    Raises LevadeError if the robot has another number of joints.
+    Attributes:
+        position: One angle [rad] per joint, in the robot's joint order.
+        at: When it is judged; over the hold it is the mean.
+
+    Raises:
+        LevadeError: If the robot has another number of joints.
     """
 
     unit: ClassVar[str] = "rad^2"

@@ -14,10 +14,17 @@ Measure = Literal["mean", "cvar", "worst"]
 
 
 def risk(cost: Array, known: NDArray[np.bool_], *, measure: Measure, tail: float = 0.5) -> Array:
-    """(n,) of whole roll-outs' costs (n, m), each candidate over those that are known, at least one.
+    """Reduce the costs of each candidate's roll-outs to one number.
 
-    measure: "mean"; "worst"; or "cvar", the mean of the worst share ``tail`` (at least one) of them: the conditional value at
-    risk of Rockafellar and Uryasev, Journal of Risk 2 (2000), of the sample.
+    Args:
+        cost: Costs of whole roll-outs, shape (n, m).
+        known: Which of them are known, shape (n, m); at least one per candidate.
+        measure: "mean"; "worst"; or "cvar", the mean of the worst share ``tail`` (at least one) of them: the
+            conditional value at risk of Rockafellar and Uryasev, Journal of Risk 2 (2000), of the sample.
+        tail: Share of the roll-outs that "cvar" looks at.
+
+    Returns:
+        Costs, shape (n,).
     """
     descending = np.sort(np.where(known, -cost, np.inf), axis=1)  # the worst first, what is not known last
     count = known.sum(axis=1)
@@ -34,7 +41,9 @@ def risk(cost: Array, known: NDArray[np.bool_], *, measure: Measure, tail: float
 
 
 def ranked_behind(cost: Array, kept: NDArray[np.bool_]) -> Array:
-    """(n,) costs in which every candidate that was not kept costs more than all that were, their own order unchanged.
+    """Raise the costs of candidates that were eliminated early, so that they rank behind all that completed every roll-out.
+
+    Among themselves they keep their order.
 
     For races: who was left behind after a few roll-outs is not compared by these with who ran them all.
     """

@@ -68,7 +68,13 @@ def mean_in(values: Array, trajectories: Trajectories, rows: slice) -> Array:
 def squared_distance(values: Array, target: tuple[float | None, ...], tolerance: float = 0.0) -> Array:
     """Mean over the rows of the squared distance to the target, beyond the tolerance, in the components that have one.
 
-    values: (n, rows, components). Returns (n,).
+    Args:
+        values: (n, rows, components).
+        target: Required value of each component; None where it is free.
+        tolerance: Distance that costs nothing.
+
+    Returns:
+        (n,).
     """
     # one by one: numpy's own sum takes another order for a single trial, and would change its last bit
     squares = np.zeros(values.shape[:-1])

@@ -65,7 +65,7 @@ class Measure(str):
     unit: str
     function: Callable[[Trajectories, slice], Array]
 
-    def __new__(cls, name: str, unit: str, function: Callable[[Trajectories, slice], Array]) -> Measure:
+    def __new__(cls, name: str, unit: str, function: Callable[[Trajectories, slice], Array]) -> Measure:  # noqa: D102
         if not name or name in QUANTITIES:
             raise LevadeError(f"success: {name!r} cannot name a measure; give it a name that is no quantity's")
         made = super().__new__(cls, name)
@@ -102,27 +102,33 @@ Legs = str | tuple[str, ...]
 class Criterion:
     """One thing that a motion has to achieve: a target within a tolerance, or a minimum and/or a maximum.
 
-    quantity: a `Measure` of one's own, or what, of the trunk:
-        roll, yaw [rad]: z-y-x angles; not unique at pitch = +-pi/2, so use tilt for motions that end near there.
-        pitch [rad]: z-y-x, nose up negative, but counted on past the vertical where the trunk's top looks down, so
-            that a robot on its back never passes for one on its feet (`levade.costs.orientation.pitch_past_vertical`).
-        tilt [rad]: angle between the trunk's up and the world's, 0 to pi.
-        x, y, height [m]: of its centre of mass, world axes.
-        travel [m]: horizontal distance of its centre of mass from where the motion began.
-        speed, vertical_speed [m/s]: of its centre of mass: norm, and upward component, of the velocity.
-        angular_speed [rad/s]: norm of the angular velocity.
-        angle_margin [rad], speed_margin, torque_speed_margin [share of the limit]: what the joint that has least left
-            leaves of its range, its speed limit, its actuator's line (`levade.trajectory.JointLimits`).
-        self_distance [m]: the least between two parts of the robot that may touch; negative where they are in each other.
-            What is farther than the clearance counts as that far.
-        duration [s]: the horizon T, where it is a decision of the search.
-        lowest_foot, highest_foot [m]: height over z = 0 of the sole that is lowest, or highest, among the ``legs``.
-        trunk_clearance [m]: height over z = 0 of the lowest point of the trunk, and of what is fixed to it.
-    target, tolerance: required value, and the distance from it that still counts. Angles wrap.
-    minimum, maximum: required bounds, instead of a target.
-    at: at the horizon T; at the end; the largest ("max") or smallest ("min") value of the whole trial, hold included;
-        or at every row of the hold ("hold": the error is that of the worst row).
-    legs: of the feet: see `Legs`.
+    Quantities of the trunk and the robot:
+
+    - ``roll``, ``yaw`` [rad]: z-y-x angles. They are not unique at pitch = +-pi/2, so use tilt for motions that end near there.
+    - ``pitch`` [rad]: z-y-x, nose up negative. It is counted on past the vertical where the trunk's top looks down, so that a
+      robot on its back never passes for one on its feet (`levade.costs.orientation.pitch_past_vertical`).
+    - ``tilt`` [rad]: angle between the trunk's up and the world's, 0 to pi.
+    - ``x``, ``y``, ``height`` [m]: the trunk's centre of mass, world axes.
+    - ``travel`` [m]: horizontal distance of the trunk's centre of mass from where the motion began.
+    - ``speed``, ``vertical_speed`` [m/s]: norm, and upward component, of the velocity of the trunk's centre of mass.
+    - ``angular_speed`` [rad/s]: norm of the trunk's angular velocity.
+    - ``angle_margin`` [rad], ``speed_margin``, ``torque_speed_margin`` [share of the limit]: what the joint with the least
+      slack leaves of its range, its speed limit, its actuator's line (`levade.trajectory.JointLimits`).
+    - ``self_distance`` [m]: the least distance between two parts of the robot that may touch; negative where they overlap.
+      Parts that are farther apart than the clearance count as that far.
+    - ``duration`` [s]: the horizon T, where it is a decision of the search.
+    - ``lowest_foot``, ``highest_foot`` [m]: height over z = 0 of the lowest, or highest, sole among the ``legs``.
+    - ``trunk_clearance`` [m]: height over z = 0 of the lowest point of the trunk, and of what is fixed to it.
+
+    Attributes:
+        quantity: One of these, or a `Measure` of your own.
+        target: Required value. Angles wrap.
+        tolerance: Distance from the target that still counts.
+        minimum: Required lower bound, instead of a target.
+        maximum: Required upper bound, instead of a target.
+        at: At the horizon T ("horizon"); at the end; the largest ("max") or smallest ("min") value of the whole trial, hold
+            included; or at every row of the hold ("hold": the error is that of the worst row).
+        legs: Legs that a quantity of the feet looks at: see `Legs`.
     """
 
     quantity: AnyQuantity
@@ -170,9 +176,9 @@ class Criterion:
         return unit_of(self.quantity).endswith("/s")
 
     def error(self, trajectories: Trajectories) -> Array:
-        """(n,) in the quantity's SI unit: value - target, wrapped for angles, or what is beyond a bound (signed, else
-        0).
+        """Signed errors in the quantity's SI unit, shape (n,).
 
+        An error is value - target, wrapped for angles; for bounds it is what is beyond the bound, and 0 inside.
         Always finite: `levade.costs.DIVERGED` for trials that diverged.
         """
         return self.judge(trajectories)[0]

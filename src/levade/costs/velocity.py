@@ -27,11 +27,15 @@ Frame = Literal["world", "trunk", "heading"]
 
 @dataclass(frozen=True)
 class LinearVelocity:
-    """Squared difference [m^2/s^2] from a required velocity of the trunk's centre of mass, components left out are
-    free.
+    """Squared difference [m^2/s^2] from a required velocity of the trunk's centre of mass, components left out are free.
 
-    x, y, z: [m/s]. frame: their axes, see `Frame`; "heading" means forward, left and up. tolerance: [m/s], a difference
-        that costs nothing. at: when; over the hold it is the mean.
+    Attributes:
+        x: Required component [m/s]; None is free.
+        y: Required component [m/s]; None is free.
+        z: Required component [m/s]; None is free.
+        frame: Axes of x, y and z, see `Frame`; "heading" means forward, left and up.
+        tolerance: Difference that costs nothing [m/s].
+        at: When it is judged; over the hold it is the mean.
     """
 
     unit: ClassVar[str] = "m^2/s^2"
@@ -61,8 +65,13 @@ class LinearVelocity:
 class AngularVelocity:
     """Squared difference [rad^2/s^2] from a required angular velocity of the trunk, components left out are free.
 
-    x, y, z: [rad/s]; in trunk axes roll, pitch and yaw rate of the gyroscope. frame: their axes, see `Frame`. tolerance:
-        [rad/s], a difference that costs nothing. at: when; over the hold it is the mean.
+    Attributes:
+        x: Required component [rad/s]; None is free. In trunk axes, what a gyroscope reads.
+        y: Required component [rad/s]; None is free. In trunk axes, what a gyroscope reads.
+        z: Required component [rad/s]; None is free. In trunk axes, what a gyroscope reads.
+        frame: Axes of x, y and z, see `Frame`.
+        tolerance: Difference that costs nothing [rad/s].
+        at: When it is judged; over the hold it is the mean.
     """
 
     unit: ClassVar[str] = "rad^2/s^2"
@@ -93,9 +102,13 @@ class AngularVelocity:
 class JointVelocity:
     """Sum over the joints of the squared difference from a required joint velocity [rad^2/s^2], which is rest by default.
 
-    velocity: [rad/s] per joint, in the robot's joint order; joints set to None are free. All at rest if left out. tolerance:
-        [rad/s], a difference of each joint that costs nothing. at: when; over the hold it is the mean.
-    Raises LevadeError if the robot has another number of joints.
+    Attributes:
+        velocity: [rad/s] per joint, in the robot's joint order; joints set to None are free. All at rest if left out.
+        tolerance: Difference of each joint that costs nothing [rad/s].
+        at: When it is judged; over the hold it is the mean.
+
+    Raises:
+        LevadeError: If the robot has another number of joints.
     """
 
     unit: ClassVar[str] = "rad^2/s^2"

@@ -25,8 +25,14 @@ def simulate(
 ) -> tuple[dict[str, Array], NDArray[np.bool_]]:
     """The first n simulations of a batch, from their states through all rows of ctrl.
 
-    rows: (1 or n, size of a state). ctrl: (n, steps, nu). recorded: fields of `mujoco.MjData`.
-    Returns name -> (n, steps, ...), and which simulations broke down: later rows of theirs repeat the last one.
+    Args:
+        batch: The batch to simulate.
+        rows: (1 or n, size of a state).
+        ctrl: (n, steps, nu).
+        recorded: Fields of `mujoco.MjData`.
+
+    Returns:
+        Name -> (n, steps, ...), and which simulations broke down: later rows of theirs repeat the last one.
     """
     n, steps = ctrl.shape[:2]
     batch.state[:n] = rows
@@ -60,7 +66,7 @@ def simulate(
 
 @contextmanager
 def quiet() -> Iterator[None]:
-    """Simulations that break down are told to the caller, not to standard error and a MUJOCO_LOG.TXT."""
+    """Simulations that break down are reported to the caller, not to standard error and a MUJOCO_LOG.TXT."""
     before = mujoco.get_mju_user_warning()
     mujoco.set_mju_user_warning(_ignore)
     try:

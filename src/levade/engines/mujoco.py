@@ -40,6 +40,7 @@ class MujocoEngine(Engine):
 
     @classmethod
     def versions(cls) -> dict[str, str]:
+        """Versions that decide the bits; see `levade.engines.EngineKind.versions`."""
         return {name: version(name) for name in ("mujoco", "numpy")}
 
     def with_model(self, model: mujoco.MjModel) -> MujocoEngine:
@@ -81,6 +82,7 @@ class MujocoEngine(Engine):
         return self._recorded(trials, fields, None if "sensordata" in fields else ())
 
     def hold(self, model: mujoco.MjModel, data: mujoco.MjData, posture: Array, time: float) -> State:
+        """Simulate the robot while it holds a posture; see `levade.engines.Engine.hold`."""
         steps = round(time / self.physics.timestep)
         data.ctrl[:] = 0.0
         data.ctrl[self.layout.ctrl_position] = posture

@@ -31,9 +31,12 @@ Range = tuple[float, float] | None
 class Parameter:
     """What one perturbed quantity is.
 
-    unit: "x" for a factor on what the model says, else the SI unit of what is added to it. per: what has a number of its own:
-    the model (one number), the axes, turns about them, tilts about x and y, the joints, the obstacles' axes.
-    what: in a sentence. why: the default range is as wide as it is.
+    Attributes:
+        unit: "x" for a factor on what the model says, else the SI unit of what is added to it.
+        per: What has a number of its own: the model (one number), the axes, turns about them, tilts about x and y, the
+            joints, the obstacles' axes.
+        what: In a sentence.
+        why: The default range is as wide as it is.
     """
 
     unit: str
@@ -43,6 +46,7 @@ class Parameter:
 
     @property
     def nominal(self) -> float:
+        """The value of the nominal model."""
         return 1.0 if self.unit == "x" else 0.0
 
 
@@ -64,13 +68,13 @@ PARAMETERS: dict[str, Parameter] = {
     ),
     "inertia": Parameter(
         *("x", "model"),
-        "rotational inertia of all bodies, beside that of mass",
+        "rotational inertia of all bodies, next to that of mass",
         "seldom measured; CAD leaves out what mass leaves out, and further from the centre",
     ),
     "kp": Parameter(
         *("x", "joint"),
         "position gain of each joint",
-        "the inner torque loop delivers 10 to 20 % more or less than it is told",
+        "the inner torque loop delivers 10 to 20 % more or less than commanded",
     ),
     "kd": Parameter(
         *("x", "joint"),
@@ -89,7 +93,7 @@ PARAMETERS: dict[str, Parameter] = {
     ),
     "latency": Parameter(
         *("s", "model"),
-        "delay from a reference to its servo, which until then has what it was told before the start",
+        "delay from a reference to its servo, which until then keeps its command from before the start",
         "up to two cycles of a 500 Hz controller or field bus",
     ),
     "start_joint": Parameter(
@@ -148,8 +152,11 @@ _LATE, _LATE_TAG = ("softness",), 1_819_440_229
 class Perturbation:
     """Ranges of what may differ. Factors (unit "x") are around 1, everything else is an offset around 0, in SI units.
 
-    What each is, how many numbers it takes, and why the default is what it is: `PARAMETERS`, and docs/check.md. A robot or
-    scene without a thing (a lag, an obstacle) is not perturbed in it. Raises LevadeError for ranges that make no sense.
+    What each is, how many numbers it takes, and why the default is what it is: `PARAMETERS`, and docs/check.md. A robot
+    or scene without a thing (a lag, an obstacle) is not perturbed in it.
+
+    Raises:
+        LevadeError: For ranges that make no sense.
     """
 
     friction: Range = (0.7, 1.3)
@@ -184,10 +191,16 @@ class Perturbation:
                 raise LevadeError(f"perturb.{name}: {low} is too low; {least} or more, {about.nominal:g} is nominal")
 
     def spread(self, model: mujoco.MjModel, joints: int, *, n: int, seed: int | tuple[int, ...]) -> Sample:
-        """n runs that together cover every range evenly: a Latin hypercube, for few runs that have to stand for many.
+        """Sample n runs that together cover every range evenly: a Latin hypercube, for few runs that stand for many.
 
         Each number's range is cut into n parts, and each run has it in another one (McKay, Beckman and Conover, Technometrics
         21, 1979).
+
+        Args:
+            model: The nominal model.
+            joints: Number of joints.
+            n: Number of runs.
+            seed: One number, or several that together make one.
         """
 
         def spread(generator: np.random.Generator, size: int) -> Array:
@@ -197,12 +210,18 @@ class Perturbation:
         return self._drawn(spread, _sizes(model, joints), seed)
 
     def draw(self, model: mujoco.MjModel, joints: int, *, n: int, seed: int | tuple[int, ...]) -> Sample:
-        """n runs, drawn at random. seed: one number, or several that together make one."""
-        # row by row: run i does not depend on n
+        """Draw n runs at random. Run i does not depend on n.
+
+        Args:
+            model: The nominal model.
+            joints: Number of joints.
+            n: Number of runs.
+            seed: One number, or several that together make one.
+        """
         return self._drawn(lambda generator, size: generator.random((n, size)), _sizes(model, joints), seed)
 
     def nominal(self, model: mujoco.MjModel, joints: int, *, n: int = 1) -> Sample:
-        """n runs in which nothing is perturbed."""
+        """Return n runs in which nothing is perturbed."""
         sizes = _sizes(model, joints)
         return Sample({name: np.full((n, size), PARAMETERS[name].nominal) for name, size in sizes.items()})
 

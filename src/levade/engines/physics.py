@@ -14,11 +14,14 @@ from levade.errors import LevadeError, located
 class Ode:
     """Settings of the engine ode; the defaults are Gazebo's.
 
-    solver: "quick" is ``dWorldQuickStep``, ``iterations`` sweeps of successive over-relaxation by the factor
-    ``relaxation``; "exact" is ``dWorldStep``, which solves for all constraints at once, but bounds friction by the
-    normal forces that there would be without it.
-    erp: share of a constraint's error that is corrected in a step. cfm: its softness [1/(N s/m)].
-    surface_layer: [m], depth up to which contacts may sink in. max_correcting_velocity: [m/s], of contacts.
+    Attributes:
+        solver: "quick" is ``dWorldQuickStep``, ``iterations`` sweeps of successive over-relaxation by the factor
+            ``relaxation``; "exact" is ``dWorldStep``, which solves for all constraints at once, but bounds friction by
+            the normal forces that there would be without it.
+        erp: Share of a constraint's error that is corrected in a step.
+        cfm: Its softness [1/(N s/m)].
+        surface_layer: [m], depth up to which contacts may sink in.
+        max_correcting_velocity: [m/s], of contacts.
     """
 
     solver: Literal["quick", "exact"] = "quick"
@@ -46,10 +49,19 @@ class Ode:
 class Physics:
     """Which engine simulates, and how time and contact are resolved.
 
-    engine: name of the engine; docs/engines.md says what each needs.
-    timestep: [s]. integrator, cone, impratio: as in MuJoCo's ``option``, of no effect in ODE. The elliptic cone with a
-    friction constraint that is stiffer than the normal one (impratio > 1) keeps feet from creeping: with MuJoCo's own
-    defaults HyQ2Max, standing still, sinks by 1 cm in 5 s as its feet slide apart. ode: see `Ode`.
+    Attributes:
+        engine: Name of the engine; docs/engines.md says what each needs.
+        timestep: [s].
+        integrator: As in MuJoCo's ``option``, of no effect in ODE. The elliptic cone with a friction constraint that is
+            stiffer than the normal one (impratio > 1) keeps feet from creeping: with MuJoCo's own defaults HyQ2Max,
+            standing still, sinks by 1 cm in 5 s as its feet slide apart.
+        cone: As in MuJoCo's ``option``, of no effect in ODE. The elliptic cone with a friction constraint that is
+            stiffer than the normal one (impratio > 1) keeps feet from creeping: with MuJoCo's own defaults HyQ2Max,
+            standing still, sinks by 1 cm in 5 s as its feet slide apart.
+        impratio: As in MuJoCo's ``option``, of no effect in ODE. The elliptic cone with a friction constraint that is
+            stiffer than the normal one (impratio > 1) keeps feet from creeping: with MuJoCo's own defaults HyQ2Max,
+            standing still, sinks by 1 cm in 5 s as its feet slide apart.
+        ode: See `Ode`.
     """
 
     engine: str = "mujoco"

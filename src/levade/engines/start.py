@@ -13,11 +13,12 @@ from levade.errors import LevadeError
 class Settled:
     """Standing on the ground in a posture, at rest.
 
-    posture: name of a posture of the robot; or, on top of the neutral one, joint -> angle [rad], and leg, "front",
-        "hind", "left" or "right" -> name of the posture that these legs take.
+    The robot is put down level, with its lowest foot touching (or whatever is lower), above the point x, y, and holds
+    the posture with its own gains for ``time`` [s]; it sags a little, as its joints give way to gravity.
 
-    The robot is put down level, with its lowest foot touching (or whatever is lower), above the point x, y, and holds the
-    posture with its own gains for ``time`` [s]; it sags a little, as its joints give way to gravity.
+    Attributes:
+        posture: Name of a posture of the robot; or, on top of the neutral one, joint -> angle [rad], and leg, "front",
+            "hind", "left" or "right" -> name of the posture that these legs take.
     """
 
     posture: str | Mapping[str, float | str] = "neutral"
@@ -34,12 +35,17 @@ class Settled:
 class Fall:
     """Lying as a fall with weak joints left it: deterministic, from the numbers here.
 
-    height: [m], trunk's origin over z = 0 at release; higher where a part of the robot would be in the ground. x, y: [m].
-    roll, pitch, yaw: [rad] at release, z-y-x.
-    posture: as in `Settled`; the joints hold it with ``gain`` times their gains while they fall.
-    time: [s] from release to the start of the motion.
-    spread: [rad], standard deviation of random changes of the joints and of roll, pitch and yaw at release, drawn with
-    ``seed``: a family of falls for a library or a test.
+    Attributes:
+        height: [m], trunk's origin over z = 0 at release; higher where a part of the robot would be in the ground.
+        x: [m].
+        y: [m].
+        roll: [rad] at release, z-y-x.
+        pitch: [rad] at release, z-y-x.
+        yaw: [rad] at release, z-y-x.
+        posture: As in `Settled`; the joints hold it with ``gain`` times their gains while they fall.
+        time: [s] from release to the start of the motion.
+        spread: [rad], standard deviation of random changes of the joints and of roll, pitch and yaw at release, drawn
+            with ``seed``: a family of falls for a library or a test.
     """
 
     height: float
@@ -68,14 +74,18 @@ class Fall:
 class Fallen:
     """Lying however it fell: one of a family of falls, from any attitude and with any posture.
 
-    height: [m], trunk's origin over the ground under it at release; higher where a part of the robot would be in the ground.
-    x, y: [m].
-    gain: the joints hold the angles that they were released with, with this many times their gains.
-    time: [s] from release to the start of the motion.
-    seed, index: which fall of which family. A fall does not depend on how many of its family are asked for.
+    The attitude is uniform over all rotations. Each joint's angle is uniform over its range, a whole turn if it has
+    none, and all are drawn again where parts of the robot overlap each other or an obstacle.
 
-    The attitude is uniform over all rotations. Each joint's angle is uniform over its range, a whole turn if it has none, and
-    all are drawn again where parts of the robot overlap each other or an obstacle.
+    Attributes:
+        height: [m], trunk's origin over the ground under it at release; higher where a part of the robot would be in
+            the ground.
+        x: [m].
+        y: [m].
+        gain: The joints hold the angles that they were released with, with this many times their gains.
+        time: [s] from release to the start of the motion.
+        seed: Which fall of which family. A fall does not depend on how many of its family are asked for.
+        index: Which fall of which family. A fall does not depend on how many of its family are asked for.
     """
 
     height: float
@@ -102,8 +112,11 @@ class Fallen:
 class GivenState:
     """A state in numbers, such as the end of an earlier motion (`levade.motions.end_of`).
 
-    qpos, qvel, act: in the model's own order, SI. joint_reference: what the joints were commanded last [rad], in the robot's
-        joint order.
+    Attributes:
+        qpos: In the model's own order, SI.
+        qvel: In the model's own order, SI.
+        act: In the model's own order, SI.
+        joint_reference: What the joints were commanded last [rad], in the robot's joint order.
     """
 
     qpos: tuple[float, ...]

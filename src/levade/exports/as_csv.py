@@ -51,7 +51,7 @@ def write_table(path: Path, table: dict[str, Array]) -> None:
 
 
 def write(content: Content, directory: Path) -> list[str]:
-    """motion.csv, and beside it meta.json and player.py."""
+    """motion.csv, and next to it meta.json and player.py."""
     table, feedback = directory / "motion.csv", directory / FEEDBACK
     write_table(table, columns(content.playing))
     belongs = [table.read_bytes()]

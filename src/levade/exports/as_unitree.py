@@ -28,7 +28,11 @@ AXES = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
 
 
 def motors(motion: Motion) -> dict[str, str]:
-    """Motor -> joint, in Unitree's order. Raises LevadeError unless the robot has four such legs of three joints."""
+    """Motor -> joint, in Unitree's order.
+
+    Raises:
+        LevadeError: Unless the robot has four such legs of three joints.
+    """
     order: dict[str, str] = {}
     for leg in motion.legs:
         if len(leg.joints) != 3:

@@ -40,10 +40,16 @@ UNITS = {
 
 @dataclass(frozen=True, eq=False)
 class Content:
-    """samples: at the rate asked for. playing: at a rate that a robot can follow; mostly the same.
+    """What an export writes.
 
-    provenance: task, robot, scene, seed, versions, command. simulation: see `levade.exports.simulation`.
-    feedback: the stabiliser; None if none goes with the rows.
+    Attributes:
+        motion: The motion.
+        model: Its compiled model.
+        samples: The motion at the rate that was asked for.
+        playing: The motion at a rate that a robot can follow; mostly the same.
+        provenance: Task, robot, scene, seed, versions, command.
+        simulation: See `levade.exports.simulation`.
+        feedback: The stabiliser; None if none goes with the rows.
     """
 
     motion: Motion
@@ -79,7 +85,7 @@ def provenance(motion: Motion, command: str | None) -> dict[str, Any]:
 
 
 def surroundings(motion: Motion) -> str:
-    """What the motion meets beside flat ground, in words; empty if nothing."""
+    """What the motion meets besides flat ground, in words; empty if nothing."""
     scene = motion.task.scene
     count = lambda what, plural, items: [f"{len(items)} {what if len(items) == 1 else plural}"] * bool(items)  # noqa: E731
     parts = count("box", "boxes", scene.boxes) + count("gap", "gaps", scene.gaps)

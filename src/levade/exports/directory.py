@@ -16,8 +16,10 @@ from levade.writing import check_replaceable
 def filling(directory: Path) -> Iterator[Path]:
     """A place to write the files at; they go into the directory at the end, or away if something goes wrong.
 
-    Files of the same names are replaced, others stay. The directory is made if need be. Raises LevadeError if it cannot
-    be written, before any work is done.
+    Files of the same names are replaced, others stay. The directory is made if need be.
+
+    Raises:
+        LevadeError: If it cannot be written, before any work is done.
     """
     made = [path for path in (directory.parent, *directory.parent.parents) if not path.exists()]
     try:

@@ -27,10 +27,14 @@ Write = Callable[[Content, Path], list[str]]
 
 @dataclass(frozen=True)
 class Format:
-    """write: puts the files into a directory, returns notes for the user. rate: [Hz]; None for the simulation's.
+    """A format of exports.
 
-    plays: whether its rows are fit to be sent to a robot; else the files for playing are at the simulation's rate.
-    check: raises LevadeError where the motion cannot be put into the format.
+    Attributes:
+        description: What it is for.
+        write: Puts the files into a directory, and returns notes for the user.
+        rate: Rows a second [Hz]; None for the simulation's.
+        plays: Whether its rows can be sent to a robot. If not, the files for playing are at the simulation's rate.
+        check: Raises LevadeError where the motion cannot be put into the format.
     """
 
     description: str
@@ -53,7 +57,11 @@ FORMATS = {
 
 @dataclass(frozen=True, eq=False)
 class Exported:
-    """What was written. notes: sentences that the user should read."""
+    """What was written.
+
+    Attributes:
+        notes: Sentences that the user should read.
+    """
 
     format: str
     directory: Path
@@ -76,8 +84,22 @@ def export(
 ) -> Exported:
     """Write a motion in a format, all files of it or none.
 
-    rate: [Hz], instead of the format's. reference, hold, kp, kd: see `levade.exports.samples.sample`. command: how it was
-    asked for, for the record. Raises LevadeError if the format does not exist or the motion does not fit into it.
+    Args:
+        motion: A motion.
+        to: Name of the format, a key of `FORMATS`.
+        directory: Directory to write; it is made if need be.
+        rate: Rows a second [Hz]. Defaults to the format's own.
+        reference: What to send, "measured" or "commanded": see `levade.exports.samples.sample`.
+        hold: Whether to go on after the horizon.
+        kp: Position gain of all joints [Nm/rad]. Defaults to the simulation's.
+        kd: Velocity gain of all joints [Nm s/rad]. Defaults to the simulation's.
+        command: The command that asked for it, for the provenance.
+
+    Returns:
+        What was written, with its samples and notes.
+
+    Raises:
+        LevadeError: If the format does not exist or the motion does not fit into it.
     """
     if to not in FORMATS:
         raise LevadeError(f"no format {to!r}; {did_you_mean(to, FORMATS)}", field="to")
@@ -127,7 +149,12 @@ def _feedback_notes(motion: Motion, feedback: Feedback | None) -> list[str]:
 
 
 def _sunk_notes(model: mujoco.MjModel, depth: Mapping[str, float]) -> list[str]:
-    """That the robot's feet lie in the floor at the start, where they do; depth: [m], of each foot."""
+    """Note that the robot's feet lie in the floor at the start, if they do.
+
+    Args:
+        model: The compiled model of the motion.
+        depth: How deep each foot is in the floor [m], by name.
+    """
     deep = sunk_feet(model, depth)
     if not deep:
         return []

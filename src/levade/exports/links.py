@@ -23,12 +23,15 @@ from levade.rotations import exponential, multiply, rotate
 
 @dataclass(frozen=True, eq=False)
 class Link:
-    """name: of the body. parent: index of the parent's link; None for the trunk, which is free in the world.
+    """position (3,) [m] and quaternion (4,): of the link's frame in the parent's, at joint angle zero.
 
-    position (3,) [m] and quaternion (4,): of the link's frame in the parent's, at joint angle zero.
-    joint: name of the hinge, None where it is fixed to its parent. axis: (3,), of the hinge in the link's frame.
-    body: index in the model; None for a link that is only there to be between two hinges.
-    shift: (3,) [m], origin of the body's frame in the link's.
+    Attributes:
+        name: Of the body.
+        parent: Index of the parent's link; None for the trunk, which is free in the world.
+        joint: Name of the hinge, None where it is fixed to its parent.
+        axis: (3,), of the hinge in the link's frame.
+        body: Index in the model; None for a link that is only there to be between two hinges.
+        shift: (3,) [m], origin of the body's frame in the link's.
     """
 
     name: str
@@ -43,9 +46,15 @@ class Link:
 
 @dataclass(frozen=True, eq=False)
 class Frames:
-    """Frames in the world: position and linear_velocity (rows, n, 3) [m], [m/s] of their origins, quaternion (rows, n, 4) and
-    angular_velocity (rows, n, 3) [rad/s], all in world axes. relative_position (rows, n, 3), relative_quaternion (rows, n,
-    4): in the parent's frame, the trunk's in the world.
+    """Frames of links over time.
+
+    Attributes:
+        position: Origins in the world [m], shape (rows, n, 3).
+        quaternion: Frame to world, shape (rows, n, 4).
+        linear_velocity: Velocities of the origins, world axes [m/s], shape (rows, n, 3).
+        angular_velocity: Angular velocities, world axes [rad/s], shape (rows, n, 3).
+        relative_position: Origins in the parent's frame, the trunk's in the world [m], shape (rows, n, 3).
+        relative_quaternion: Frame to the parent's, shape (rows, n, 4).
     """
 
     position: Array

@@ -14,9 +14,12 @@ from levade.motions import Motion
 
 
 def gains(model: mujoco.MjModel, joints: Sequence[str]) -> tuple[Array, Array]:
-    """kp [Nm/rad] and kd [Nm s/rad] of each joint's actuator, (joints,) each.
+    """Position gain [Nm/rad] and velocity gain [Nm s/rad] of each joint's actuator, shape (joints,) each.
 
-    The actuators are MuJoCo's dcmotor with a controller, or pid (see `levade.robots.actuation`). Raises LevadeError for others.
+    The actuators are MuJoCo's dcmotor with a controller, or pid (see `levade.robots.actuation`).
+
+    Raises:
+        LevadeError: For others.
     """
     kp, kd = np.zeros(len(joints)), np.zeros(len(joints))
     for i, name in enumerate(joints):
@@ -31,9 +34,13 @@ def gains(model: mujoco.MjModel, joints: Sequence[str]) -> tuple[Array, Array]:
 class Drive:
     """A joint's actuator, see `levade.robots.actuation`.
 
-    kind: "pid" or "dcmotor". kp: [Nm/rad]. kd: [Nm s/rad]. torque: [Nm], the most it delivers, infinite for no limit.
-    stall_torque [Nm] and no_load_speed [rad/s]: the line that bounds the torque while driving; infinite for none.
-    time_constant: [s], of the lag from commanded to delivered torque; 0 for none.
+    Attributes:
+        kind: "pid" or "dcmotor".
+        kp: [Nm/rad].
+        kd: [Nm s/rad].
+        torque: [Nm], the most it delivers, infinite for no limit. stall_torque [Nm] and no_load_speed [rad/s]: the line
+            that bounds the torque while driving; infinite for none.
+        time_constant: [s], of the lag from commanded to delivered torque; 0 for none.
     """
 
     kind: str

@@ -4,7 +4,7 @@
     python player.py motion.csv --dry-run                       # without a robot: the file and the sequence, not the timing
     python player.py motion.csv --robot my_robot:MyRobot        # MyRobot is yours, see below
 
-motion.csv is read together with the meta.json beside it; motion.json needs nothing beside it. Your robot is a class with two
+motion.csv is read together with the meta.json next to it; motion.json needs no other file. Your robot is a class with two
 methods; arrays are in the order of `Motion.joints`, SI units:
 
     class MyRobot:
@@ -19,7 +19,7 @@ methods; arrays are in the order of `Motion.joints`, SI units:
         def read_trunk(self):                                   # needed for a stabiliser; optional without one
             return quaternion, rate                             # trunk to world, w x y z; (3,) [rad/s] in trunk axes
 
-A motion with a stabiliser (`feedback` in its meta; feedback.npz beside motion.csv) corrects the positions by what the robot
+A motion with a stabiliser (`feedback` in its meta; feedback.npz next to motion.csv) corrects the positions by what the robot
 senses, from the first row on; --no-feedback plays it without, and does not read the trunk.
 
 At the rate of the file:
@@ -36,7 +36,7 @@ Every position sent is within the joint's range and every torque within its limi
 - the trunk is tilted further from the simulation than the tilt tolerance,
 - a reading has another shape or is not finite, or a robot's method raises an exception,
 - the loop, or a reading in it, is late,
-- the program is told to end.
+- the program gets a signal to end.
 
 To stop means: for a second kp and torque are 0, kd is the file's, and the position is the last reading that passed every check.
 Drives then damp, or stay where they are if they know no gains but their own. A write that fails does not end it. Then it is
@@ -80,7 +80,7 @@ class Robot(Protocol):
 
 
 class SensingRobot(Robot, Protocol):
-    """What the player asks of a robot beside, if the motion has a stabiliser; without one, it watches the trunk by it."""
+    """What the player also asks of a robot, if the motion has a stabiliser; without one, it watches the trunk by it."""
 
     def read_trunk(self) -> tuple[Array, Array]:
         """Attitude, trunk to world, w-x-y-z (yaw does not matter), and angular velocity in trunk axes [rad/s]."""
@@ -95,9 +95,12 @@ class Stopped(Exception):
 class Feedback:
     """A stabiliser: ``gain[j]`` times the deviation from ``reference[j]`` at tick j, in force from the next tick on.
 
-    gain: (gains, joints, sensed + joints); the last columns are for the correction in force. reference: (ticks, sensed). After
-    the last of each the last one stays. rate: [Hz], of ticks. bound: [rad], on each joint's correction.
-    Sensed are: up in trunk axes (3), angular velocity in trunk axes (3) [rad/s], joint positions [rad] and velocities [rad/s].
+    Attributes:
+        gain: (gains, joints, sensed + joints); the last columns are for the correction in force.
+        reference: (ticks, sensed). After the last of each the last one stays.
+        rate: [Hz], of ticks.
+        bound: [rad], on each joint's correction. Sensed are: up in trunk axes (3), angular velocity in trunk axes (3)
+            [rad/s], joint positions [rad] and velocities [rad/s].
     """
 
     gain: Array
@@ -106,7 +109,13 @@ class Feedback:
     bound: float
 
     def correction(self, tick: int, measured: Array, last: Array) -> Array:
-        """(joints,) [rad], from the next tick on. measured: (sensed,). last: (joints,) [rad], in force now."""
+        """(joints,) [rad], from the next tick on.
+
+        Args:
+            tick: Number of the tick.
+            measured: (sensed,).
+            last: (joints,) [rad], in force now.
+        """
         off = np.concatenate([measured - self.reference[min(tick, len(self.reference) - 1)], last])
         gain = self.gain[min(tick, len(self.gain) - 1)]
         return np.clip(np.einsum("c,jc->j", off, gain), -self.bound, self.bound)
@@ -141,16 +150,29 @@ LARGEST = {"position": 1e2, "velocity": 1e3, "torque": 1e5, "gain": 1e6}
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """A motion as exported. Raises ValueError for numbers that no robot should be sent.
+    """A motion as exported.
 
-    joints: their names, in the order of all arrays over joints. rate: [Hz], of the rows.
-    position, velocity, torque: what to send, (rows, joints) [rad], [rad/s], [Nm].
-    expected, expected_velocity: what the joints did in the simulation, (rows, joints) [rad], [rad/s].
-    up: opposite of gravity in trunk axes in the simulation, (rows, 3). turning: how fast the trunk turned, (rows,) [rad/s].
-    kp, kd: gains, (joints,) [Nm/rad], [Nm s/rad].
-    start_position, start_torque: what to hold before, (joints,) [rad], [Nm].
-    lower, upper, torque_limit: (joints,) [rad], [rad], [Nm]; infinite for none.
-    held: joints without commands -> where the simulation held them [rad], slides [m].
+    Attributes:
+        joints: Their names, in the order of all arrays over joints.
+        rate: [Hz], of the rows.
+        position: What to send, (rows, joints) [rad], [rad/s], [Nm].
+        velocity: What to send, (rows, joints) [rad], [rad/s], [Nm].
+        torque: What to send, (rows, joints) [rad], [rad/s], [Nm].
+        expected: What the joints did in the simulation, (rows, joints) [rad], [rad/s].
+        expected_velocity: What the joints did in the simulation, (rows, joints) [rad], [rad/s].
+        up: Opposite of gravity in trunk axes in the simulation, (rows, 3).
+        turning: How fast the trunk turned, (rows,) [rad/s].
+        kp: Gains, (joints,) [Nm/rad], [Nm s/rad].
+        kd: Gains, (joints,) [Nm/rad], [Nm s/rad].
+        start_position: What to hold before, (joints,) [rad], [Nm].
+        start_torque: What to hold before, (joints,) [rad], [Nm].
+        lower: (joints,) [rad], [rad], [Nm]; infinite for none.
+        upper: (joints,) [rad], [rad], [Nm]; infinite for none.
+        torque_limit: (joints,) [rad], [rad], [Nm]; infinite for none.
+        held: Joints without commands -> where the simulation held them [rad], slides [m].
+
+    Raises:
+        ValueError: For numbers that no robot should be sent.
     """
 
     joints: list[str]
@@ -205,7 +227,7 @@ class Motion:
 
     @classmethod
     def load(cls, path: str | Path) -> Motion:
-        """Read motion.json, or motion.csv and the meta.json beside it.
+        """Read motion.json, or motion.csv and the meta.json next to it.
 
         Args:
             path: The file.
@@ -227,7 +249,9 @@ class Motion:
             raise ValueError(f"{path}: {_line(error)}; export the motion again") from None
         except Exception as error:
             what = f"{type(error).__name__}: {_line(error)}".rstrip(": ")
-            raise ValueError(f"{path}: it, or a file beside it, is damaged ({what}); export the motion again") from None
+            raise ValueError(
+                f"{path}: it, or a file next to it, is damaged ({what}); export the motion again"
+            ) from None
 
     @classmethod
     def _load(cls, path: Path) -> Motion:
@@ -270,7 +294,7 @@ class Motion:
             if path.suffix != ".json" and not (over(f"command/{{}}/{name}") == getattr(motion, name)).all():
                 raise ValueError(f"{name}: its rows have other gains than meta.json")
         if meta.get("checksum") != sealed:
-            raise ValueError("was changed since it was exported, or a file beside it was (checksum)")
+            raise ValueError("was changed since it was exported, or a file next to it was (checksum)")
         return motion
 
     def sent(self, row: int, added: Array, clamp: bool) -> Array:
@@ -691,9 +715,11 @@ class StandIn:
         self._position, self.calls = motion.start_position + 0.05, 0
 
     def read(self) -> tuple[Array, Array]:
+        """Return joint angles [rad] and velocities [rad/s]."""
         return self._position, np.zeros_like(self._position)
 
     def write(self, position: Array, velocity: Array, torque: Array, kp: Array, kd: Array) -> None:
+        """Take the command of each drive."""
         row = self.calls - self._ticks + 1
         self._position = position if row <= 0 else self._motion.expected[min(row, len(self._motion.expected) - 1)]
         self.calls += 1
@@ -702,7 +728,7 @@ class StandIn:
 def main(arguments: list[str] | None = None) -> int:
     """The command line."""
     parser = argparse.ArgumentParser(description="Play an exported motion on a robot.")
-    parser.add_argument("motion", help="motion.csv (with meta.json beside it) or motion.json")
+    parser.add_argument("motion", help="motion.csv (with meta.json next to it) or motion.json")
     parser.add_argument("--dry-run", action="store_true", help="without a robot, as fast as it goes")
     parser.add_argument("--robot", metavar="MODULE:CLASS", help="your class with read and write")
     parser.add_argument("--ramp", type=float, default=2.0, help="to the start [s]; 2")
@@ -714,7 +740,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--tilt-tolerance", type=float, default=1.0, help="of the trunk, from the simulation [rad]; 1")
     parser.add_argument("--no-feedback", action="store_true", help="without stabiliser, and without reading the trunk")
     parser.add_argument(
-        "--no-clamp", action="store_true", help="send positions beyond the joints' ranges, too, as told"
+        "--no-clamp", action="store_true", help="send positions beyond the joints' ranges, too, as commanded"
     )
     parser.add_argument("--hold", type=float, default=0.0, help="send the last row for longer [s]; 0")
     options = parser.parse_args(arguments)

@@ -107,7 +107,15 @@ def string(text: str) -> bytes:
 
 
 def joint_state(stamp: int, names: Sequence[str], position: Array, velocity: Array, effort: Array) -> bytes:
-    """sensor_msgs/msg/JointState. stamp: [ns]. Arrays: (joints,)."""
+    """Encode a sensor_msgs/msg/JointState.
+
+    Args:
+        stamp: Time stamp [ns].
+        names: Names of the joints.
+        position: Positions [rad], shape (joints,).
+        velocity: Velocities [rad/s], shape (joints,).
+        effort: Torques [Nm], shape (joints,).
+    """
     out = _Bytes()
     out.header(stamp, "")
     out.texts(names)
@@ -119,7 +127,15 @@ def joint_state(stamp: int, names: Sequence[str], position: Array, velocity: Arr
 def tf_message(
     stamp: int, frames: Sequence[str], children: Sequence[str], positions: Array, quaternions: Array
 ) -> bytes:
-    """tf2_msgs/msg/TFMessage. stamp: [ns]. positions: (n, 3) [m]; quaternions: (n, 4), w-x-y-z, of children in frames."""
+    """Encode a tf2_msgs/msg/TFMessage.
+
+    Args:
+        stamp: Time stamp [ns].
+        frames: Names of the parent frames.
+        children: Names of the child frames.
+        positions: (n, 3) [m].
+        quaternions: (n, 4), w-x-y-z, of children in frames.
+    """
     out = _Bytes()
     out.number("I", len(children))
     for frame, child, position, quaternion in zip(frames, children, positions, quaternions, strict=True):
@@ -133,7 +149,15 @@ def tf_message(
 def joint_trajectory(
     names: Sequence[str], times: Sequence[int], positions: Array, velocities: Array, efforts: Array | None
 ) -> bytes:
-    """trajectory_msgs/msg/JointTrajectory that starts when it arrives. times: [ns] from then. Arrays: (rows, joints)."""
+    """Encode a trajectory_msgs/msg/JointTrajectory that starts when it arrives.
+
+    Args:
+        names: Names of the joints.
+        times: Times from the start [ns].
+        positions: Positions [rad], shape (rows, joints).
+        velocities: Velocities [rad/s], shape (rows, joints).
+        efforts: Torques [Nm], shape (rows, joints); None for none.
+    """
     out = _Bytes()
     out.header(0, "")
     out.texts(names)

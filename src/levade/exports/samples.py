@@ -1,4 +1,4 @@
-"""A motion at the rate of whoever is to play or look at it: what to send to the joints, and what the robot then does.
+"""A motion at the rate of the program that plays or shows it: what to send to the joints, and what the robot then does.
 
     samples = sample(motion, rate=500.0)
     samples.command_position, samples.command_torque     # (rows, joints) [rad], [Nm]
@@ -10,7 +10,7 @@ so that no impulse is lost or made up.
 Two kinds of command make a motion:
 
     measured   the angles and velocities that the joints had in the simulation, and the torque that they delivered
-    commanded  the angles and velocities that they were told in the simulation, and no torque
+    commanded  the angles and velocities that they were commanded in the simulation, and no torque
 
 A drive delivers ``kp (position - q) + kd (velocity - qd) + torque``. On the motion, q and qd are the measured ones: with
 measured commands the drive then delivers the recorded torque whatever its gains are; with commanded ones it does so if it
@@ -49,8 +49,10 @@ _MOST = 1_000_000
 
 @dataclass(frozen=True, eq=False)
 class Joints:
-    """What holds for each joint, (joints,): gains [Nm/rad], [Nm s/rad]; limits [rad], [rad/s], [Nm], infinite for none;
-    angle [rad] and torque [Nm] to hold before the motion starts.
+    """What holds for each joint, shape (joints,).
+
+    Gains are in Nm/rad and Nm s/rad. Limits are in rad, rad/s and Nm, infinite for none. Angle [rad] and torque [Nm] are
+    to be held before the motion starts.
     """
 
     names: tuple[str, ...]
@@ -68,13 +70,23 @@ class Joints:
 class Samples:
     """Rows of commands and of the state that goes with them; arrays over joints in the order of ``joints.names``.
 
-    time: (rows,) [s]. rate: [Hz]. reference: one of `REFERENCES`.
-    command_position, command_velocity, command_torque: (rows, joints) [rad], [rad/s], [Nm].
-    joint_position, joint_velocity, joint_torque: (rows, joints), likewise.
-    trunk_position, trunk_com_position: (rows, 3) [m]. trunk_quaternion: (rows, 4), trunk to world, w-x-y-z.
-    trunk_linear_velocity, trunk_angular_velocity: (rows, 3) [m/s], [rad/s], world axes.
-    foot_contact_force: (rows, feet, 3) [N], on the feet, world axes.
-    analytic: whether commanded references between the simulated ones are the policy's own.
+    Attributes:
+        time: (rows,) [s].
+        rate: [Hz].
+        reference: One of `REFERENCES`.
+        command_position: (rows, joints) [rad], [rad/s], [Nm].
+        command_velocity: (rows, joints) [rad], [rad/s], [Nm].
+        command_torque: (rows, joints) [rad], [rad/s], [Nm].
+        joint_position: (rows, joints), likewise.
+        joint_velocity: (rows, joints), likewise.
+        joint_torque: (rows, joints), likewise.
+        trunk_position: (rows, 3) [m].
+        trunk_com_position: (rows, 3) [m].
+        trunk_quaternion: (rows, 4), trunk to world, w-x-y-z.
+        trunk_linear_velocity: (rows, 3) [m/s], [rad/s], world axes.
+        trunk_angular_velocity: (rows, 3) [m/s], [rad/s], world axes.
+        foot_contact_force: (rows, feet, 3) [N], on the feet, world axes.
+        analytic: Whether commanded references between the simulated ones are the policy's own.
     """
 
     time: Array
@@ -114,9 +126,23 @@ def sample(
     kp: float | None = None,
     kd: float | None = None,
 ) -> Samples:
-    """Sample a motion. rate: [Hz]. hold: go on after the horizon. kp [Nm/rad], kd [Nm s/rad]: instead of the simulation's.
+    """Sample a motion.
 
-    Raises LevadeError for a rate that is none, gains that do not go with the reference, or a motion that broke down.
+    Args:
+        motion: A motion.
+        model: Its compiled model.
+        rate: Rows a second [Hz].
+        reference: "measured": what the joints did, with the torque that they delivered. "commanded": what they were
+            commanded.
+        hold: Whether to go on after the horizon.
+        kp: Position gain of all joints [Nm/rad], instead of the simulation's; with "measured" only.
+        kd: Velocity gain of all joints [Nm s/rad], instead of the simulation's; with "measured" only.
+
+    Returns:
+        The motion at this rate.
+
+    Raises:
+        LevadeError: For a rate that is none, gains that do not go with the reference, or a motion that broke down.
     """
     if reference not in REFERENCES:
         raise LevadeError(f"no reference {reference!r}; {did_you_mean(reference, REFERENCES)}", field="reference")
@@ -130,7 +156,7 @@ def sample(
                 field=field,
             )
     if motion.result.diverged or not all(np.isfinite(v).all() for v in motion.arrays.values() if v.dtype.kind == "f"):
-        raise LevadeError("motion: its simulation broke down, there is nothing to export; solve the task anew")
+        raise LevadeError("motion: its simulation broke down, there is nothing to export; solve the task again")
     timestep, steps = motion.timestep, motion.steps
     end = (steps if hold else motion.horizon_steps) * timestep
     time = _times(rate, end)

@@ -1,5 +1,6 @@
-"""Motions: what a search found, as a typed object, its file, and the simulation of it; below the search, so that one can
-be an input of another.
+"""Motions: what a search found, as a typed object, its file, and the simulation of it.
+
+The room lies below the search, so that a motion can be an input of another search.
 
     motion = Motion.load("motion.npz")
     replay_in("ode", motion).success

@@ -93,7 +93,11 @@ class Content:
 
 
 def write(path: str | Path, content: Content) -> None:
-    """Write the file, or leave the one that is there as it is: a new one is written next to it first. Raises OSError."""
+    """Write the file, or leave the one that is there as it is: a new one is written next to it first.
+
+    Raises:
+        OSError: If it cannot be done.
+    """
     path = Path(path)
     data: dict[str, Any] = {
         "meta": np.array(json.dumps(content.meta, ensure_ascii=False)),
@@ -145,7 +149,12 @@ def finite(values: Array) -> list[float | None]:
 
 
 def with_infinity(values: Sequence[float | None], infinity: float = np.inf) -> Array:
-    """The inverse of `finite`. infinity: what stands for no limit, ``-np.inf`` for a lower one."""
+    """The inverse of `finite`.
+
+    Args:
+        values: Numbers; None stands for infinity.
+        infinity: What stands for no limit, ``-np.inf`` for a lower one.
+    """
     return np.array([infinity if value is None else value for value in values], dtype=float)
 
 
@@ -196,7 +205,11 @@ def _meta(path: Path, array: Array) -> dict[str, Any]:
 
 
 def _whole(digits: str) -> int:
-    """A whole number of JSON, if a float can hold its size. Raises ValueError."""
+    """A whole number of JSON, if a float can hold its size.
+
+    Raises:
+        ValueError: If it cannot be done.
+    """
     if len(digits) > 300:
         raise ValueError
     return int(digits)

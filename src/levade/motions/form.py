@@ -56,7 +56,7 @@ class GeometryForm(_Form):
 
 
 class LegForm(_Form):
-    """joints: from the trunk outward. foot: name of a geom."""
+    """A leg: its joints from the trunk outward, and the name of its foot's geom."""
 
     joints: Annotated[list[Name], Field(min_length=1)]
     foot: Name
@@ -234,7 +234,13 @@ def _mistakes(form: MetaForm, arrays: Mapping[str, Array]) -> Iterator[str]:
 
 
 def _mistakes_in_joints(form: MetaForm, names: list[str], *, feet: int) -> Iterator[str]:
-    """What of the legs and joints does not fit together. names: the arrays' joints. feet: how many the arrays have."""
+    """What of the legs and joints does not fit together.
+
+    Args:
+        form: The form.
+        names: The arrays' joints.
+        feet: How many the arrays have.
+    """
     if len(form.legs) != feet:
         yield f"foot_contact_force has {feet} feet, meta.legs has {len(form.legs)}"
     for name, leg in form.legs.items():

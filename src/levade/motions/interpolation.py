@@ -1,5 +1,6 @@
-"""Values between the recorded instants, which are evenly spaced. At a recorded instant every function returns what was
-recorded, to the bit.
+"""Values between the recorded instants, which are evenly spaced.
+
+At a recorded instant every function returns what was recorded, to the bit.
 
     interval, share = locate(time, timestep, intervals)
     position = hermite(interval, share, positions, velocities, timestep)
@@ -32,8 +33,14 @@ Index = NDArray[np.intp]
 def locate(time: Array, timestep: float, intervals: int) -> tuple[Index, Array]:
     """In which interval between recorded instants each time is, and how far into it.
 
-    time: (rows,) [s]; instant i is at ``i * timestep``, from 0 to ``intervals``; later times are its end.
-    Returns interval (rows,), from 0 to intervals - 1, and share (rows,) in [0, 1].
+    Args:
+        time: Times [s], shape (rows,). Instant i is at ``i * timestep``, from 0 to ``intervals``; later times are its
+            end.
+        timestep: Time between instants [s].
+        intervals: Number of intervals.
+
+    Returns:
+        Interval (rows,), from 0 to intervals - 1, and share (rows,) in [0, 1].
     """
     x = np.asarray(time, dtype=np.float64) / timestep
     nearest = np.rint(x)
@@ -43,7 +50,18 @@ def locate(time: Array, timestep: float, intervals: int) -> tuple[Index, Array]:
 
 
 def hermite(interval: Index, share: Array, values: Array, rates: Array, timestep: float) -> Array:
-    """Cubics through the values with the given rates. values, rates: (instants, n). Returns (rows, n)."""
+    """Cubics through the values with the given rates.
+
+    Args:
+        interval: Interval that each time is in, shape (rows,).
+        share: How far into it each time is, shape (rows,), in [0, 1].
+        values: Values at the instants, shape (instants, n).
+        rates: Their rates of change, shape (instants, n).
+        timestep: Time between instants [s].
+
+    Returns:
+        (rows, n).
+    """
     s = share[:, None]
     return (
         (1 + 2 * s) * (1 - s) ** 2 * values[interval]
@@ -53,7 +71,18 @@ def hermite(interval: Index, share: Array, values: Array, rates: Array, timestep
 
 
 def hermite_rate(interval: Index, share: Array, values: Array, rates: Array, timestep: float) -> Array:
-    """How fast the cubics of `hermite` change by time. values, rates: (instants, n). Returns (rows, n)."""
+    """How fast the cubics of `hermite` change by time.
+
+    Args:
+        interval: Interval that each time is in, shape (rows,).
+        share: How far into it each time is, shape (rows,), in [0, 1].
+        values: Values at the instants, shape (instants, n).
+        rates: Their rates of change, shape (instants, n).
+        timestep: Time between instants [s].
+
+    Returns:
+        (rows, n).
+    """
     s = share[:, None]
     return (
         6 * s * (1 - s) / timestep * (values[interval + 1] - values[interval])
@@ -71,8 +100,14 @@ def linear(interval: Index, share: Array, values: Array) -> Array:
 def mean(start: Array, stop: Array, values: Array, timestep: float) -> Array:
     """Mean over each period of what is constant over each step.
 
-    start, stop: (rows,) [s]. values: (steps, n), row k in force from ``k * timestep`` to ``(k + 1) * timestep``; the last
-    goes on for ever. Returns (rows, n).
+    Args:
+        start: (rows,) [s].
+        stop: (rows,) [s].
+        values: (steps, n), row k in force from ``k * timestep`` to ``(k + 1) * timestep``; the last goes on for ever.
+        timestep: Duration of a step [s].
+
+    Returns:
+        (rows, n).
     """
     steps = len(values)
     first, into = locate(start, timestep, steps)
@@ -93,8 +128,16 @@ def mean(start: Array, stop: Array, values: Array, timestep: float) -> Array:
 def rotations(interval: Index, share: Array, quaternions: Array, rates: Array, timestep: float) -> Array:
     """Rotations through the given ones with the given angular velocities.
 
-    quaternions: (instants, 4), body to world, w-x-y-z. rates: (instants, 3) [rad/s], in body axes. Returns (rows, 4).
-    The rotation vector from the start of each interval on is a cubic with the rates at both ends.
+    Args:
+        interval: Interval that each time is in, shape (rows,).
+        share: How far into it each time is, shape (rows,), in [0, 1].
+        quaternions: (instants, 4), body to world, w-x-y-z.
+        rates: (instants, 3) [rad/s], in body axes. The rotation vector from the start of each interval on is a cubic
+            with the rates at both ends.
+        timestep: Time between instants [s].
+
+    Returns:
+        (rows, 4).
     """
     s = share[:, None]
     start, stop = quaternions[interval], quaternions[interval + 1]

@@ -121,12 +121,20 @@ class Motion:
 
     @classmethod
     def load(cls, path: str | Path) -> Motion:
-        """Load a motion file. Raises LevadeError if it is missing, damaged, or something else."""
+        """Load a motion file.
+
+        Raises:
+            LevadeError: If it is missing, damaged, or something else.
+        """
         content = file.read(path)
         return cls(content.meta, content.model_xml, content.arrays, content.assets)
 
     def save(self, path: str | Path) -> None:
-        """Write the motion to a file, all of it or nothing. Raises OSError."""
+        """Write the motion to a file, all of it or nothing.
+
+        Raises:
+            OSError: If it cannot be done.
+        """
         file.write(path, file.Content(self.meta, self.model_xml, self.arrays, self.assets))
 
     def __getitem__(self, name: str) -> Array:
@@ -170,7 +178,8 @@ class Motion:
 
         In a task from a file, a cost that was Python code is a `levade.tasks.code.MissingCode`.
 
-        Raises LevadeError if this version of levade does not take it.
+        Raises:
+            LevadeError: If this version of levade does not take it.
         """
         if self.source_task is not None:
             return self.source_task
@@ -307,8 +316,9 @@ class Motion:
 
     @cached_property
     def start(self) -> State:
-        """The state at the start, one row. Files of early versions do not say what the joints were commanded last: there
-        it is where they are.
+        """The state at the start, one row.
+
+        Files of early versions do not say what the joints were commanded last. For them it is where the joints are.
         """
         joint_position = self["qpos0"][self.addresses(self.compiled()).joint_qpos]
         commanded = self.arrays.get("joint_position_reference0", joint_position)
@@ -383,7 +393,12 @@ class Motion:
         return Motion(meta, self.model_xml, self.arrays, self.assets, None if self.source_task is None else task)
 
     def stabilised(self, feedback: Feedback | None, **about: Any) -> Motion:
-        """The same motion with a stabiliser, or without. about: what its meta says next to what it is."""
+        """The same motion with a stabiliser, or without.
+
+        Args:
+            feedback: The stabiliser.
+            about: What its meta says next to what it is.
+        """
         arrays = {
             name: self.arrays[name] for name in (*file.ARRAYS, *file.LATER_ARRAYS) if name in self.arrays
         }  # but not those of another stabiliser

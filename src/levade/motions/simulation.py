@@ -142,7 +142,7 @@ class RecordedSimulation:
             sample: Perturbed models, a run of each. Defaults to one run of the model as it is.
             feedback: Corrects the reference in every run.
             sensor_errors: What is added to what the feedback senses, shape (n, ticks, sensed).
-            record: What to record beside what the criteria need; see `levade.engines.Engine.rollout`.
+            record: What to record besides what the criteria need; see `levade.engines.Engine.rollout`.
         """
         starts, models = self._models(self.nominal if sample is None else sample)
         record = (*record, *(() if self._clearance is None else (SELF_DISTANCE,)))

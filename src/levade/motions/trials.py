@@ -120,7 +120,7 @@ def run_again(
         runs: Numbers of those to simulate.
         feedback: As there.
         seed: As there.
-        record: What to record beside what the criteria need; see `levade.engines.Engine.rollout`.
+        record: What to record besides what the criteria need; see `levade.engines.Engine.rollout`.
     """
     wrong = None
     if feedback is not None:

@@ -48,10 +48,12 @@ class Adapted:
 
     @property
     def step(self) -> float:
+        """Step size: standard deviation in the coordinates z of the space."""
         return float(getattr(self._optimizer, "step", np.nan))
 
     @property
     def mean(self) -> Array | None:
+        """Mean of the search distribution, shape (d,)."""
         mean = getattr(self._optimizer, "mean", None)
         return None if mean is None else np.asarray(mean, dtype=np.float64)
 
@@ -75,7 +77,7 @@ class Adapted:
             scale(factor)
 
     def _next(self) -> Array:
-        """Candidates that costs have not been told of yet, from an earlier call or from the optimizer."""
+        """Candidates whose costs are not known yet, from an earlier call or from the optimizer."""
         if self._candidates is None:
             self._candidates = self._checked(self._optimizer.ask())
         return self._candidates

@@ -10,14 +10,18 @@ from levade.optimizers.space import SearchSpace
 
 
 class CEM(Sampler):
-    """Cross-entropy method with a normal distribution for each coordinate (Rubinstein, Methodology and Computing in
-    Applied Probability 1(2), 1999; Stulp and Sigaud, ICML 2012, Table 1, left): mean and variance of the elite,
+    """Cross-entropy method with a normal distribution for each coordinate.
 
-    mu <- (1 - a) mu + a mean(elite),  sigma^2 <- (1 - a) sigma^2 + a var(elite)
+    The distribution takes mean and variance of the elite, smoothed by a (Rubinstein, Methodology and Computing in Applied
+    Probability 1(2), 1999; Stulp and Sigaud, ICML 2012, Table 1, left):
 
-    smoothed by a, and a noise floor against stopping early (Szita and Lörincz, Neural Computation 18(12), 2006).
+        mu <- (1 - a) mu + a mean(elite),  sigma^2 <- (1 - a) sigma^2 + a var(elite)
+
+    A noise floor keeps it from stopping early (Szita and Lörincz, Neural Computation 18(12), 2006).
+
     Args:
-        space, seed: See `Sampler`.
+        space: Where to search, see `Sampler`.
+        seed: Seed of this optimizer's own random numbers.
         elite: Share of the trials that are learned from; at least two are.
         smoothing: The share a above.
         floor: Least standard deviation, as a share of the first step.
@@ -47,9 +51,11 @@ class CEM(Sampler):
 
     @property
     def step(self) -> float:
+        """Step size: standard deviation in the coordinates z of the space."""
         return float(np.sqrt(np.square(self._deviation).mean()))
 
     def scale_step(self, factor: float) -> None:
+        """Multiply the step size, as at the start of a stage."""
         self._deviation *= factor
         self._least *= factor
 

@@ -27,8 +27,9 @@ _CONDITION = 1e12
 
 
 class _TwoPoint(cma.sigma_adaptation.CMAAdaptSigmaTPA):
-    """Two-point adaptation without its self-check, which draws from numpy's global generator and warns near the
-    optimum.
+    """Two-point adaptation without its self-check.
+
+    The check draws from numpy's global generator, and warns near the optimum.
     """
 
     def check_consistency(self, es: object) -> None:
@@ -86,10 +87,12 @@ class CMAES:
 
     @property
     def population(self) -> int:
+        """Candidates per generation."""
         return int(self._search.popsize)
 
     @property
     def step(self) -> float:
+        """Step size: standard deviation in the coordinates z of the space."""
         return float(self._search.sigma)
 
     @property

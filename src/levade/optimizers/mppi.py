@@ -10,14 +10,17 @@ from levade.optimizers.space import SearchSpace
 
 
 class MPPI(Sampler):
-    """Annealed MPPI: the information-theoretic average of the trials (Williams et al., ICRA 2017, Algorithm 2),
+    """Annealed MPPI: the information-theoretic average of the trials, with noise that shrinks.
 
-    u <- sum_k w_k u_k,  w_k = exp(-(S_k - min S) / lambda) / sum
+        u <- sum_k w_k u_k,  w_k = exp(-(S_k - min S) / lambda) / sum
 
-    with noise that shrinks from wide to narrow (as the outer loop of DIAL-MPC does: Xue et al., arXiv 2409.15610). As
-    there, the temperature lambda is a share of the standard deviation of the costs, so that their unit does not matter.
+    (Williams et al., ICRA 2017, Algorithm 2.) The noise shrinks from wide to narrow, as in the outer loop of DIAL-MPC (Xue et
+    al., arXiv 2409.15610). As there, the temperature lambda is a share of the standard deviation of the costs, so that
+    their unit does not matter.
+
     Args:
-        space, seed: See `Sampler`.
+        space: Where to search, see `Sampler`.
+        seed: Seed of this optimizer's own random numbers.
         temperature: That share.
         decay: Factor on the noise in each generation.
         floor: What the noise shrinks to, as a share of the first.
@@ -44,9 +47,11 @@ class MPPI(Sampler):
 
     @property
     def step(self) -> float:
+        """Step size: standard deviation in the coordinates z of the space."""
         return self._step
 
     def scale_step(self, factor: float) -> None:
+        """Multiply the step size, as at the start of a stage."""
         self._step *= factor
 
     def _draw(self, n: int) -> Array:

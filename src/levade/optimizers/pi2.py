@@ -29,13 +29,15 @@ def probabilities(cost: Array, eliteness: float) -> Array:
 
 
 class PI2(Sampler):
-    """PI² (Theodorou, Buchli and Schaal, JMLR 11, 2010) in its black-box form: the probability-weighted mean of the trials,
+    """PI² in its black-box form: the probability-weighted mean of the trials (Theodorou, Buchli and Schaal, JMLR 11, 2010).
 
-    theta <- sum_k P_k theta_k
+        theta <- sum_k P_k theta_k
 
-    and exploration that is not learned, but shrinks by ``decay`` each generation, down to ``floor`` of the first.
+    Exploration is not learned. It shrinks by ``decay`` in each generation, down to ``floor`` of the first.
+
     Args:
-        space, seed: See `Sampler`.
+        space: Where to search, see `Sampler`.
+        seed: Seed of this optimizer's own random numbers.
         eliteness: h of the probabilities.
         decay: Factor on the exploration in each generation.
         floor: What the exploration shrinks to, as a share of the first.
@@ -62,9 +64,11 @@ class PI2(Sampler):
 
     @property
     def step(self) -> float:
+        """Step size: standard deviation in the coordinates z of the space."""
         return self._step
 
     def scale_step(self, factor: float) -> None:
+        """Multiply the step size, as at the start of a stage."""
         self._step *= factor
 
     def _draw(self, n: int) -> Array:
@@ -76,12 +80,13 @@ class PI2(Sampler):
 
 
 class PI2CMA(Sampler):
-    """PI²-CMA (Stulp and Sigaud, ICML 2012, arXiv 1206.4621, Table 1): the same probabilities adapt the covariance, too,
+    """PI²-CMA: the probabilities of PI² also adapt the covariance (Stulp and Sigaud, ICML 2012, arXiv 1206.4621, Table 1).
 
-    Sigma <- sum_k P_k (theta_k - theta)(theta_k - theta)'        (their eq. 17; theta is the mean before the update)
+        Sigma <- sum_k P_k (theta_k - theta)(theta_k - theta)'        (their eq. 17; theta is the mean before the update)
 
     Args:
-        space, seed: See `Sampler`.
+        space: Where to search, see `Sampler`.
+        seed: Seed of this optimizer's own random numbers.
         eliteness: h of the probabilities.
         rate: Share of the new covariance in the next one. Defaults to 0.5 / sqrt(m): the paper's 1 is too much where a full
             covariance has far more entries than a generation has trials.
@@ -110,9 +115,11 @@ class PI2CMA(Sampler):
 
     @property
     def step(self) -> float:
+        """Step size: standard deviation in the coordinates z of the space."""
         return float(np.sqrt(np.diagonal(self._covariance).mean()))
 
     def scale_step(self, factor: float) -> None:
+        """Multiply the step size, as at the start of a stage."""
         self._covariance *= factor**2
 
     def _draw(self, n: int) -> Array:

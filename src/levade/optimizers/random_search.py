@@ -14,9 +14,11 @@ class RandomSearch(Sampler):
 
     @property
     def step(self) -> float:
+        """Step size: standard deviation in the coordinates z of the space."""
         return self._first_step
 
     def scale_step(self, factor: float) -> None:
+        """Multiply the step size, as at the start of a stage."""
         self._first_step *= factor
 
     def _draw(self, n: int) -> Array:

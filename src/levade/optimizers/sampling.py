@@ -18,7 +18,7 @@ from levade.optimizers.blas import single_threaded
 from levade.optimizers.space import SearchSpace
 
 _FAR = 10.0
-"""Costs beyond so many times the median's distance from the best count as that: a trial that broke down costs 1e12, and
+"""Costs beyond this many times the median's distance from the best count as that: a trial that broke down costs 1e12, and
 on that scale all others are the same."""
 
 
@@ -43,6 +43,7 @@ class Sampler(ABC):
 
     @property
     def population(self) -> int:
+        """Candidates per generation."""
         return self._population
 
     @property
@@ -83,11 +84,16 @@ class Sampler(ABC):
 
     @abstractmethod
     def _learn(self, z: Array, cost: Array) -> None:
-        """Move the centre, and change the spread. z: (n, m), cost: (n,)."""
+        """Move the centre, and change the spread.
+
+        Args:
+            z: (n, m), cost: (n,).
+            cost: Costs of the candidates, shape (n,).
+        """
 
 
 def bounded(cost: Array) -> Array:
-    """Costs (n,) with what lies far beyond the others brought back to where they can still be told apart."""
+    """Costs (n,) with what lies far beyond the others brought back to where they can still be distinguished."""
     best = cost.min()
     reach = _FAR * (np.median(cost) - best)
     return np.minimum(cost, best + reach) if reach > 0 else cost
@@ -100,14 +106,22 @@ def softmax(value: Array) -> Array:
 
 
 def checked_share(name: str, value: float) -> float:
-    """A share, more than 0 and at most 1. Raises LevadeError."""
+    """A share, more than 0 and at most 1.
+
+    Raises:
+        LevadeError: If it cannot be done.
+    """
     if not (np.isfinite(value) and 0 < value <= 1):
         raise LevadeError(f"{name}: {value} should be a share, more than 0 and at most 1")
     return float(value)
 
 
 def checked_positive(name: str, value: float) -> float:
-    """A positive number. Raises LevadeError."""
+    """A positive number.
+
+    Raises:
+        LevadeError: If it cannot be done.
+    """
     if not (np.isfinite(value) and value > 0):
         raise LevadeError(f"{name}: {value} should be a positive number")
     return float(value)

@@ -35,7 +35,7 @@ class SearchSpace:
         ending: Directions that change only the last part of a motion, shape (q, d). None if there are none.
         rough: Coordinates z in which errors jump, shape (m,), such as a duration of whole time steps: slopes along them say
             nothing about small changes. None if there are none.
-        one_sided: Which of the k errors that an optimizer is told belong to a bound, shape (k,): 1 at the bound, less inside.
+        one_sided: Which of the k errors that an optimizer gets belong to a bound, shape (k,): 1 at the bound, less inside.
             None if none do.
 
     Raises:

@@ -17,10 +17,10 @@ from levade.regulators.quadratic import expectation, project, steady, sweep
 from levade.trajectory import JointReference
 
 WEIGHED = Scales(attitude=0.03, height=0.03, speed=0.3, rate=1.0, joint=0.3, joint_speed=10.0, drive=math.inf)
-"""Deviations at the end that cost 1 each; on the way, a tenth. Weighed are things of unlike sizes, so that all count."""
+"""Deviations that cost 1 each at the end, and a tenth on the way: scales that make different quantities comparable."""
 
 _CAP = Scales(attitude=1 / 6, height=math.inf, speed=math.inf, rate=2.0, joint=1 / 4, joint_speed=20 / 3)
-"""No gain is more than 1 rad by so much: about a contact that opens or closes, the linear model holds for less."""
+"""Gains are limited to 1 rad per this deviation: near a contact that opens or closes, the linear model holds for less."""
 
 _LAST = 0.5
 """Largest gain of the correction in force."""

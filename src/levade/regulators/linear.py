@@ -27,7 +27,14 @@ UNSENSED = 4
 class Scales:
     """How large a deviation is, by kind of quantity; of a robot of 0.6 m.
 
-    attitude, joint: [rad]. height: [m]. speed: [m/s]. rate, joint_speed: [rad/s]. drive: share of an actuator's largest state.
+    Attributes:
+        attitude: [rad].
+        joint: [rad].
+        height: [m].
+        speed: [m/s].
+        rate: [rad/s].
+        joint_speed: [rad/s].
+        drive: Share of an actuator's largest state.
     """
 
     attitude: float
@@ -72,9 +79,13 @@ STEPS = Scales(attitude=0.02, height=0.01, speed=0.05, rate=0.2, joint=0.02, joi
 class Linear:
     """``x[k+1] = a[k] x[k] + b[k] c[k]`` from tick to tick of the motion; the last one is that of its end, standing.
 
-    a: (ticks, states, states). b: (ticks, states, joints). x: deviation of what is sensed, then of the trunk's height [m], its
-    velocity in trunk axes [m/s], and the actuators' states. c: corrections [rad] in force.
-    reference: (ticks of the whole motion, sensed). state: likewise, (ticks, states). drives: (na,), largest state of each.
+    Attributes:
+        a: (ticks, states, states).
+        b: (ticks, states, joints). x: deviation of what is sensed, then of the trunk's height [m], its velocity in
+            trunk axes [m/s], and the actuators' states. c: corrections [rad] in force.
+        reference: (ticks of the whole motion, sensed).
+        state: The whole state, (ticks, states).
+        drives: (na,), largest state of each.
     """
 
     a: Array
@@ -94,8 +105,16 @@ def linearise(
     size: float = 0.6,
     threads: int = 0,
 ) -> Linear:
-    """Of a motion in MuJoCo. start: one row. reference: of one trial. period: steps from tick to tick. size: [m], of
-    the robot.
+    """Linearise a motion in MuJoCo by finite differences, from tick to tick.
+
+    Args:
+        model: The compiled model.
+        layout: Where the robot is in it.
+        start: Start of the motion, one row.
+        reference: Reference of one trial.
+        period: Physics steps from tick to tick.
+        size: Size of the robot [m], which deviations of its trunk are scaled by.
+        threads: Number of engine threads; 0 for one per core.
     """
     model = copy.deepcopy(model)
     model.opt.disableflags |= RESET_OFF | SENSORS_OFF

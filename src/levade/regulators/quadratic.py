@@ -17,8 +17,12 @@ from levade.arrays import Array
 def sweep(a: Array, b: Array, state: Array, correction: Array, value: Array) -> tuple[Array, Array]:
     """Backwards from the end: gains (ticks, joints, states + joints), and the value matrix at the start.
 
-    a, b: as in `levade.regulators.linear.Linear`. state: (states,), diagonal of Q. correction: (joints,), of R.
-    value: (states + joints,) squared, of what comes after.
+    Args:
+        a: As in `levade.regulators.linear.Linear`.
+        b: As in `levade.regulators.linear.Linear`.
+        state: (states,), diagonal of Q.
+        correction: (joints,), of R.
+        value: (states + joints,) squared, of what comes after.
     """
     gains = np.zeros((len(a), len(correction), a.shape[1] + len(correction)))
     for k in range(len(a) - 1, -1, -1):
@@ -27,7 +31,15 @@ def sweep(a: Array, b: Array, state: Array, correction: Array, value: Array) -> 
 
 
 def steady(a: Array, b: Array, state: Array, correction: Array, *, most: int = 5000) -> tuple[Array, Array]:
-    """The gain (joints, states + joints) that does not change any more, and its value matrix. a, b: of one tick."""
+    """The gain (joints, states + joints) that does not change any more, and its value matrix.
+
+    Args:
+        a: Of one tick.
+        b: Of one tick.
+        state: Weight of the state, shape (states, states).
+        correction: Weight of the correction, shape (joints, joints).
+        most: Most iterations.
+    """
     size = len(a) + len(correction)
     value, gain = np.zeros((size, size)), np.zeros((len(correction), size))
     for _ in range(most):
@@ -41,7 +53,10 @@ def steady(a: Array, b: Array, state: Array, correction: Array, *, most: int = 5
 def project(gain: Array, expected: Array, sensed: int) -> Array:
     """A gain (joints, states + joints) on what is sensed and the correction in force alone.
 
-    expected: (states - sensed, sensed), of the rest of the state, per unit of what is sensed.
+    Args:
+        gain: Gain on the whole state, shape (..., joints, states).
+        expected: (states - sensed, sensed), of the rest of the state, per unit of what is sensed.
+        sensed: Number of states that are sensed; the first ones.
     """
     states = sensed + len(expected)
     own, rest, last = np.split(gain, [sensed, states], axis=1)
@@ -49,7 +64,13 @@ def project(gain: Array, expected: Array, sensed: int) -> Array:
 
 
 def expectation(seen: Array, hidden: Array, noise: Array) -> Array:
-    """Least-squares estimate of hidden (runs, h) from seen (runs, s), deviations both: (h, s). noise: (s,), of sensing."""
+    """Least-squares estimate of hidden (runs, h) from seen (runs, s), deviations both: (h, s).
+
+    Args:
+        seen: What is sensed, shape (runs, seen).
+        hidden: What is not sensed, shape (runs, hidden).
+        noise: (s,), of sensing.
+    """
     covariance = seen.T @ seen / len(seen) + np.diag(noise**2)
     return np.linalg.solve(covariance, seen.T @ hidden / len(seen)).T
 

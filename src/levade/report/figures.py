@@ -94,10 +94,19 @@ _RC: dict[str, Any] = {
 def figures(
     motion: Motion, directory: str | Path, *, format: str = "pdf", progress_csv: str | Path | None = None
 ) -> list[Path]:
-    """Write all figures of a motion to a directory, which is made if need be. Returns what was written.
+    """Write all figures of a motion to a directory, which is made if need be.
 
-    format: "pdf", "svg" or "png". progress_csv: of the solve; without it there is no figure of the cost.
-    Raises LevadeError if the format is unknown, the directory cannot be written, or matplotlib is missing.
+    Args:
+        motion: A motion.
+        directory: Directory to write; it is made if need be.
+        format: "pdf", "svg" or "png".
+        progress_csv: The progress.csv of the search. Without it there is no figure of the cost.
+
+    Returns:
+        What was written.
+
+    Raises:
+        LevadeError: If the format is unknown, the directory cannot be written, or matplotlib is missing.
     """
     drawings: dict[str, Callable[[], Any]] = {
         "trunk": lambda: _trunk({"": motion}),
@@ -123,7 +132,15 @@ def compare(
 ) -> list[Path]:
     """Write figures that lay motions over one another: their trunks, and what their searches cost.
 
-    motions, progress_csv: by the motion's name in the legend; motions without a progress.csv are left out of the cost.
+    Args:
+        motions: Motions by their names in the legend.
+        directory: Directory to write; it is made if need be.
+        format: "pdf", "svg" or "png".
+        progress_csv: The progress.csv of searches, by the motions' names. A motion without one is left out of the
+            figure of the cost.
+
+    Returns:
+        What was written.
     """
     drawings: dict[str, Callable[[], Any]] = {"trunk": lambda: _trunks(motions)}
     if progress_csv:

@@ -12,10 +12,12 @@ from levade.writing import check_replaceable, replacing
 
 @contextmanager
 def writing(path: Path, *, instead: str = "give a file that can") -> Iterator[Path]:
-    """A place beside a file to write it at; put in the file's place at the end, removed if something goes wrong.
+    """A place next to a file to write it at; put in the file's place at the end, removed if something goes wrong.
 
-    The file's directory is made if need be. Raises LevadeError if it cannot be written, before any work is done.
-    instead: what the reader of the error can do.
+    The file's directory is made if need be.  instead: what the reader of the error can do.
+
+    Raises:
+        LevadeError: If it cannot be written, before any work is done.
     """
     try:
         check_replaceable(path)

@@ -23,7 +23,15 @@ _DTYPES = ("f4", "i2", "u2", "u4")
 
 
 def pack(values: Any, dtype: str = "f4") -> dict[str, Any]:
-    """dtype: "f4", "i2", "u2" or "u4". Numbers that do not fit are the caller's mistake: nothing is clipped."""
+    """Pack numbers for a page. Nothing is clipped: numbers have to fit into the type.
+
+    Args:
+        values: Numbers of any shape.
+        dtype: "f4", "i2", "u2" or "u4".
+
+    Returns:
+        Type, shape and data in base64.
+    """
     values = np.asarray(values)
     assert dtype in _DTYPES
     data = np.ascontiguousarray(values, dtype=f"<{dtype}").tobytes()
@@ -31,7 +39,11 @@ def pack(values: Any, dtype: str = "f4") -> dict[str, Any]:
 
 
 def pack_unit(values: Array) -> dict[str, Any]:
-    """Numbers between -1 and 1, to 1.6e-5: quaternions, for one. Raises ValueError for others."""
+    """Numbers between -1 and 1, to 1.6e-5: quaternions, for one.
+
+    Raises:
+        ValueError: For others.
+    """
     if not (np.abs(values) <= 1.0 + 1e-9).all():
         raise ValueError("pack_unit takes numbers between -1 and 1")
     return pack(np.round(np.clip(values, -1.0, 1.0) * UNIT), "i2")

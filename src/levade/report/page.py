@@ -79,9 +79,15 @@ def write_page(
 
 
 def save_page(text: str, path: str | Path, *, instead: str) -> Path:
-    """Write a page, or leave the file that is there. Returns its path.
+    """Write a page, or leave the file that is there.
 
-    instead: what else could be done, for the message. Raises LevadeError as `write_page` does.
+    Args:
+        text: The page.
+        path: File to write.
+        instead: What else could be done, for the message. Raises LevadeError as `write_page` does.
+
+    Returns:
+        Its path.
     """
     path = Path(path)
     check_page(path, instead=instead)
@@ -157,7 +163,8 @@ def _bundled(name: str) -> str:
 def check_page(path: Path, *, instead: str) -> None:
     """Nothing may be there but a page of levade's; what cannot be read is left to the writing to complain of.
 
-    Raises LevadeError for anything else, whose message says ``instead``.
+    Raises:
+        LevadeError: For anything else, whose message says ``instead``.
     """
     try:
         check_replaceable(path)  # opening a pipe would wait for its other end

@@ -51,7 +51,11 @@ class Label:
 
 
 def portrait(robot: Robot, path: Path) -> Path:
-    """Draw the robot to a .png file. Raises LevadeError if it cannot be written or drawn."""
+    """Draw the robot to a .png file.
+
+    Raises:
+        LevadeError: If it cannot be written or drawn.
+    """
     if path.suffix.lower() != ".png":
         raise LevadeError(f"{path}: a picture of a robot should be a .png")
     pillow = load_pillow()
@@ -111,7 +115,11 @@ class _Eye:
     view: View
 
     def see(self, point: Array) -> tuple[float, float]:
-        """(x, y) [px], from the left and the top. point: (3,) [m]."""
+        """(x, y) [px], from the left and the top.
+
+        Args:
+            point: (3,) [m].
+        """
         right, up, forward = self.camera.axes() @ (np.asarray(point) - self.view.lookat)
         scale = _SIZE[1] / 2 / math.tan(math.radians(FIELD_OF_VIEW / 2)) / (self.view.distance + forward)
         return _SIZE[0] / 2 + scale * right, _SIZE[1] / 2 - scale * up

@@ -75,9 +75,11 @@ class View:
 class Camera:
     """From where to look.
 
-    azimuth: [deg], direction of the view in the ground plane: 90 from the robot's right side, 180 from the front.
-    elevation: [deg], -90 to 90, negative from above. distance: [m]; None for the nearest that shows the whole motion.
-    track: follow the trunk, instead of standing still.
+    Attributes:
+        azimuth: [deg], direction of the view in the ground plane: 90 from the robot's right side, 180 from the front.
+        elevation: [deg], -90 to 90, negative from above.
+        distance: [m]; None for the nearest that shows the whole motion.
+        track: Follow the trunk, instead of standing still.
     """
 
     azimuth: float = 118.0
@@ -106,7 +108,12 @@ class Camera:
         return np.array([right, np.cross(right, forward), forward])
 
     def frame(self, points: Array, *, aspect: float) -> View:
-        """The nearest view that has all points in the picture. points: (n, 3) [m]. aspect: width by height."""
+        """The nearest view that has all points in the picture.
+
+        Args:
+            points: (n, 3) [m].
+            aspect: Width by height.
+        """
         right, up, forward = self.axes() @ points.T
         vertical = math.tan(math.radians(FIELD_OF_VIEW / 2)) / _MARGIN
         place, depth = [], math.inf
@@ -123,9 +130,13 @@ class Camera:
 class Renderer:
     """Draws configurations of a model: what of the robot is for looking at, the scene, soft shadows.
 
-    what: a motion, whose model is taken; or a model, which is changed. size: width and height [pixels].
-    shadows: lights that the sun is made of; more are softer, and slower.
-    A context manager. Raises LevadeError where there is no OpenGL.
+    Args:
+        what: A motion, whose model is taken; or a model, which is changed.
+        size: Width and height [pixels].
+        shadows: Lights that the sun is made of; more are softer, and slower. A context manager.
+
+    Raises:
+        LevadeError: Where there is no OpenGL.
     """
 
     def __init__(self, what: Motion | Any, size: tuple[int, int], *, shadows: int = 6) -> None:
@@ -295,6 +306,25 @@ def _open_gl(size: tuple[int, int]) -> Any:
     except Exception as error:  # whatever a driver says
         tried = f" ({name or 'window system'}: {' '.join(str(error).split())[:120]})"
         raise LevadeError(_NO_GL + tried) from None
+
+
+def opengl() -> str:
+    """Make an OpenGL context off screen, and name what draws in it.
+
+    Returns:
+        The renderer, such as "llvmpipe (LLVM 15.0.6, 256 bits)".
+
+    Raises:
+        LevadeError: If there is no OpenGL. The message says what to install.
+    """
+    context = _open_gl((16, 16))
+    try:
+        context.make_current()
+        from OpenGL import GL
+
+        return GL.glGetString(GL.GL_RENDERER).decode()
+    finally:
+        context.free()
 
 
 def _context_class(name: str) -> Callable[[int, int], Any]:

@@ -32,10 +32,10 @@ from levade.rotations import roll_pitch_yaw
 Rows = NDArray[np.int64]
 
 RATE = 250.0
-"""[Hz], at most so many poses a second: what is between them is interpolated."""
+"""[Hz], at most this many poses a second: what is between them is interpolated."""
 
 FRAMES = 3000
-"""At most so many poses."""
+"""At most this many poses."""
 
 _ARROW = 0.22
 """Length of an arrow as large as the robot's weight, by the reach of its legs."""
@@ -47,10 +47,16 @@ _LONGEST = 0.8
 def scene_data(
     motion: Motion, *, like: Mapping[str, Any] | None = None, model: Any = None, rate: float = RATE
 ) -> dict[str, Any]:
-    """The page's scene of a motion. Raises LevadeError if the motion's model is damaged.
+    """The page's scene of a motion.
 
-    like: a scene of another motion of the same model; shapes and colours are taken from it. model: the motion's, if it
-    is compiled already. rate: [Hz], at most so many poses a second.
+    Args:
+        motion: A motion.
+        like: A scene of another motion of the same model; shapes and colours are taken from it.
+        model: The motion's, if it is compiled already.
+        rate: [Hz], at most this many poses a second.
+
+    Raises:
+        LevadeError: If the motion's model is damaged.
     """
     model = motion.compiled() if model is None else model
     rows = frame_rows(motion.steps, motion.horizon_steps, motion.timestep, rate)

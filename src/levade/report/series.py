@@ -30,7 +30,11 @@ _TOUCHES = 1.0
 
 @dataclass(frozen=True)
 class Progress:
-    """progress.csv: a row per generation. stage: (generations,) names; others: column -> (generations,)."""
+    """progress.csv: a row per generation.
+
+    Attributes:
+        stage: (generations,) names; others: column -> (generations,).
+    """
 
     stage: tuple[str, ...]
     columns: Mapping[str, Array]
@@ -40,7 +44,11 @@ class Progress:
 
 
 def read_progress(path: str | Path) -> Progress:
-    """Raises LevadeError if there is no progress.csv of a solve."""
+    """Read a progress.csv.
+
+    Raises:
+        LevadeError: If the file is not there, or is no progress.csv of a search.
+    """
     path = Path(path)
     try:
         with path.open(newline="", encoding="utf-8") as file:
@@ -67,7 +75,9 @@ def read_progress(path: str | Path) -> Progress:
 def series_data(motion: Motion, progress: Progress | None = None) -> dict[str, Any]:
     """All curves of a motion, for web/src/plots.js: SI units; arrays over time as in `levade.report.packing`.
 
-    progress: of the motion's search; None for no curve of the cost.
+    Args:
+        motion: A motion.
+        progress: Of the motion's search; None for no curve of the cost.
     """
     names, limits = motion.joint_names, motion.embodiment.limits
     bounds = {key: finite(getattr(limits, key)) for key in ("lower", "upper", "velocity", "torque")}
@@ -204,7 +214,12 @@ def short(joint: str, leg: str) -> str:
 
 
 def policy_names(motion: Motion, count: int) -> list[str]:
-    """Name each policy after the joints that it moves: "LF, RF HAA". count: number of policies."""
+    """Name each policy after the joints that it moves: "LF, RF HAA".
+
+    Args:
+        motion: A motion.
+        count: Number of policies.
+    """
     policy = ReferenceCurve.of(motion).policy
     if policy is None or policy.independent_joints != count:
         return [f"policy {number + 1}" for number in range(count)]

@@ -24,7 +24,7 @@ from levade.report.rendering import drawn_geoms
 from levade.scenes.scene import GROUND
 
 TRIANGLES = 60_000
-"""At most about so many of all meshes together: more make a page slow to open, and no prettier."""
+"""At most about this many for all meshes together: more make a page slow to open, and no prettier."""
 
 Triangles = tuple[Array, NDArray[np.int64]]
 """A mesh: (vertices, 3) [m], and (triangles, 3) numbers of vertices."""
@@ -175,7 +175,7 @@ def _height_field(model: Any, number: int) -> Triangles:
 
 
 def simplify(meshes: list[Triangles], triangles: int) -> list[Triangles]:
-    """Meshes of so many triangles in all, at most: vertices in one cell of a grid become one, their mean."""
+    """Meshes of at most this many triangles in all: vertices in one cell of a grid become one, their mean."""
     reduced = [_welded(vertices, faces, 1e-7) for vertices, faces in meshes]
     if sum(len(faces) for _, faces in reduced) <= triangles:
         return reduced

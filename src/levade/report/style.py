@@ -29,11 +29,29 @@ DASHES = {"measured": (), "reference": (5, 3), "goal": (2, 3), "horizon": (1, 2)
 class Theme:
     """Colours, each "#rrggbb".
 
-    page, panel: behind everything, behind a plot. ink, muted, grid: text and axes, secondary text, grid lines.
-    accent: controls and the time cursor. good, bad: success and failure (always beside a word).
-    measured, reference, goal, limit, best: lines that belong to no leg. limit is also the shade beyond a limit.
-    x, y, z: also roll, pitch, yaw. front_left ... hind_right: legs. others: legs beyond those, and anything counted.
-    sky, ground, ground_line, ghost: the 3D scene.
+    Attributes:
+        page: Behind everything, behind a plot.
+        panel: Behind everything, behind a plot.
+        ink: Text and axes, secondary text, grid lines.
+        muted: Text and axes, secondary text, grid lines.
+        grid: Text and axes, secondary text, grid lines.
+        accent: Controls and the time cursor.
+        good: Success and failure (always next to a word).
+        bad: Success and failure (always next to a word).
+        measured: Lines that belong to no leg. limit is also the shade beyond a limit.
+        reference: Lines that belong to no leg. limit is also the shade beyond a limit.
+        goal: Lines that belong to no leg. limit is also the shade beyond a limit.
+        limit: Lines that belong to no leg. limit is also the shade beyond a limit.
+        best: Lines that belong to no leg. limit is also the shade beyond a limit.
+        x: Also roll, pitch, yaw. front_left ...
+        y: Also roll, pitch, yaw. front_left ...
+        z: Also roll, pitch, yaw. front_left ...
+        hind_right: Legs.
+        others: Legs beyond those, and anything counted.
+        sky: The 3D scene.
+        ground: The 3D scene.
+        ground_line: The 3D scene.
+        ghost: The 3D scene.
     """
 
     page: str

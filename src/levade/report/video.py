@@ -44,9 +44,20 @@ def video(
 ) -> Path:
     """Write a motion as .mp4, .gif or .webp; the last two loop for ever.
 
-    slow: the motion up to the horizon runs this many times slower than it was; the hold always runs at true speed.
-    fps: pictures per second, 30, or 20 for .gif and .webp. size: (width, height) [pixels], (960, 720), or (480, 360).
-    Raises LevadeError if any of these is impossible, the file cannot be written, or OpenGL or a library is missing.
+    Args:
+        motion: A motion.
+        path: File to write; its ending says which kind.
+        slow: How many times slower than it was the motion runs up to the horizon. The hold always runs at true speed.
+        fps: Pictures per second. Defaults to 30, or 20 for .gif and .webp.
+        size: Width and height [pixels]. Defaults to (960, 720), or (480, 360) for .gif and .webp.
+        camera: Where to look from.
+        progress: Called after each picture with the number of those done and of all.
+
+    Returns:
+        The path.
+
+    Raises:
+        LevadeError: If any of these is impossible, the file cannot be written, or OpenGL or a library is missing.
     """
     path = Path(path)
     kind = path.suffix.lower()
@@ -88,8 +99,19 @@ def strip(
 ) -> Path:
     """Write n poses side by side as .png, evenly spaced over the horizon; with a hold, the last one is its end.
 
-    Several motions are put one below the other, all to the same scale; labels: their names. height: of a pose [pixels].
-    Raises LevadeError as `video` does.
+    Several motions are put one below the other, all to the same scale.
+
+    Args:
+        motion: A motion, or several.
+        path: File to write, a .png.
+        n: Poses of each motion.
+        labels: Names of the motions.
+        height: Height of a pose [pixels].
+        camera: Where to look from.
+        progress: As `video` takes it.
+
+    Raises:
+        LevadeError: As `video` does.
     """
     path = Path(path)
     motions = [motion] if isinstance(motion, Motion) else list(motion)
@@ -299,7 +321,11 @@ def _strip_row(pillow: Any, images: Sequence[tuple[float, Any]], label: str) -> 
 
 
 def load_pillow() -> Any:
-    """The parts of pillow that pictures need. Raises LevadeError if it is not installed."""
+    """The parts of pillow that pictures need.
+
+    Raises:
+        LevadeError: If it is not installed.
+    """
     try:
         from PIL import Image, ImageDraw, ImageFont
     except ImportError:

@@ -28,7 +28,12 @@ _FAR = 50.0
 class Box:
     """A box fixed in the world.
 
-    position: (3,) [m], its centre. size: (3,) [m], full edge lengths. roll, pitch, yaw: [rad], intrinsic z-y-x.
+    Attributes:
+        position: (3,) [m], its centre.
+        size: (3,) [m], full edge lengths.
+        roll: [rad], intrinsic z-y-x.
+        pitch: [rad], intrinsic z-y-x.
+        yaw: [rad], intrinsic z-y-x.
     """
 
     position: tuple[float, float, float]
@@ -48,12 +53,15 @@ class Box:
 class Scene:
     """What the robot stands on and may touch.
 
-    friction: Coulomb friction coefficient of every contact with the ground and the obstacles; where left out, the
-        robot's own parts decide (feet and shell may differ), or 1 if they are below and do not take priority.
-    contact: how hard everything is that touches. None leaves it to the robot's file; "stiff" is
-        `levade.robots.contact.STIFF_SOLREF`, in which feet sink in by less than a millimetre. Of no effect in ODE.
-    slope: [rad], of the ground along x, uphill positive. boxes: obstacles. gaps: ditches across the ground, which slopes
-        with them; they may not overlap. terrain: a height field on the ground.
+    Attributes:
+        friction: Coulomb friction coefficient of every contact with the ground and the obstacles; where left out, the
+            robot's own parts decide (feet and shell may differ), or 1 if they are below and do not take priority.
+        contact: How hard everything is that touches. None leaves it to the robot's file; "stiff" is
+            `levade.robots.contact.STIFF_SOLREF`, in which feet sink in by less than a millimetre. Of no effect in ODE.
+        slope: [rad], of the ground along x, uphill positive.
+        boxes: Obstacles.
+        gaps: Ditches across the ground, which slopes with them; they may not overlap.
+        terrain: A height field on the ground.
     """
 
     friction: float | None = None
@@ -84,8 +92,13 @@ class Scene:
 def compose(robot: Robot, scene: Scene, *, gain_scale: float = 1.0, damping_scale: float = 1.0) -> mujoco.MjSpec:
     """The robot with its actuators, put into the scene.
 
-    gain_scale, damping_scale: see `levade.robots.Robot.spec`. Simulate what is compiled from the spec's ``to_xml()``,
-    which is what a motion file keeps.
+    Args:
+        robot: The robot.
+        scene: The scene.
+        gain_scale: See `levade.robots.Robot.spec`. Simulate what is compiled from the spec's ``to_xml()``, which is
+            what a motion file keeps.
+        damping_scale: See `levade.robots.Robot.spec`. Simulate what is compiled from the spec's ``to_xml()``, which is
+            what a motion file keeps.
     """
     spec = robot.spec(gain_scale=gain_scale, damping_scale=damping_scale)
     world = spec.worldbody

@@ -22,7 +22,10 @@ MOST_HEIGHTS = 40_000
 class Gap:
     """A ditch across the ground, from side to side.
 
-    x: [m], where it begins. width: [m], along x. depth: [m].
+    Attributes:
+        x: [m], where it begins.
+        width: [m], along x.
+        depth: [m].
     """
 
     x: float
@@ -41,10 +44,12 @@ class Gap:
 class Terrain:
     """A height field that lies on the ground.
 
-    heights: rows of heights [m] over z = 0, seen from above with x to the right and y up: the first row is the farthest
-        left of a robot that looks along x. At least 2 x 2, all rows of one length, 0 or more. The field is the surface
-        through these points.
-    size: (2,) [m], along x and y. position: (2,) [m], x and y of its centre.
+    Attributes:
+        heights: Rows of heights [m] over z = 0, seen from above with x to the right and y up: the first row is the
+            farthest left of a robot that looks along x. At least 2 x 2, all rows of one length, 0 or more. The field is
+            the surface through these points.
+        size: (2,) [m], along x and y.
+        position: (2,) [m], x and y of its centre.
     """
 
     heights: tuple[tuple[float, ...], ...]
@@ -71,7 +76,7 @@ class Terrain:
             raise LevadeError(f"terrain.position: {list(self.position)} should be finite numbers")
 
     def height(self, x: Array, y: Array) -> Array:
-        """[m], the highest point of the field's cell below each x, y; 0 beside the field."""
+        """[m], the highest point of the field's cell below each x, y; 0 outside the field."""
         heights = np.array(self.heights)[::-1]  # now from the least y
         rows, columns = heights.shape
         column = (x - self.position[0] + self.size[0] / 2) / self.size[0] * (columns - 1)
@@ -101,7 +106,10 @@ class Terrain:
 def read_heights(path: Path, height: float | None = None) -> tuple[tuple[float, ...], ...]:
     """Heights from a file: a 2-D array of metres in .npy, or a grey image, black 0 and white ``height`` [m].
 
-    Colours count as their brightness, and what is transparent as it is. Raises LevadeError if the file cannot be read.
+    Colours count as their brightness, and what is transparent as it is.
+
+    Raises:
+        LevadeError: If the file cannot be read.
     """
     if not path.is_file():
         raise LevadeError(f"{path}: no such file; give a .npy of heights in m, or an image")

@@ -23,11 +23,16 @@ none of either: of several designs that do nothing, the best looks better than n
 
 @dataclass(frozen=True, eq=False)
 class Stabilised:
-    """What was found. motion: with the stabiliser; the motion as it was if none is surely better than none.
+    """What was found.
 
-    open_loop, share: successes of runs that it was not chosen by, as a share, without and with. Where none was chosen, both
-    of those that choose, without; nan where it was interrupted before these.
-    tried: design -> share. interrupted: whether designs were left untried.
+    Attributes:
+        motion: With the stabiliser; the motion as it was if none is surely better than none.
+        open_loop: Successes of runs that it was not chosen by, as a share, without and with. Where none was chosen,
+            both of those that choose, without; nan where it was interrupted before these.
+        share: Successes of runs that it was not chosen by, as a share, without and with. Where none was chosen, both of
+            those that choose, without; nan where it was interrupted before these.
+        tried: Design -> share.
+        interrupted: Whether designs were left untried.
     """
 
     motion: Motion
@@ -53,11 +58,23 @@ def stabilise(
 ) -> Stabilised:
     """Find a stabiliser for a motion.
 
-    rate: [Hz], of measurements; the nearest that steps allow. bound: [rad], at most, on a correction. runs: perturbed runs
-    that choose between designs, drawn from ``perturbation`` with ``seed``, apart from those of a check; what is chosen is
-    judged by as many others. tell: is told of each.
-    stopping: asked before each; once it says so, the best of those that were tried is the outcome.
-    Raises LevadeError if the motion is not MuJoCo's, broke down, has no criteria, or a number makes no sense.
+    Args:
+        motion: A motion, recorded in MuJoCo.
+        rate: Measurements a second [Hz]; the nearest rate that the time step allows is taken.
+        bound: Largest correction of a joint's reference [rad].
+        runs: Perturbed runs that choose between designs, drawn from ``perturbation`` with ``seed``, apart from those of
+            a check. As many others judge what is chosen.
+        seed: Seed of these runs.
+        perturbation: Ranges in which robots differ. Defaults to `levade.engines.Perturbation`.
+        threads: Number of engine threads; 0 for one per core.
+        tell: Called with one line about each design that was tried.
+        stopping: Asked before each design. Once it returns True, the best design so far is the outcome.
+
+    Returns:
+        The motion with its stabiliser, and how often it succeeds with and without.
+
+    Raises:
+        LevadeError: If the motion is not MuJoCo's, broke down, has no criteria, or a number makes no sense.
     """
     simulation = RecordedSimulation(motion, criteria=motion.task.good_enough, threads=threads)
     _check(simulation, rate, bound, runs)
@@ -119,7 +136,7 @@ def _check(simulation: RecordedSimulation, rate: float, bound: float, runs: int)
         )
     if motion.result.diverged:
         raise LevadeError(
-            "stabilise: the motion's simulation broke down, there is nothing to hold; solve the task anew"
+            "stabilise: the motion's simulation broke down, there is nothing to hold; solve the task again"
         )
     if not simulation.criteria:
         raise LevadeError(f"stabilise: the task {simulation.task.name} has no success criteria to choose by")
@@ -154,8 +171,7 @@ def _designs(bound: float, *, hold: bool) -> Iterator[dict[str, float]]:
 
 
 def _surely_more(before: NDArray[np.bool_], after: NDArray[np.bool_]) -> bool:
-    """Whether the runs that succeed only after outnumber those that did only before by more than chance: two standard
-    deviations (McNemar's test)."""
+    """Whether more runs gain success than lose it, by more than chance: two standard deviations (McNemar's test)."""
     gained, lost = int((after & ~before).sum()), int((before & ~after).sum())
     return gained > lost and (gained - lost) ** 2 >= 4 * (gained + lost)
 

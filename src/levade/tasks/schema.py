@@ -9,6 +9,7 @@ right order, a group for every leg) `levade.tasks.load_task` says.
 from __future__ import annotations
 
 import dataclasses
+import inspect
 import re
 import types
 import typing
@@ -160,8 +161,14 @@ def _reference(name: str) -> Schema:
 
 
 def _described(kind: Any, names: list[str]) -> dict[str, str]:
-    """Field -> what the docstring says of it, where it says ``field: ...`` or ``one, other: ...``."""
-    text = " ".join((kind.__doc__ or "").split())
+    """Field -> what the docstring says of it, under ``Attributes:`` or as ``field: ...`` or ``one, other: ...``."""
+    text = inspect.cleandoc(kind.__doc__ or "")
+    _, found, section = text.partition("\nAttributes:\n")
+    if found:
+        section = re.split(r"\n(?=\S)", section)[0]  # up to the next section
+        entries = re.findall(r"^ {4}(\w+): (.*(?:\n {8}.*)*)", section, re.MULTILINE)
+        return {name: " ".join(what.split()).replace("``", "'") for name, what in entries if name in names}
+    text = " ".join(text.split())
     label = r"(?:" + "|".join(map(re.escape, names)) + r")"
     parts = re.split(rf"(?:^|(?<=[.;)] ))({label}(?:, {label})*): ", text)
     described = {}

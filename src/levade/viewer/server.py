@@ -49,10 +49,16 @@ _HEADERS = {
 class Server:
     """Serves a page from threads of its own; a context manager.
 
-    page: its HTML, called for each request; `TOKEN` in it becomes the token. events: a fresh iterator of messages for
-    each listener; None instead of a message says that there is nothing new. command: takes a message; LevadeError
-    refuses it. host: the address to listen at. port: 0 for one that is free.
-    Raises LevadeError if it cannot listen there.
+    Args:
+        page: Its HTML, called for each request; `TOKEN` in it becomes the token.
+        events: A fresh iterator of messages for each listener; None instead of a message says that there is nothing
+            new.
+        command: Takes a message; LevadeError refuses it.
+        host: The address to listen at.
+        port: 0 for one that is free.
+
+    Raises:
+        LevadeError: If it cannot listen there.
     """
 
     def __init__(
@@ -81,6 +87,7 @@ class Server:
 
     @property
     def port(self) -> int:
+        """The port that it listens on."""
         return int(self._http.server_address[1])
 
     @property

@@ -220,8 +220,11 @@ def _tree(model: Any, robot: Robot) -> list[dict[str, Any]]:
 
 
 def _feet(model: Any, robot: Robot) -> list[dict[str, Any]]:
-    """Of each foot its leg and name, the place of its body, its centre in it [m], and how far it reaches down from there [m],
-    where the robot stands.
+    """Describe each foot where the robot stands.
+
+    Returns:
+        For each foot: its leg and name, the place of its body, its centre in it [m], and how far it reaches down from
+        there [m].
     """
     places = {body: place for place, body in enumerate(moving_bodies(model))}
     neutral = robot.postures["neutral"]

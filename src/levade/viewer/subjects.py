@@ -20,7 +20,11 @@ _KINDS = {"task": ("costs", "success", "horizon", "policy", "extends"), "robot":
 
 @dataclass(frozen=True)
 class Found:
-    """Exactly one is not None. motion: its file."""
+    """Exactly one is not None.
+
+    Attributes:
+        motion: Its file.
+    """
 
     task: Task | None = None
     robot: Robot | None = None
@@ -30,7 +34,10 @@ class Found:
 def find(name: str) -> Found:
     """A built-in robot or task by name, or a file: a motion.npz, a robot.yaml, a task, or the directory of one.
 
-    Names go first, as everywhere; ``./name`` is the directory. Raises LevadeError if it is nothing of that, or two things.
+    Names go first, as everywhere; ``./name`` is the directory.
+
+    Raises:
+        LevadeError: If it is nothing of that, or two things.
     """
     robots, tasks = [robot for robot, _ in builtin_robots()], builtin_tasks()
     if name in robots and name in tasks:

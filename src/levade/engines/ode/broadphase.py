@@ -57,7 +57,10 @@ class BroadPhase:
     def __call__(self, state: Mapping[str, Array], timestep: float) -> list[list[int]]:
         """For each trial the pairs that may touch, in ascending order.
 
-        state: as `levade.engines.ode.worlds.Worlds.read` gives it, one ``timestep`` [s] after that of the call before.
+        Args:
+            state: As `levade.engines.ode.worlds.Worlds.read` gives it, one ``timestep`` [s] after that of the call
+                before.
+            timestep: Duration of a step [s].
         """
         if self._moved is not None:
             speed = np.sqrt(np.sum(state["linear"] ** 2, axis=2))

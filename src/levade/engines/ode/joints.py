@@ -82,8 +82,11 @@ class Torques:
     def __call__(
         self, lag: Array, angle: Array, speed: Array, position: Array, velocity: Array
     ) -> tuple[Array, Array, Array, Array]:
-        """(n, J) each: torque delivered by the drives [Nm]; torque to put on the hinge; resistance [Nm s/rad] and target
-        [rad/s] of its motor, where it has one. ``lag``, (n, J) [Nm], goes on in place.
+        """Compute what acts on each hinge in a step. ``lag``, (n, J) [Nm], is updated in place.
+
+        Returns:
+            Torque delivered by the drives [Nm], torque to put on the hinge [Nm], and resistance [Nm s/rad] and target
+            [rad/s] of its motor where it has one; (n, J) each.
         """
         d, hinges = self._drives, self._hinges
         command = d.kp * (position - angle) + d.kd * (velocity - speed)

@@ -134,7 +134,11 @@ class Library:
 
 @cache
 def load() -> Library:
-    """The library. Raises LevadeError, which says what to install, if there is none."""
+    """The library.
+
+    Raises:
+        LevadeError: Which says what to install, if there is none.
+    """
     tried = [_SYSTEM]
     spec = importlib.util.find_spec("panda3d")
     for folder in (spec.submodule_search_locations or []) if spec else []:

@@ -25,10 +25,18 @@ Index = NDArray[np.intp]
 class Hinges:
     """Hinges between links, one to every link but the trunk: hinge j moves link j + 1.
 
-    parent: (J,) link. axis: (J, 3), unit, in the moving link's frame. anchor: (J, 3) [m], likewise.
-    rest: (J, 4), quaternion of the moving link in its parent's frame at angle 0. zero: (J,) [rad], the model's
-    coordinate there. lower, upper: (J,) [rad], infinite for none. armature [kg m²], damping [Nm s/rad], friction [Nm],
-    stiffness [Nm/rad], spring [rad], its angle at rest: (J,). qpos, qvel: (J,) addresses in the model's state.
+    Attributes:
+        parent: (J,) link.
+        axis: (J, 3), unit, in the moving link's frame.
+        anchor: (J, 3) [m], likewise.
+        rest: (J, 4), quaternion of the moving link in its parent's frame at angle 0.
+        zero: (J,) [rad], the model's coordinate there.
+        lower: (J,) [rad], infinite for none. armature [kg m²], damping [Nm s/rad], friction [Nm], stiffness [Nm/rad],
+            spring [rad], its angle at rest: (J,).
+        upper: (J,) [rad], infinite for none. armature [kg m²], damping [Nm s/rad], friction [Nm], stiffness [Nm/rad],
+            spring [rad], its angle at rest: (J,).
+        qpos: (J,) addresses in the model's state.
+        qvel: (J,) addresses in the model's state.
     """
 
     names: tuple[str, ...]
@@ -52,10 +60,14 @@ class Hinges:
 class Drives:
     """Actuators as `levade.robots.actuation` has them, in the order of the hinges.
 
-    Commanded is kp (position error) + kd (velocity error) [Nm]; it is kept within the line ``(no_load -+ speed) * slope``
-    (no_load infinite for none), then follows with ``time_constant`` [s] (0 for at once), then is kept within ``limit``
-    [Nm]. act: (J,) address of the lag's state in the model's, -1 for none; gain: [Nm] per unit of it.
-    ctrl: (J,) address of the desired position among the model's controls; the velocity's is the next.
+    Commanded is kp (position error) + kd (velocity error) [Nm]; it is kept within the line ``(no_load -+ speed) *
+    slope`` (no_load infinite for none), then follows with ``time_constant`` [s] (0 for at once), then is kept within
+    ``limit`` [Nm].
+
+    Attributes:
+        act: (J,) address of the lag's state in the model's, -1 for none.
+        gain: [Nm] per unit of it.
+        ctrl: (J,) address of the desired position among the model's controls; the velocity's is the next.
     """
 
     kp: Array
@@ -73,9 +85,14 @@ class Drives:
 class Multibody:
     """A multibody system: links, and all that is on and between them; link 0 is the trunk.
 
-    mass: (L,) [kg]. com: (L, 3) [m] and inertia: (L, 3, 3) [kg m²] about it, in the link's frame. body: (L,) the
-    model's body with the joint. shapes: of the links and, with link -1, of the world. pairs: (P, 2) shapes that may
-    touch, the first one never of the world; friction: (P,) Coulomb coefficients. gravity: (3,) [m/s²].
+    Attributes:
+        mass: (L,) [kg].
+        com: (L, 3) [m] and inertia: (L, 3, 3) [kg m²] about it, in the link's frame.
+        body: (L,) the model's body with the joint.
+        shapes: Of the links and, with link -1, of the world.
+        pairs: (P, 2) shapes that may touch, the first one never of the world.
+        friction: (P,) Coulomb coefficients.
+        gravity: (3,) [m/s²].
     """
 
     model: mujoco.MjModel
@@ -94,7 +111,11 @@ class Multibody:
 
 
 def multibody_of(model: mujoco.MjModel) -> Multibody:
-    """Read a model with one free body and hinges. Raises LevadeError for what ODE cannot simulate."""
+    """Read a model with one free body and hinges.
+
+    Raises:
+        LevadeError: For what ODE cannot simulate.
+    """
     _refuse(model)
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)

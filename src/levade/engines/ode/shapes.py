@@ -24,8 +24,12 @@ _PRIMITIVES = {
 
 @dataclass(frozen=True, eq=False)
 class Hull:
-    """A convex hull: points (V, 3) [m], planes (F, 4) with outward normals, polygons as ODE reads them: for each, the
-    number of its corners and their indices.
+    """A convex hull.
+
+    Attributes:
+        points: Corners [m], shape (V, 3).
+        planes: Planes with outward normals, shape (F, 4).
+        polygons: As ODE reads them: for each, the number of its corners and their indices.
     """
 
     points: Array
@@ -37,9 +41,14 @@ class Hull:
 class Shape:
     """A shape.
 
-    kind: sphere, capsule, cylinder, box, plane or convex. size: as MuJoCo has it [m]. link: -1 for the world.
-    position (3,) [m], rotation (3, 3): in the link's frame, or the world. core (3,) [m], half edges, and radius [m]: a
-    box, rounded, that encloses the shape; a plane has none. body, geom: of the model. hull: of a convex one.
+    Attributes:
+        kind: Sphere, capsule, cylinder, box, plane or convex.
+        size: As MuJoCo has it [m].
+        link: -1 for the world. position (3,) [m], rotation (3, 3): in the link's frame, or the world. core (3,) [m],
+            half edges, and radius [m]: a box, rounded, that encloses the shape; a plane has none.
+        body: Of the model.
+        geom: Of the model.
+        hull: Of a convex one.
     """
 
     kind: str
@@ -57,7 +66,8 @@ class Shape:
 def shape_of(model: mujoco.MjModel, data: mujoco.MjData, geom: int, link: int, root: int) -> Shape:
     """The shape of a geom on a link whose frame is that of the body ``root``, kinematics of ``data`` computed.
 
-    Raises LevadeError, which names the geom, for kinds that ODE does not have.
+    Raises:
+        LevadeError: Which names the geom, for kinds that ODE does not have.
     """
     kind = _PRIMITIVES.get(int(model.geom_type[geom]))
     if kind is None or (kind == "plane" and link >= 0):

@@ -3,7 +3,7 @@
 simulation = Simulation(multibody, Ode(), timestep=0.002)
 record = simulation.run(qpos, qvel, act, position, velocity)
 
-The trials share every numpy call, but no number: a trial gives the same bits alone, beside others, and in another
+The trials share every numpy call, but no number: a trial gives the same bits alone, among others, and in another
 process. Time costs mostly ODE: about 0.1 ms a step and trial for a robot of 12 joints on its feet.
 """
 
@@ -38,10 +38,16 @@ _SEED = 2017
 class Record:
     """What n trials did, in the multibody's order of links and hinges.
 
-    angle, speed, torque: (n, steps, J). position: (n, steps, 3), quaternion: (n, steps, 4), linear, angular: (n, steps,
-    3), of the trunk's frame: origin, orientation, velocity of the origin and angular velocity in world axes.
-    lag: (n, J), state of the drives at the end. geom_force: (n, steps, geoms asked for, 3) [N] on each geom, world axes;
-    body_force: (n, steps, bodies asked for, 3), by the world on each body. diverged: (n,).
+    Attributes:
+        angle: (n, steps, J).
+        speed: (n, steps, J).
+        torque: (n, steps, J).
+        position: (n, steps, 3), quaternion: (n, steps, 4), linear, angular: (n, steps, 3), of the trunk's frame:
+            origin, orientation, velocity of the origin and angular velocity in world axes.
+        lag: (n, J), state of the drives at the end.
+        geom_force: (n, steps, geoms asked for, 3) [N] on each geom, world axes.
+        body_force: (n, steps, bodies asked for, 3), by the world on each body.
+        diverged: (n,).
     """
 
     angle: Array
@@ -94,8 +100,8 @@ class Simulation:
 
         Args:
             qpos: Where they start, in the model's order, shape (1 or n, nq).
-            qvel: Likewise, shape (1 or n, nv).
-            act: Likewise, shape (1 or n, na).
+            qvel: Velocities at the start, shape (1 or n, nv).
+            act: Actuator states at the start, shape (1 or n, na).
             position: Desired hinge angles [rad], shape (n, steps, J).
             velocity: Desired hinge speeds [rad/s], shape (n, steps, J).
             geoms: Geoms of the model whose contact forces are recorded.

@@ -1,6 +1,6 @@
 """Processes that share the trials of a roll-out: ODE draws from one random generator a process, so threads will not do.
 
-The processes are started with this module as their program, not forked: whoever calls may have threads, and needs no
+The processes are started with this module as their program, not forked: the caller may have threads, and needs no
 ``if __name__ == "__main__"``. What they compute does not depend on how many there are.
 """
 
@@ -36,7 +36,8 @@ _START = 20_000
 class WorkerPool:
     """Simulations of one model, in this process and others.
 
-    threads: how many processes at most, this one included; 0 for one per core.
+    Args:
+        threads: How many processes at most, this one included; 0 for one per core.
     """
 
     def __init__(self, xml: str, assets: Mapping[str, bytes], physics: Physics, threads: int) -> None:
@@ -73,7 +74,11 @@ class WorkerPool:
 
 
 def simulation(xml: str, assets: Mapping[str, bytes], physics: Physics) -> Simulation:
-    """The simulation of a model. Raises LevadeError for what ODE cannot simulate."""
+    """The simulation of a model.
+
+    Raises:
+        LevadeError: For what ODE cannot simulate.
+    """
     model = mujoco.MjModel.from_xml_string(xml, dict(assets))
     return Simulation(multibody_of(model), physics.ode, physics.timestep)
 

@@ -31,7 +31,8 @@ _ROTATION = [0, 1, 2, 4, 5, 6, 8, 9, 10]  # of a dMatrix3, whose rows have a fou
 class Worlds:
     """Worlds of one multibody. Body l of a world is link l, its centre of mass the body's origin.
 
-    resisted: (J,) bool, hinges with a motor that resists their motion (`resist`).
+    Args:
+        resisted: (J,) bool, hinges with a motor that resists their motion (`resist`).
     """
 
     def __init__(
@@ -103,8 +104,11 @@ class Worlds:
                 ode.dBodySetTorque(body, 0.0, 0.0, 0.0)
 
     def read(self, n: int) -> dict[str, Array]:
-        """Of the first n worlds' links, (n, L, ...): position of the centre of mass, quaternion, rotation (row by row),
-        linear and angular velocity, in world axes.
+        """Read the links of the first n worlds, in world axes.
+
+        Returns:
+            Position of the centre of mass, quaternion, rotation (row by row), linear and angular velocity, by name;
+            shape (n, L, ...).
         """
         row = self._memory.take(self._where[:n]).astype(float, copy=False)
         parts, start = {}, 0
@@ -128,9 +132,14 @@ class Worlds:
         seed: int,
         touching: list[tuple[int, int]] | None,
     ) -> None:
-        """One step of a world under torques on its hinges, with contacts of those of ``pairs`` that touch.
+        """Advance a world by one step under torques on its hinges, with contacts of those of ``pairs`` that touch.
 
-        touching: takes (world, pair) of every contact if it is not None; row i of `forces` is then contact i's.
+        Args:
+            world: Index of the world.
+            torque: Torque on each hinge [Nm].
+            pairs: Indices of the pairs of shapes that may touch.
+            seed: Seed of the solver's random order.
+            touching: If not None, takes (world, pair) of every contact; row i of `forces` is then contact i's.
         """
         ode, at = self._ode, self._contact_at
         collide, create, attach = ode.dCollide, ode.dJointCreateContact, ode.dJointAttach
@@ -154,14 +163,14 @@ class Worlds:
         ode.dJointGroupEmpty(group)
 
     def forces(self, count: int) -> Array:
-        """(count, 3) [N], world axes, on the first shape of each contact that was told of."""
+        """(count, 3) [N], world axes, on the first shape of each contact that was reported."""
         return self._feedback[:count, :3].astype(float)
 
     def _feedback_at(self, row: int) -> int:
         return self._feedback.ctypes.data + row * self._feedback.strides[0]
 
     def make_room(self, contacts: int) -> None:
-        """Have room for the forces of so many contacts: before the step, since joints keep the addresses."""
+        """Have room for the forces of this many contacts: before the step, since joints keep the addresses."""
         if len(self._feedback) < contacts:
             self._feedback = np.zeros((contacts, 16), self._ode.dtype)
 

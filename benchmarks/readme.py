@@ -1,0 +1,94 @@
+"""The numbers in the README, from the results of the other scripts.
+
+python benchmarks/readme.py            # prints the four lines
+python benchmarks/readme.py --write    # writes them into README.md, between its two comments
+
+Run it after `cases.py`, `hardware.py`, `library.py` or `skills.py` have new results; a test compares.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import json
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+HERE = Path(__file__).resolve().parent
+README = HERE.parent / "README.md"
+BEGIN, END = "<!-- numbers: benchmarks/readme.py -->\n", "<!-- end of numbers -->\n"
+PAPER = 3009
+"""Trials of the paper's rearing."""
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--write", action="store_true", help="write the lines into README.md")
+    if parser.parse_args().write:
+        README.write_text(with_numbers(README.read_text(encoding="utf-8")), encoding="utf-8")
+    else:
+        print(lines(), end="")
+
+
+def with_numbers(text: str) -> str:
+    """The README's text with the numbers of today's results."""
+    before, _, rest = text.partition(BEGIN)
+    _, _, after = rest.partition(END)
+    return f"{before}{BEGIN}{lines()}{END}{after}"
+
+
+def lines() -> str:
+    """The four lines."""
+    return "".join(f"- {line}\n" for line in (trials(), hardware(), library(), robots()))
+
+
+def trials() -> str:
+    with (HERE / "results" / "cases.csv").open(encoding="utf-8") as file:
+        rows = [row for row in csv.DictReader(file) if row["task"] == "rearing" and row["optimizer"] == "levade"]
+    found = [int(row["trials_to_success"]) for row in rows if row["success"] == "1"]
+    return (
+        f"**Few trials.** {len(found)} of {len(rows)} seeds solve the paper's rearing, after {median(found):.0f} simulated "
+        f"motions (median); the paper needs {PAPER} ([benchmarks](docs/benchmarks.md))."
+    )
+
+
+def hardware() -> str:
+    chosen = {
+        row["arm"]: row for row in rows_of("hardware") if (row["task"], row["robot"]) == ("posture-recovery", "hyq2max")
+    }
+    nominal, found = chosen["nominal"], chosen["hardware"]
+    return (
+        f"**Motions for hardware.** A posture recovery found on the model alone works on {nominal['share']:.0%} of 500 robots "
+        f"that differ from it. With `--hardware` it works on {found['share']:.0%}, within every limit, after "
+        f"{found['seconds']:.0f} s on two cores ([hardware](docs/hardware.md))."
+    )
+
+
+def library() -> str:
+    check = next(row for row in rows_of("library") if row["robot"] == "go1")["check"]
+    return (
+        f"**Any fall.** A library of motions gets Go1 up from {check['nominal']['twice']['share']:.1%} of {check['starts']} "
+        "falls that it has never seen, within two attempts. It says which motion to play in "
+        f"{check['answer_ms']['median']:.1f} ms, without a simulator ([falls](docs/falls.md))."
+    )
+
+
+def robots() -> str:
+    rows = [row for row in rows_of("skills") if row["task"] == "self-righting"]
+    per_robot = {robot: [row for row in rows if row["robot"] == robot] for robot in {row["robot"] for row in rows}}
+    able = {name: found for name, found in per_robot.items() if all(row["success"] for row in found)}
+    medians = sorted(median(row["trials_to_success"] for row in found) for found in able.values())
+    return (
+        f"**Your robot.** The same `self-righting` works for every seed on {len(able)} of {len(per_robot)} quadrupeds, after "
+        f"{medians[0]:.0f} to {medians[-1]:.0f} trials (medians); nothing in it is tuned to a robot ([robots](docs/robots.md))."
+    )
+
+
+def rows_of(name: str) -> list[dict[str, Any]]:
+    text = (HERE / "results" / f"{name}.jsonl").read_text(encoding="utf-8")
+    return [json.loads(line) for line in text.splitlines()]
+
+
+if __name__ == "__main__":
+    main()
