@@ -5,10 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
+from functools import cache
 
 from threadpoolctl import ThreadpoolController
 
-_libraries = ThreadpoolController()
+
+@cache
+def _libraries() -> ThreadpoolController:
+    """The libraries that are loaded when this is first asked for: by then cma has imported scipy, if it is there."""
+    return ThreadpoolController()
+
+
 _within = ContextVar("within", default=False)
 
 
@@ -19,7 +26,7 @@ def kernels() -> str:
     """
     said = [
         " ".join(filter(None, (one["internal_api"], one.get("version"), one.get("architecture"))))
-        for one in _libraries.info()
+        for one in _libraries().info()
         if one["user_api"] == "blas"
     ]
     return ", ".join(sorted(set(said)))
@@ -33,7 +40,7 @@ def single_threaded() -> Iterator[None]:
         return
     token = _within.set(True)
     try:
-        with _libraries.limit(limits=1, user_api="blas"):
+        with _libraries().limit(limits=1, user_api="blas"):
             yield
     finally:
         _within.reset(token)
