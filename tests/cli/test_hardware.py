@@ -23,9 +23,9 @@ def test_the_certificate_decides(levade, tmp_path: Path, monkeypatch: pytest.Mon
     content = json.loads(out)
     assert content["certificate"]["passed"] is True
     assert content["certificate"]["failed"] == content["obstacles"] == []
-    *before, last = content["searches"]  # the first that passes is the last
+    *before, last = content["searches"]  # the first that surely passes is the last: of so few runs, all have to succeed
     assert (last["failed"], last["share"]) == ([], content["certificate"]["perturbed"]["share"])
-    assert all(search["failed"] for search in before)
+    assert all(search["failed"] or search["share"] < 1 for search in before)
     assert {path.name for path in (tmp_path / "stand").iterdir()} == {
         *("motion.npz", "certificate.html", "certificate.json", "task.yaml", "hardware.json"),
         *(search["name"] for search in content["searches"]),

@@ -18,7 +18,7 @@ from levade.checks.statistics import wilson
 from levade.costs import Criterion
 from levade.errors import LevadeError
 from levade.hardware import Part, Plan, Pursued, binding, discard, is_pursuit, obstacles, pursue, read_pursuit
-from levade.hardware.pursuit import Observe, _sure
+from levade.hardware.pursuit import Observe
 from levade.hardware.state import ASKED
 from levade.motions import Motion
 from levade.search import Generation, Stopped
@@ -89,8 +89,8 @@ def test_what_barely_passes_is_not_sure(found: Pursued, successes: int, runs: in
     low, high = wilson(successes, runs)
     seen = replace(found.certificate.perturbed, successes=successes, runs=runs, low=low, high=high)
     part = replace(found.best, certificate=replace(found.certificate, perturbed=seen))
-    assert _sure(part) is sure
-    assert not _sure(replace(part, certificate=None))
+    assert part.sure is sure
+    assert not replace(part, certificate=None).sure
 
 
 def test_called_again_it_searches_no_more(found: Pursued) -> None:

@@ -7,8 +7,9 @@ obstacles(pursued)              # what it fails, and what would have to give
 """
 
 from levade.hardware.page import certificate_page, write_certificate
+from levade.hardware.part import Part, Pursued
 from levade.hardware.plan import Plan
-from levade.hardware.pursuit import Part, Pursued, pursue
+from levade.hardware.pursuit import pursue
 from levade.hardware.state import discard, is_pursuit, read_pursuit
 from levade.hardware.verdict import binding, obstacles
 

@@ -76,8 +76,11 @@ _REFERENCES_ROOM = 0.2
 _NEAR = 0.3
 """Factor on the step of a search around a motion that is nearly within the limits."""
 
-_FINER, _FINER_VALIDATION = 0.1, 120
-"""Factor on the step, and perturbed models to judge on, of a search around a motion that holds on most of them."""
+_FINER, _FINER_VALIDATION, _FINER_TRIALS = 0.1, 120, 4000
+"""Factor on the step, perturbed models to judge on, and trials, of a search around a motion that holds on most of them."""
+
+_SOFTNESS = (0.8, 2.0)
+"""Softness of contacts there, if a certificate fails with softer or stiffer ones. Usual time steps resolve nothing stiffer."""
 
 _SMOOTHNESS = 0.15
 """Correlation length of neighbouring kernels, as in tasks with few of them."""
@@ -217,15 +220,27 @@ class Plan:
         """The same, with feedback while perturbed models are simulated."""
         return replace(self.robust(horizon, policy), feedback=Regulation())
 
-    def finer(self, horizon: float, policy: PolicyChoice | None = None, *, feedback: bool) -> Task:
-        """As one of these, in small steps and judged on more models: what tells 93 % from 97 %."""
+    def finer(
+        self, horizon: float, policy: PolicyChoice | None = None, *, feedback: bool, softness: bool = False
+    ) -> Task:
+        """As one of these, in small steps and judged on more models: what tells 93 % from 97 %.
+
+        Args:
+            horizon: Duration [s].
+            policy: That of the motion to begin around.
+            feedback: Whether feedback is on.
+            softness: Whether contacts differ, too.
+        """
         task = (self.closed_loop if feedback else self.robust)(horizon, policy)
         assert task.robust is not None
+        perturb = task.robust.perturb
+        if softness and perturb.softness is None:
+            perturb = replace(perturb, softness=_SOFTNESS)
         return replace(
             task,
             stages=(Stage("finer", step=_FINER, hold=self._held),),
-            search=replace(task.search, polish=None),
-            robust=replace(task.robust, validation=_FINER_VALIDATION),
+            search=replace(task.search, trials=_FINER_TRIALS, polish=None),
+            robust=replace(task.robust, validation=_FINER_VALIDATION, perturb=perturb),
         )
 
     @property

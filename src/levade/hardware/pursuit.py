@@ -16,8 +16,8 @@ First motions of the nominal model within its limits, several, since motions tha
 robots: the second search begins at the best of many rough motions, and the third is around the nearest motion, if none is
 within the limits. While the best motion holds on few robots, the search that found it is made again with other random numbers.
 Around the motion that holds on most robots goes a robust search, and around what that finds one with feedback; at once, where
-open loop holds on few. What then holds on nearly enough robots, or on so few more that other ones could say otherwise, is
-searched around once more, finely. A search that is needed no more is not made.
+open loop holds on few. What then holds on nearly enough robots, or on so few more that other ones could say otherwise, or fails
+for how contact is computed, is searched around again, finely. A search that is needed no more is not made.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 from levade.checks import Certificate, check
@@ -34,6 +34,7 @@ from levade.checks.statistics import wilson
 from levade.document import read_yaml
 from levade.errors import LevadeError, Remedy
 from levade.hardware.page import write_certificate
+from levade.hardware.part import Part, Pursued
 from levade.hardware.plan import RUN_UP, Plan
 from levade.hardware.starts import rough_start
 from levade.hardware.state import (
@@ -80,8 +81,8 @@ _BALANCED = 0.25
 _FEW = 100
 """Perturbed runs that a certificate has at least: it ends once they leave no hope for the share that is demanded."""
 
-_MOST = 1000
-"""Demands that a motion without a certificate counts as failing: more than there are."""
+_CONTACTS = {"softer contact", "stiffer contact"}
+"""Variants of which a motion that fails one is searched around on models whose contacts differ, too."""
 
 _APART = 1000
 """Between the seeds of searches that differ in nothing else."""
@@ -98,82 +99,8 @@ Begin = Callable[[str, Task], object]
 Observe = Callable[[str, Generation], "Stopped | None"]
 """Called after each generation with the search's name."""
 
-Tell = Callable[["Part"], object]
+Tell = Callable[[Part], object]
 """Called with each part once it is certified."""
-
-
-@dataclass(frozen=True, eq=False)
-class Part:
-    """One search of a pursuit and what came of it.
-
-    Attributes:
-        name: Its directory.
-        motion: What it found.
-        trials: Roll-outs that it made.
-        seconds: Duration of the search and of the check.
-        certificate: Of its motion; None of one that is not within the limits, where other searches go on.
-    """
-
-    name: str
-    motion: Motion
-    trials: int
-    seconds: float
-    certificate: Certificate | None
-
-    @property
-    def met(self) -> bool:
-        """Whether the model does what was searched for: the goal, within the limits."""
-        return self.motion.met
-
-    @property
-    def rank(self) -> tuple[bool, int, float]:
-        """Less is better: a whole certificate first, then what it fails, then the share of perturbed runs that fail."""
-        certificate = self.certificate
-        if certificate is None:
-            return True, _MOST, 0.0
-        return certificate.interrupted, len(certificate.failed), -certificate.perturbed.share
-
-
-@dataclass(frozen=True, eq=False)
-class Pursued:
-    """What a pursuit came to.
-
-    Attributes:
-        plan: What was searched for.
-        parts: The searches, in order.
-        best: The part with the best certificate.
-        directory: Where everything is.
-        seed: Seed of the pursuit.
-        stopped: Why it ended before its end: "interrupted", "time", or "" if it did not.
-    """
-
-    plan: Plan
-    parts: tuple[Part, ...]
-    best: Part
-    directory: Path
-    seed: int
-    stopped: str
-
-    @property
-    def motion(self) -> Motion:
-        """The motion with the best certificate."""
-        return self.best.motion
-
-    @property
-    def certificate(self) -> Certificate:
-        """Its certificate."""
-        assert self.best.certificate is not None
-        return self.best.certificate
-
-    @property
-    def passed(self) -> bool:
-        """Whether the certificate passes."""
-        return self.certificate.passed
-
-    @property
-    def trials(self) -> int:
-        """Roll-outs of all searches."""
-        return sum(part.trials for part in self.parts)
 
 
 def pursue(
@@ -256,28 +183,6 @@ def _again(first: _Pursuit, directory: Path, number: int) -> Pursued:
     return first.like(state, f"{directory.name}/").go()
 
 
-def _sure(part: Part) -> bool:
-    """Whether its certificate passes, and would with other runs: by the lower end of the share's interval, or all do."""
-    found = part.certificate
-    if found is None or not found.passed:
-        return False
-    share, runs = found.demands.share, found.perturbed
-    return share is None or runs.low >= share or runs.successes == runs.runs
-
-
-def _nearly(part: Part) -> bool:
-    """Whether nothing but the share of perturbed runs is in its way, and that may yet be enough, by its interval."""
-    found = part.certificate
-    if found is None or set(found.failed) - {"perturbed"}:
-        return False
-    return found.demands.share is None or found.perturbed.high >= found.demands.share
-
-
-def _share(part: Part) -> float:
-    """Of perturbed robots, on which it holds."""
-    return 0.0 if part.certificate is None else part.certificate.perturbed.share
-
-
 class _Pursuit:
     def __init__(
         self,
@@ -322,7 +227,20 @@ class _Pursuit:
         return replace(found, parts=(*found.parts, *other.parts), best=best, stopped=other.stopped)
 
     def go(self) -> Pursued:
-        plan = self._plan
+        """Make the searches that are needed, in order."""
+        self._keep_to_limits()
+        self._share = 1.0
+        if any(part.met for part in self._parts) and not self._stopped:
+            self._hold_on_others()
+            self._refine()
+        if self._best.certificate is None:
+            self._certify_best()
+        best = self._parts.index(self._best)
+        parts = tuple(replace(part, name=self._prefix + part.name) for part in self._parts)
+        return Pursued(self._plan, parts, parts[best], self._directory, self._seed, self._stopped)
+
+    def _keep_to_limits(self) -> None:
+        """Look for motions of the nominal model within its limits."""
         for number, name in enumerate((*LIMITS, *MORE)):
             if self._state.chosen not in (None, name):
                 continue
@@ -334,39 +252,46 @@ class _Pursuit:
             task, near = self._within_limits(name, number)
             part = self._search(name, task, near, seed=self._seed + _APART * number)
             met = any(part.met for part in self._parts)
-            if self._stopped or _sure(part) or (met and self._late(_ENOUGH)):
+            if self._stopped or part.sure or (met and self._late(_ENOUGH)):
+                break
+
+    def _hold_on_others(self) -> None:
+        """Search around the motion that holds on most perturbed robots, without feedback and with it."""
+        plan, closing = self._plan, self._plan.can_close_the_loop
+        around = max((part for part in self._parts if part.met), key=lambda part: (part.sure, part.share))
+        self._choose(around)
+        for name, make in ((ROBUST, plan.robust), (CLOSED, plan.closed_loop)):
+            if around.sure or (name == CLOSED and not closing):
+                break
+            if name == ROBUST and closing and around.share < _BALANCED:
+                continue
+            self._share = _ON_ROBUST if name == ROBUST and closing else 1.0
+            near = around.motion
+            around = self._search(name, make(near.horizon, near.task.policy), near, seed=self._seed)
+            if self._stopped or not around.met:
                 break
         self._share = 1.0
-        candidates = [part for part in self._parts if part.met]
-        if candidates and not self._stopped:
-            around = max(candidates, key=lambda part: (_sure(part), _share(part)))
-            self._choose(around)
-            closing = plan.can_close_the_loop
-            for name, make in ((ROBUST, plan.robust), (CLOSED, plan.closed_loop)):
-                if _sure(around) or (name == CLOSED and not closing):
-                    break
-                if name == ROBUST and closing and _share(around) < _BALANCED:
-                    continue
-                self._share = _ON_ROBUST if name == ROBUST and closing else 1.0
-                near = around.motion
-                around = self._search(name, make(near.horizon, near.task.policy), near, seed=self._seed)
-                if self._stopped or not around.met:
-                    break
-            self._share, best = 1.0, self._best
-            if not self._stopped and not _sure(best) and _nearly(best):
-                near = best.motion
-                task = plan.finer(near.horizon, near.task.policy, feedback=near.stabiliser is not None)
-                self._search(FINER, task, near, seed=self._seed + _APART)
-        if self._best.certificate is None:
-            self._certify_best()
-        best = self._parts.index(self._best)
-        parts = tuple(replace(part, name=self._prefix + part.name) for part in self._parts)
-        return Pursued(plan, parts, parts[best], self._directory, self._seed, self._stopped)
+
+    def _refine(self) -> None:
+        """Search around the best motion in small steps, where little stands in its way."""
+        for number, name in enumerate(FINER, start=1):
+            best = self._best
+            if self._stopped or best.sure or not best.near:
+                break
+            near = best.motion
+            failed = set() if best.certificate is None else set(best.certificate.failed)
+            task = self._plan.finer(
+                near.horizon,
+                near.task.policy,
+                feedback=near.stabiliser is not None,
+                softness=bool(failed & _CONTACTS),
+            )
+            self._search(name, task, near, seed=self._seed + _APART * number)
 
     @property
     def _wants_another(self) -> bool:
         """Whether another motion to begin the robust searches around is worth the time: the best one is not good enough yet."""
-        return max(_share(part) for part in self._parts if part.met) < _GOOD
+        return max(part.share for part in self._parts if part.met) < _GOOD
 
     def _within_limits(self, name: str, number: int) -> tuple[Task, Motion | None]:
         """A search within limits, and what it begins around: the one that is there already, if it is of this plan."""
@@ -388,7 +313,7 @@ class _Pursuit:
             self._kinds[name] = self._kinds[near.name]
             return plan.nearer(self._kinds[name], near.motion.horizon), near.motion
         # with other random numbers, what has come out best
-        self._kinds[name] = self._kinds[max(met, key=_share).name] if number > last and met else last
+        self._kinds[name] = self._kinds[max(met, key=lambda part: part.share).name] if number > last and met else last
         return plan.within_limits(self._kinds[name]), None
 
     def _choose(self, part: Part) -> None:

@@ -16,7 +16,8 @@ from levade.tasks import Demands, Task, task_from_dict, task_to_dict
 from levade.writing import write_text
 
 ASKED, PAGE = PURSUIT, CERTIFICATE_PAGE
-LIMITS, ROBUST, CLOSED, FINER = ("limits-1", "limits-2", "limits-3"), "robust", "feedback", "finer"
+LIMITS, ROBUST, CLOSED = ("limits-1", "limits-2", "limits-3"), "robust", "feedback"
+FINER = ("finer-1", "finer-2", "finer-3")
 MORE = ("limits-4", "limits-5", "limits-6", "limits-7", "limits-8")
 """Searches within limits that may follow those in `LIMITS`, each with other random numbers."""
 
@@ -92,7 +93,7 @@ def discard(directory: Path) -> None:
     Raises:
         LevadeError: If one of them goes on.
     """
-    searches = [directory, *(directory / name for name in (*LIMITS, *MORE, ROBUST, CLOSED, FINER))]
+    searches = [directory, *(directory / name for name in (*LIMITS, *MORE, ROBUST, CLOSED, *FINER))]
     for search in searches:
         check_unlocked(search)
     number = 1

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from levade.checks import Certificate, Margin
-from levade.hardware.pursuit import Pursued
+from levade.hardware.part import Pursued
 from levade.hardware.state import LIMITS, MORE
 from levade.motions import Motion
 
