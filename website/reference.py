@@ -30,8 +30,8 @@ def command_line() -> str:
     ]
     for name, command in commands(get_command(app), "levade"):
         text.append(f"## {name}\n")
-        text.append((command.help or "").replace("\b", "").strip() + "\n")
-        arguments = [one for one in command.params if one.param_type_name == "argument"]
+        text.append(_paragraphs(command.help or ""))
+        arguments = [one for one in command.params if one.param_type_name == "argument" and not one.hidden]
         options = [one for one in command.params if one.param_type_name == "option" and "--help" not in one.opts]
         usage = [name, *(["[OPTIONS]"] if options else []), *(_metavar(one) for one in arguments)]
         text.append(f"```text\n{' '.join(usage)}\n```\n")
@@ -40,6 +40,14 @@ def command_line() -> str:
             rows += [(_option(one), _with_default(one)) for one in options]
             text.append(table(("argument or option", "what"), rows))
     return "\n".join(text)
+
+
+def _paragraphs(text: str) -> str:
+    """A help text; paragraphs whose lines are kept, after a backspace, become code blocks."""
+    parts = (part.strip("\n") for part in inspect.cleandoc(text).split("\n\n"))
+    return "".join(
+        f"```text\n{part[2:]}\n```\n\n" if part.startswith("\b") else f"{part}\n\n" for part in parts if part
+    )
 
 
 def commands(command: Any, name: str) -> Iterator[tuple[str, Any]]:

@@ -34,11 +34,10 @@ def test_it_writes_a_motion_that_a_check_knows_as_stabilised(motion: Path, levad
     written = Path(content["written"])
     assert written == motion.with_name("motion-stabilised.npz")
     assert Motion.load(written).feedback is not None
-    _, out, _ = levade("check", str(written), "--runs", "40", "--json")
-    checked = json.loads(out)
+    _, out, _ = levade("check", str(written), "--runs", "40", "--out", "check.json")
+    checked = json.loads(Path("check.json").read_text())
     assert checked["open_loop"]["runs"] == checked["perturbed"]["runs"] == 40
     assert checked["perturbed"]["successes"] > checked["open_loop"]["successes"]
-    _, out, _ = levade("check", str(written), "--runs", "8")
     assert "without the stabiliser" in out
 
 

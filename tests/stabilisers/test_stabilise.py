@@ -65,11 +65,11 @@ def loop(motion: Motion, push: np.ndarray, *, clamp: bool = False) -> tuple[np.n
 
 
 def test_it_holds_what_open_loop_does_not(found: Stabilised) -> None:
-    """Of 200 other runs that are pushed hard at the start."""
+    """Of 100 other runs that are pushed hard at the start."""
     assert found.design is not None
     simulation = RecordedSimulation(found.motion)
-    without = perturbed(simulation, PUSHED, runs=200, seed=0)
-    within = perturbed(simulation, PUSHED, runs=200, seed=0, feedback=found.motion.feedback)
+    without = perturbed(simulation, PUSHED, runs=100, seed=0)
+    within = perturbed(simulation, PUSHED, runs=100, seed=0, feedback=found.motion.feedback)
     assert without.high < within.low
     assert within.share > without.share + 0.15
 

@@ -207,7 +207,7 @@ def solve(
     ] = False,
     as_json: Json = False,
 ) -> int:
-    r"""Search for a motion that does TASK, and write it to a directory.
+    """Search for a motion that does TASK, and write it to a directory.
 
     \b
     levade solve rearing                          a built-in task; levade tasks lists them
@@ -323,7 +323,7 @@ def show(
     ] = None,
     as_json: Json = False,
 ) -> int:
-    r"""Summarise motions, and write a page next to each: report.html, to open in any browser.
+    """Summarise motions, and write a page next to each: report.html, to open in any browser.
 
     \b
     levade show rearing/motion.npz                               numbers, and the page
@@ -426,7 +426,7 @@ def check(
     ] = 0,
     as_json: Json = False,
 ) -> int:
-    r"""Say whether a motion can be trusted: on perturbed robots, at other time steps, in another engine, within limits.
+    """Say whether a motion can be trusted: on perturbed robots, at other time steps, in another engine, within limits.
 
     \b
     levade check rearing/motion.npz --page certificate.html      then open the page
@@ -541,7 +541,7 @@ def export(
     ] = None,
     as_json: Json = False,
 ) -> int:
-    r"""Write a motion for a robot or another tool, with a player.py that plays it.
+    """Write a motion for a robot or another tool, with a player.py that plays it.
 
     \b
     levade export rearing/motion.npz --to csv
