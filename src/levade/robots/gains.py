@@ -7,6 +7,8 @@ import math
 GRAVITY = 9.81
 GIVE = 0.1
 """[rad], by which a joint gives way when a leg bears its share of the weight at the length of one link."""
+GIVE_STANDING, GIVE_FREE = 0.15, 0.3
+"""[rad], by which a joint of a leg, or of an arm, is off at its torque limit at least, where each has gains of its own."""
 DAMPING_RATIO = 0.7
 
 

@@ -55,7 +55,8 @@ class Draft:
 
     effort [Nm], velocity [rad/s]: joint -> limit, of those that have one. servos: joint -> position servo.
     driven: joints of an MJCF that an actuator drives. couplings: joints that follow others. loops: bodies that were
-    held together. held: joint that was taken out -> its angle [rad], or [m]. origins: what of the robot came from where,
+    held together. held: joint that was taken out -> its angle [rad], or [m]; held_bodies: -> its body, of those that the
+    description or another joint holds. origins: what of the robot came from where,
     see `Robot`. joints: of the file except the free one, in its order.
     """
 
@@ -71,6 +72,7 @@ class Draft:
     couplings: list[Coupling] = field(default_factory=list)
     loops: list[Loop] = field(default_factory=list)
     held: dict[str, float] = field(default_factory=dict)
+    held_bodies: dict[str, str] = field(default_factory=dict)
     findings: list[Finding] = field(default_factory=list)
     origins: dict[str, str] = field(default_factory=dict)
     joints: list[str] = field(default_factory=list)

@@ -70,8 +70,21 @@ class Robot:
         return tuple(joint for leg in self.legs for joint in leg.joints)
 
     @property
+    def standing(self) -> tuple[Leg, ...]:
+        """The legs that stand: all of them but arms and others that only move."""
+        return tuple(leg for leg in self.legs if leg.stands)
+
+    @property
+    def stance(self) -> str:
+        """How it stands: "upright" on two legs, "sprawled" on limbs that begin with a joint about the vertical, else "level"."""
+        standing = self.standing
+        if len(standing) == 2:
+            return "upright"
+        return "sprawled" if sum(leg.roles[:1] == ("yaw",) for leg in standing) > len(standing) / 2 else "level"
+
+    @property
     def feet(self) -> tuple[str, ...]:
-        """Geom names of the feet, in leg order."""
+        """Geom names of the feet, in leg order; of an arm, the geom at its end."""
         return tuple(leg.foot for leg in self.legs)
 
     def leg(self, name: str) -> Leg:
@@ -157,14 +170,14 @@ class Robot:
         return data
 
     def foot_positions(self, joint_position: Array) -> Array:
-        """(feet, 3) [m], centres of the foot geoms in the trunk frame, at (joints,) [rad]."""
+        """(standing legs, 3) [m], centres of the feet in the trunk frame, at (joints,) [rad]."""
         data = self.data_at(joint_position)
-        return np.array([data.geom(foot).xpos for foot in self.feet])
+        return np.array([_middle(data, leg) for leg in self.standing])
 
     def foot_depths(self, joint_position: Array) -> Array:
-        """(feet,) [m], how far the lowest point of each foot is below the trunk's origin at (joints,) [rad]."""
+        """(standing legs,) [m], how far the lowest point of each foot is below the trunk's origin at (joints,) [rad]."""
         data = self.data_at(joint_position)
-        return np.array([_depth(self.model, data, foot) for foot in self.feet])
+        return np.array([max(_depth(self.model, data, geom) for geom in leg.soles) for leg in self.standing])
 
     def standing_height(self, posture: str | Mapping[str, float | str] = "neutral") -> float:
         """[m], the trunk's origin above the lowest point of the feet, the trunk level; see `levade.robots.dimensions`.
@@ -193,8 +206,9 @@ class Robot:
                     joints=tuple(range(indices.start, indices.stop)),
                     anchors=np.array([joint.xanchor for joint in joints]),
                     axes=np.array([joint.xaxis for joint in joints]),
-                    foot=data.geom(leg.foot).xpos.copy(),
-                    sole=_depth(self.model, stood, leg.foot) + float(stood.geom(leg.foot).xpos[2]),
+                    foot=_middle(data, leg),
+                    sole=max(_depth(self.model, stood, geom) for geom in leg.soles) + float(_middle(stood, leg)[2]),
+                    stands=leg.stands,
                 )
             )
         return tuple(geometry)
@@ -244,6 +258,13 @@ class Robot:
     @property
     def _free_joint(self) -> int:
         return int(self.model.body(self.trunk).jntadr[0])
+
+
+def _middle(data: mujoco.MjData, leg: Leg) -> Array:
+    """(3,) [m], centre of the leg's foot, or of the shapes that are its sole."""
+    if not leg.pads:
+        return data.geom(leg.foot).xpos.copy()
+    return np.mean([data.geom(pad).xpos for pad in leg.pads], axis=0)
 
 
 def _depth(model: mujoco.MjModel, data: mujoco.MjData, geom: str) -> float:

@@ -64,7 +64,8 @@ def settle(robot: Robot, *, stiff: bool = False) -> Settled:
         mujoco.mj_forward(model, data)
     depth = {
         foot: -min((float(c.dist) for c in data.contact if model.geom(foot).id in c.geom), default=0.0)
-        for foot in robot.feet
+        for leg in robot.standing
+        for foot in leg.soles
     }
     up = data.xmat[trunk].reshape(3, 3)[2, 2]
     com = float(robot.trunk_com_offset @ data.xmat[trunk].reshape(3, 3)[2]) + float(data.xpos[trunk, 2])
