@@ -110,12 +110,29 @@ def _torque(draft: Draft, bare: Bare, path: Path, form: RobotForm) -> tuple[Arra
     if form.actuations:
         return torque, none
     assumed = gains.assumed_torque(float(bare.model.body_mass.sum()), _leg_length(bare))
+    standing = np.array([leg.stands for leg in bare.legs for _ in leg.joints])
     missing = ~(torque <= _NO_LIMIT * assumed)
+    for legs, values in ((True, np.full(len(joints), assumed)), (False, _arm_torque(bare, assumed))):
+        chosen = missing & (standing == legs)
+        if chosen.any():
+            _say_assumed(draft, bare, torque, chosen, float(values[chosen].max()))
+            torque = np.where(chosen, values, torque)
     if missing.any():
-        _say_assumed(draft, bare, torque, missing, assumed)
         draft.origins["torque"] = "assumed" if missing.all() else f"{_file(draft)}, or assumed"
-        torque = np.where(missing, assumed, torque)
     return torque, missing
+
+
+def _arm_torque(bare: Bare, most: float) -> Array:
+    """(joints,) [Nm], assumed of joints that do not stand: what they carry, held out straight, a few times over."""
+    data = bare.data_at({joint: bare.resting(joint) for joint in bare.joints})
+    model = bare.model
+    torque = np.full(len(bare.joints), most)
+    for k, joint in enumerate(bare.joints):
+        body = int(model.jnt_bodyid[model.joint(joint).id])
+        mass = float(model.body_subtreemass[body])
+        away = float(np.linalg.norm(data.subtree_com[body] - data.joint(joint).xanchor))
+        torque[k] = min(most, max(gains.ARM_RESERVE * mass * gains.GRAVITY * away, 0.05 * most))
+    return torque
 
 
 def _say_assumed(draft: Draft, bare: Bare, torque: Array, missing: NDArray[np.bool_], assumed: float) -> None:

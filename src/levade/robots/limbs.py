@@ -166,9 +166,7 @@ def _is_wheel(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, joint: int
     return True
 
 
-def _measure(
-    model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, trunk: int, branches: Sequence[Branch]
-) -> None:
+def _measure(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, trunk: int, branches: Sequence[Branch]) -> None:
     """How deep every branch reaches within its ranges, sampled, and where it ends."""
     generator = np.random.default_rng(0)
     geoms = [_colliding(model, tree.below(int(model.jnt_bodyid[branch.joints[-1]]))) for branch in branches]
@@ -217,9 +215,7 @@ def _pairs(model: mujoco.MjModel, data: mujoco.MjData, branches: Sequence[Branch
     return found
 
 
-def _standing(
-    model: mujoco.MjModel, tree: Tree, branches: Sequence[Branch], pairs: Mapping[int, int]
-) -> list[Branch]:
+def _standing(model: mujoco.MjModel, tree: Tree, branches: Sequence[Branch], pairs: Mapping[int, int]) -> list[Branch]:
     """The branches that stand: hinges alone, with something that collides at the end, as deep as the deepest."""
     hinge = mujoco.mjtJoint.mjJNT_HINGE
     able = [
@@ -270,7 +266,9 @@ def _named_legs(
             short = f"{side[0]}{letter}"
             foot = find_foot(model, standing[i].joints[-1], f"{where}: leg {short}")
             pads = _pads(model, data, tree, standing[i].joints[-1], foot)
-            legs.append(Leg(short, joints, foot, side, end, limb_roles(model, data, joints, standing[i].tip), pads=pads))
+            legs.append(
+                Leg(short, joints, foot, side, end, limb_roles(model, data, joints, standing[i].tip), pads=pads)
+            )
     rank = {leg.name: (_order(leg.end), leg.side == "right") for leg in legs}
     return sorted(legs, key=lambda leg: rank[leg.name])
 
@@ -376,9 +374,7 @@ def _levers(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, branch: Bran
         mujoco.mj_comPos(model, moved)
         end = np.mean([moved.geom_xpos[g] for g in geoms], axis=0) if geoms else moved.xanchor[branch.joints[-1]]
         for k, joint in enumerate(branch.joints):
-            lever[k] = max(
-                lever[k], float(np.linalg.norm(np.cross(moved.xaxis[joint], end - moved.xanchor[joint])))
-            )
+            lever[k] = max(lever[k], float(np.linalg.norm(np.cross(moved.xaxis[joint], end - moved.xanchor[joint]))))
     last = max((k for k in range(len(lever)) if lever[k] >= _LEVER * length), default=-1)
     return branch.joints[: last + 1]
 

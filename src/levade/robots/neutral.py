@@ -23,7 +23,7 @@ UPRIGHT_EXTENSION, SPRAWLED_EXTENSION, LEVEL_EXTENSION = 0.94, 0.4, 0.8
 CROUCHED = 0.7
 """Extension of the crouched posture, as a share of that of the neutral one."""
 
-_LEG_TRIES, _ARM_TRIES, _AGAIN, _POPULATION = 1500, 600, 600, 12
+_LEG_TRIES, _ARM_TRIES, _AGAIN, _POPULATION = 1000, 400, 300, 12
 _STOP = 0.06
 """Of a joint's range, at most 0.1 rad: how far from its ends a posture stays."""
 _DOWN = np.array([0.0, 0.0, -1.0])

@@ -28,6 +28,11 @@ from levade.robots.shapes import balls, support
 from levade.robots.understanding import Leg
 
 
+_ROLES = {"haa": "hip abduction", "hfe": "hip flexion", "kfe": "knee"}
+_SPRAWLED_ROLES = {"yaw": "swing", "haa": "spread", "hfe": "lift", "kfe": "fold"}
+_ARM_ROLES = {"haa": "spread", "hfe": "lift", "kfe": "fold"}
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Robot:
     """A legged robot, ready to be put into a scene.
@@ -130,6 +135,11 @@ class Robot:
                 )
             angles[i] = angle
         return angles
+
+    def role_words(self, leg: Leg) -> tuple[str, ...]:
+        """What each joint of a limb does, in words."""
+        words = _SPRAWLED_ROLES if self.stance == "sprawled" and leg.stands else _ROLES if leg.stands else _ARM_ROLES
+        return tuple(words.get(role, role) for role in leg.roles or ("other",) * len(leg.joints))
 
     def joint_indices(self, leg: Leg) -> slice:
         """Where the leg's joints are in arrays over joints."""

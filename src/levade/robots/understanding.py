@@ -155,7 +155,9 @@ def find_legs(model: mujoco.MjModel, trunk: int, where: str) -> tuple[tuple[Leg,
     level(model, data, trunk)
     legs = _four_alike(model, limbs) or _four_within(model, trunk)
     if legs is None:
-        raise LevadeError(f"{where}: levade moves two and more legs of two to eight hinges each; {_census(model, limbs)}")
+        raise LevadeError(
+            f"{where}: levade moves two and more legs of two to eight hinges each; {_census(model, limbs)}"
+        )
     for limb in legs:
         _check_roles(model, data, trunk, limb, where)
     centres = np.array([data.xanchor[limb.joints].mean(axis=0) for limb in legs])

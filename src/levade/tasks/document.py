@@ -33,6 +33,7 @@ from levade.document import CONTROL, build, kind_of, parse_yaml, read_text
 from levade.errors import LevadeError, did_you_mean
 from levade.optimizers import ALIASES, canonical
 from levade.robots import Dimensions, Robot, dimensions, load_robot
+from levade.tasks import stances
 from levade.tasks.code import (
     KEY,
     MissingCode,
@@ -163,6 +164,19 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
         LevadeError: If something is missing, unknown or wrong.
     """
     content = dict(content)
+
+    @functools.cache
+    def chosen() -> Robot:
+        if robot is not None:
+            return robot
+        choice = build(RobotChoice, content.get("robot", {}), where=f"{where}.robot")
+        return load_robot(choice.name, variant=choice.variant)
+
+    if stances.KEY in content:
+        content = stances.for_stance(content, chosen(), where)
+    start = content.get("start")
+    if isinstance(start, Mapping) and stances.lies(start.get("fall")):
+        content["start"] = {**start, "fall": stances.as_attitude(start["fall"], chosen(), f"{where}.start.fall")}
     if isinstance(content.get("success"), Mapping):
         content["success"] = _with_quantities(content["success"], where)
         content["robust"] = _good_enough(content.get("robust"), content["success"], where)
@@ -174,10 +188,7 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
 
     @functools.cache
     def measures() -> Dimensions:
-        if robot is not None:
-            return dimensions(robot)
-        choice = build(RobotChoice, content.get("robot", {}), where=f"{where}.robot")
-        return dimensions(load_robot(choice.name, variant=choice.variant))
+        return dimensions(chosen())
 
     if isinstance(content.get("stages"), list):
         content["stages"] = [
@@ -444,7 +455,7 @@ def _apply(content: dict[str, Any], change: str) -> None:
 
 def _may_add(table: str, value: Any) -> bool:
     """Whether a change may add to a table; a wrong name there is told by the task itself."""
-    return table == "search.settings" or (table in ("costs", "success") and isinstance(value, Mapping))
+    return table in ("search.settings", "start.fall") or (table in ("costs", "success") and isinstance(value, Mapping))
 
 
 def _plain(value: Any) -> Any:
