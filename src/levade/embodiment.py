@@ -84,10 +84,11 @@ class JointLimits:
 class LegGeometry:
     """Where a leg's joints and foot are in the trunk frame with every joint at zero.
 
-    side: "left" or "right". end: "front" or "hind", or as `levade.robots.Leg` says. joints: indices in the robot's joint order, from the trunk outward.
+    side: "left" or "right". end: "front" or "hind", or as `levade.robots.Leg` says. joints: indices in the robot's joint
+    order, from the trunk outward.
     anchors: (k, 3) [m], a point on each joint's axis. axes: (k, 3), unit. foot: (3,) [m], centre of the foot.
-    sole: [m], how far the foot reaches below its centre, standing in the neutral posture. stands: whether it is a leg to stand
-    on, or a limb that only moves, such as an arm.
+    sole: [m], how far the foot reaches below its centre, standing in the neutral posture. stands: whether it is a leg to
+    stand on, or a limb that only moves, such as an arm.
     """
 
     name: str

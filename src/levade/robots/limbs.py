@@ -7,6 +7,7 @@ legs; other pairs are arms. Names are not looked at.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -209,7 +210,10 @@ def _pairs(model: mujoco.MjModel, data: mujoco.MjData, branches: Sequence[Branch
                 float(np.linalg.norm(np.cross(image * data.xaxis[p], data.xaxis[q])))
                 for p, q in zip(one.joints, other.joints, strict=True)
             ]
-            near = float(np.linalg.norm(image * one.tip - other.tip)) <= 2 * tolerance and a[1] * b[1] <= 0
+            places = [(one.tip, other.tip)]  # files have feet that are no images, on legs that are
+            places.append(tuple(data.xanchor[branch.joints].mean(axis=0) for branch in (one, other)))
+            off = min(float(np.linalg.norm(image * p - q)) for p, q in places)
+            near = off <= 2 * tolerance and a[1] * b[1] <= 0
             if near and max(axes) < 0.1 and apart > 1e-3:
                 found[i], found[k] = k, i
     return found
@@ -228,7 +232,7 @@ def _standing(model: mujoco.MjModel, tree: Tree, branches: Sequence[Branch], pai
         paired = able if len(able) > 2 else []
     if not paired:
         return []
-    lowest = min(branches[i].low for i in paired)
+    lowest = min(branches[i].low for i in able)  # one that is deeper, and has no image, is a leg that lacks its other
     deep = [i for i in paired if branches[i].low <= (_DEEP * lowest if lowest < 0 else lowest + 1e-9)]
     alike = [
         i
@@ -364,7 +368,7 @@ def _levers(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, branch: Bran
     lever = np.zeros(len(branch.joints))
     length = 0.0
     anchors = [data.xanchor[j] for j in branch.joints] + [branch.tip]
-    for one, other in zip(anchors, anchors[1:], strict=False):
+    for one, other in itertools.pairwise(anchors):
         length += float(np.linalg.norm(other - one))
     geoms = _colliding(model, tree.below(int(model.jnt_bodyid[branch.joints[-1]])))
     for _ in range(64):

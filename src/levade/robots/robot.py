@@ -27,7 +27,6 @@ from levade.robots.findings import Finding
 from levade.robots.shapes import balls, support
 from levade.robots.understanding import Leg
 
-
 _ROLES = {"haa": "hip abduction", "hfe": "hip flexion", "kfe": "knee"}
 _SPRAWLED_ROLES = {"yaw": "swing", "haa": "spread", "hfe": "lift", "kfe": "fold"}
 _ARM_ROLES = {"haa": "spread", "hfe": "lift", "kfe": "fold"}
@@ -81,7 +80,10 @@ class Robot:
 
     @property
     def stance(self) -> str:
-        """How it stands: "upright" on two legs, "sprawled" on limbs that begin with a joint about the vertical, else "level"."""
+        """How it stands.
+
+        "upright" on two legs; "sprawled" on more that begin with a joint about the vertical, as an insect's; else "level".
+        """
         standing = self.standing
         if len(standing) == 2:
             return "upright"

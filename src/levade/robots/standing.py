@@ -81,7 +81,7 @@ class Bare:
     def leg_length(self, leg: Leg) -> float:
         """[m], from hip flexion over the knee to the end of the foot, along the links; of other legs, along all of them."""
         data = self.put(self._data, self._zero(leg))
-        if not {"hfe", "kfe"} <= set(leg.roles):
+        if not {"hfe", "kfe"} <= set(leg.roles) or leg.roles[0] == "yaw":
             points = [*(data.joint(joint).xanchor for joint in leg.joints), self.tip(data, leg)]
             return float(sum(np.linalg.norm(b - a) for a, b in itertools.pairwise(points)))
         hip, knee = (data.joint(leg.joints[leg.roles.index(role)]).xanchor for role in ("hfe", "kfe"))

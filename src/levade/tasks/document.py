@@ -115,7 +115,7 @@ def load_task(name_or_path: str | Path, *, robot: str | Robot | None = None, cha
                 and canonical(content["search"]["optimizer"]) != task.search.optimizer
             ):
                 content["search"]["settings"] = {}
-        task = _changed(content)
+        task = _changed(content, made)
     return task
 
 
@@ -131,9 +131,9 @@ def _other_robot(content: Any, name: str | None, changes: Sequence[str], *, wher
         return dataclasses.asdict(build(RobotChoice, table["robot"], where=f"{_CHANGES}.robot"))
 
 
-def _changed(content: Mapping[str, Any]) -> Task:
+def _changed(content: Mapping[str, Any], robot: Robot | None = None) -> Task:
     with _changing():
-        return task_from_dict(content, where=_CHANGES)
+        return task_from_dict(content, where=_CHANGES, robot=robot)
 
 
 _CHANGES = "changes"
@@ -172,11 +172,8 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
         choice = build(RobotChoice, content.get("robot", {}), where=f"{where}.robot")
         return load_robot(choice.name, variant=choice.variant)
 
-    if stances.KEY in content:
-        content = stances.for_stance(content, chosen(), where)
-    start = content.get("start")
-    if isinstance(start, Mapping) and stances.lies(start.get("fall")):
-        content["start"] = {**start, "fall": stances.as_attitude(start["fall"], chosen(), f"{where}.start.fall")}
+    measures = functools.cache(lambda: dimensions(chosen()))
+    content = stances.on_robot(content, chosen, where)
     if isinstance(content.get("success"), Mapping):
         content["success"] = _with_quantities(content["success"], where)
         content["robust"] = _good_enough(content.get("robust"), content["success"], where)
@@ -185,10 +182,6 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
         content["costs"] = {
             name: {"term": name, **value} if isinstance(value, Mapping) else value for name, value in costs.items()
         }
-
-    @functools.cache
-    def measures() -> Dimensions:
-        return dimensions(chosen())
 
     if isinstance(content.get("stages"), list):
         content["stages"] = [

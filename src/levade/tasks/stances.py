@@ -6,7 +6,7 @@ that point outward (``sprawled``), or in one line why the task means nothing the
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from levade.document import kind_of
@@ -36,6 +36,22 @@ ATTITUDES["sprawled"] = ATTITUDES["level"]
 """Stance -> side that a robot lies on -> roll and pitch of its trunk. What is up on four legs is ahead on two."""
 
 
+def on_robot(content: Mapping[str, Any], robot: Callable[[], Robot], where: str) -> dict[str, Any]:
+    """The tables of a task without ``stances`` and ``lying``; the robot is asked for where there are such.
+
+    Raises:
+        LevadeError: As `for_stance` and `as_attitude`.
+    """
+    content = dict(content)
+    if KEY in content:
+        content = for_stance(content, robot(), where)
+    start = content.get("start")
+    fall = start.get("fall") if isinstance(start, Mapping) else None
+    if isinstance(start, Mapping) and isinstance(fall, Mapping) and LYING in fall:
+        content["start"] = {**start, "fall": as_attitude(fall, robot(), f"{where}.start.fall")}
+    return content
+
+
 def for_stance(content: Mapping[str, Any], robot: Robot, where: str) -> dict[str, Any]:
     """The tables of a task for a robot: what its stance changes is in place, and ``stances`` is gone.
 
@@ -58,11 +74,6 @@ def for_stance(content: Mapping[str, Any], robot: Robot, where: str) -> dict[str
     if isinstance(changes, str):
         raise LevadeError(f"{content.get('name', where)}: means nothing on {robot.name}: {changes}")
     return extended(content, dict(changes))
-
-
-def lies(fall: Any) -> bool:
-    """Whether a fall says on which side it ends."""
-    return isinstance(fall, Mapping) and LYING in fall
 
 
 def as_attitude(fall: Mapping[str, Any], robot: Robot, where: str) -> dict[str, Any]:
