@@ -52,7 +52,8 @@ def arm(side: str, y: float) -> str:
         for k in (-1, 1)
     )
     return f"""
-<body name="{side}_a1" pos="0 {y} 0.3">{hinge(side + "_reach", "0 1 0", -2.5, 2.5, 20)}<geom type="sphere" size="0.03" mass="0.3"/>
+<body name="{side}_a1" pos="0 {y} 0.3">{hinge(side + "_reach", "0 1 0", -2.5, 2.5, 20)}
+ <geom type="sphere" size="0.03" mass="0.3"/>
 <body name="{side}_a2">{hinge(side + "_lift", "1 0 0", *sorted((-0.3 * s, 2.5 * s)), 20)}
  <geom type="capsule" fromto="0 {0.03 * s} -0.04 0 {0.03 * s} -0.22" size="0.025" mass="0.8"/>
 <body name="{side}_a3" pos="0 {0.03 * s} -0.25">{hinge(side + "_elbow", "0 1 0", -2.2, 0.1, 20)}
@@ -66,7 +67,8 @@ def humanoid() -> str:
     """A pelvis with two legs, and a waist that carries two arms and a head."""
     return f"""{HEAD}<body name="pelvis" pos="0 0 1"><freejoint/><geom type="box" size="0.08 0.1 0.05" mass="5"/>
 {leg("one", 0.1)}{leg("two", -0.1)}
-<body name="chest" pos="0 0 0.08">{hinge("twist", "0 0 1", -1, 1)}<geom type="box" size="0.08 0.12 0.15" pos="0 0 0.2" mass="9"/>
+<body name="chest" pos="0 0 0.08">{hinge("twist", "0 0 1", -1, 1)}
+ <geom type="box" size="0.08 0.12 0.15" pos="0 0 0.2" mass="9"/>
 {arm("p", 0.18)}{arm("q", -0.18)}
 <body name="skull" pos="0 0 0.4">{hinge("nod", "0 1 0", -0.5, 0.5, 5)}<geom type="sphere" size="0.08" pos="0 0 0.08" mass="1"/>
 </body></body></body></worldbody></mujoco>"""
@@ -142,8 +144,8 @@ def test_wheels_are_locked_and_are_the_feet() -> None:
     text = insect(4)
     for k in range(4):
         old = f'<geom name="tip{k}" type="sphere" pos="0.16 0 0" size="0.015" mass="0.01"/>'
-        wheel = f'<body pos="0.16 0 0"><joint name="wheel{k}" axis="0 1 0"/><geom name="tyre{k}" type="cylinder" size="0.04 0.01"'
-        text = text.replace(old, f'{wheel} zaxis="0 1 0" mass="0.1"/></body>')
+        wheel = f'<body pos="0.16 0 0"><joint name="wheel{k}" axis="0 1 0"/><geom name="tyre{k}" type="cylinder"'
+        text = text.replace(old, f'{wheel} size="0.04 0.01" zaxis="0 1 0" mass="0.1"/></body>')
     found = limbs_of(text)
     assert found.wheels == ("wheel0", "wheel1", "wheel2", "wheel3")
     assert sorted(limb.foot for limb in found.legs) == ["tyre0", "tyre1", "tyre2", "tyre3"]
@@ -156,7 +158,11 @@ def test_a_robot_on_one_leg_is_refused(tmp_path: Path) -> None:
 
 
 def test_two_legs_ahead_of_each_other_are_in_another_frame(tmp_path: Path) -> None:
-    text = humanoid().replace('pos="0 0.1 -0.05"', 'pos="0.3 0.01 -0.05"').replace('pos="0 -0.1 -0.05"', 'pos="-0.3 -0.01 -0.05"')
+    text = (
+        humanoid()
+        .replace('pos="0 0.1 -0.05"', 'pos="0.3 0.01 -0.05"')
+        .replace('pos="0 -0.1 -0.05"', 'pos="-0.3 -0.01 -0.05"')
+    )
     with pytest.raises(LevadeError, match="levade moves two and more legs"):
         load(tmp_path, text)
 
@@ -180,7 +186,9 @@ def test_its_soles_lie_flat_and_it_is_balanced(walker: Robot) -> None:
     assert abs(com[1] - feet[:, 1].mean()) < 0.01
     assert abs(com[0] - feet[:, 0].mean()) < 0.05
     ranges = walker.limits.upper - walker.limits.lower
-    room = np.minimum(walker.postures["neutral"] - walker.limits.lower, walker.limits.upper - walker.postures["neutral"])
+    room = np.minimum(
+        walker.postures["neutral"] - walker.limits.lower, walker.limits.upper - walker.postures["neutral"]
+    )
     assert (room > 0.02 * ranges).all()
     knee = walker.joint_names.index("one_knee")
     assert walker.postures["neutral"][knee] > 0.1

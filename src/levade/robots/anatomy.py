@@ -14,7 +14,7 @@ from levade.errors import LevadeError, did_you_mean
 from levade.robots.findings import named, note, some
 from levade.robots.holding import Angle, Held, fix_joints
 from levade.robots.limbs import limb_roles, read_limbs
-from levade.robots.loops import Coupling, follower_angles, open_loops, refuse_coupling_tendons, why_no_legs
+from levade.robots.loops import Coupling, follower_angles, open_loops, open_tendons, why_no_legs
 from levade.robots.reading import Draft, Keyframe
 from levade.robots.standing import Bare
 from levade.robots.understanding import FrameError, Leg, NoFootError, find_legs, find_trunk, level, roles
@@ -97,7 +97,7 @@ def understand(draft: Draft, path: Path, form: RobotForm) -> tuple[Bare, Followe
     draft.origins["legs"] = "robot.yaml" if form.legs else "found in the kinematics"
     joints = [joint for leg in legs for joint in leg.joints]
     draft.findings += open_loops(draft.loops, joints, {*held, *others}, draft.driven, where)
-    refuse_coupling_tendons(draft.spec, joints, where)
+    draft.findings += open_tendons(draft.spec, joints, where)
     if others:
         frame = draft.keyframes[0] if draft.keyframes else None
         fix_joints(draft, {joint: _resting(model, joint, frame) for joint in others}, path)
@@ -185,7 +185,7 @@ def _in_leg(draft: Draft, limbs: Sequence[Leg], coupling: Coupling) -> bool:
     """Whether the body of a follower, which is held by now, lies between the trunk and the end of a limb that moves."""
     body = draft.held_bodies.get(coupling.follower, "")
     for limb in limbs:
-        inside = draft.spec.geom(limb.foot).parent
+        inside = draft.spec.geom(limb.foot).parent if limb.stands else draft.spec.joint(limb.joints[-1]).parent
         while inside is not None and inside.name != "world":
             if inside.name == body:
                 return True

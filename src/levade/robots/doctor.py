@@ -353,6 +353,11 @@ def _frame(patient: Patient) -> Iterator[Finding]:
             yield warning(f"leg {leg.name}", what, remedy)
             return
     data = robot.data_at(robot.postures["neutral"])
+    if robot.ahead < 0:
+        what = (
+            "x points backward, by its toes: front and back in tasks are those of the toes, left and right of the frame"
+        )
+        yield note(f"trunk {robot.trunk}", what, "turn that frame")
     if robot.stance != "level":
         return
     hips = np.array([data.joint(leg.joints[0]).xanchor for leg in robot.standing])

@@ -84,7 +84,7 @@ def read_limbs(model: mujoco.MjModel, trunk: int, where: str, wanted: Mapping[st
     branches = [branch for branch in branches if branch.joints]
     _measure(model, data, tree, trunk, branches)
     pairs = _pairs(model, data, branches)
-    standing = _standing(model, tree, branches, pairs)
+    standing = _standing(model, data, branches, pairs)
     if len(standing) < 2:
         return Limbs((), (), (), _census(model, branches))
     legs = _named_legs(model, data, trunk, tree, standing, where)
@@ -219,13 +219,17 @@ def _pairs(model: mujoco.MjModel, data: mujoco.MjData, branches: Sequence[Branch
     return found
 
 
-def _standing(model: mujoco.MjModel, tree: Tree, branches: Sequence[Branch], pairs: Mapping[int, int]) -> list[Branch]:
-    """The branches that stand: hinges alone, with something that collides at the end, as deep as the deepest."""
+def _standing(
+    model: mujoco.MjModel, data: mujoco.MjData, branches: Sequence[Branch], pairs: Mapping[int, int]
+) -> list[Branch]:
+    """The branches that stand: hinges alone, one of which lifts the limb, reaching about as deep as any."""
     hinge = mujoco.mjtJoint.mjJNT_HINGE
     able = [
         i
         for i, branch in enumerate(branches)
-        if all(model.jnt_type[j] == hinge for j in branch.joints) and 2 <= len(branch.joints) <= 8
+        if all(model.jnt_type[j] == hinge for j in branch.joints)
+        and 2 <= len(branch.joints) <= 8
+        and "hfe" in limb_roles(model, data, [model.joint(j).name for j in branch.joints], branch.tip)
     ]
     paired = [i for i in able if i in pairs]
     if not paired:  # legs that point every way, as spokes

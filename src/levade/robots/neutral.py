@@ -34,7 +34,8 @@ _DIGITS = 4
 class Sole:
     """What of a leg stands on the ground.
 
-    geoms, body: ids. flat: whether it can stand flat. first: the leg's first joint. lifting: its joints that lift and fold it.
+    geoms, body: ids. flat: whether it can stand flat. first, last: the leg's first and last joint. lifting: its joints that
+    lift and fold it.
     """
 
     leg: Leg
@@ -42,6 +43,7 @@ class Sole:
     body: int
     flat: bool
     first: int
+    last: int
     lifting: tuple[int, ...]
 
 
@@ -73,6 +75,8 @@ class PostureSearch:
         self.lengths = np.array([self._length(sole) for sole in self.soles])
         self.scale = float(self.lengths.max())
         self.sprawled = sprawled(bare)
+        toes = [self._centre(sole)[0] - self.data.xanchor[sole.last][0] for sole in self.soles]
+        self._ahead = -1.0 if float(np.mean(toes)) < -0.02 * self.scale else 1.0
 
     def extension(self) -> float:
         """Of the neutral posture: hip above sole, as a share of the leg's length."""
@@ -176,7 +180,7 @@ class PostureSearch:
                 if len(self.soles) > 2:
                     cost += 10.0 * ((centre[0] - hip[0]) / length) ** 2
                 elif len(sole.lifting) > 1:  # knees of two legs bend forward, where both ways are in range
-                    ahead = (data.xanchor[sole.lifting[1]][0] - 0.5 * (hip[0] + centre[0])) / length
+                    ahead = (data.xanchor[sole.lifting[1]][0] - 0.5 * (hip[0] + centre[0])) / length * self._ahead
                     cost += 20.0 * min(0.0, float(ahead)) ** 2
             if sole.flat:
                 turned = data_rotation(data, sole.body) @ self._links[k].T @ self._flat[k]
@@ -253,7 +257,7 @@ class PostureSearch:
         flat = bool(wide and turns and len(self.bare.standing) == 2)
         joints = [model.joint(joint).id for joint in leg.joints]
         lifting = [j for j, role in zip(joints, leg.roles, strict=True) if role in ("hfe", "kfe", "pitch")]
-        return Sole(leg, geoms, int(model.geom_bodyid[geoms[0]]), flat, joints[0], tuple(lifting or joints))
+        return Sole(leg, geoms, int(model.geom_bodyid[geoms[0]]), flat, joints[0], joints[-1], tuple(lifting or joints))
 
     def _length(self, sole: Sole) -> float:
         """[m], along the leg's links from the first joint that lifts it to the sole."""

@@ -284,6 +284,11 @@ def _strip(draft: Draft, model: mujoco.MjModel, root: str | None) -> None:
     spec = draft.spec
     for element in [*spec.sensors, *spec.actuators, *spec.keys]:
         spec.delete(element)
+    usual = spec.default.actuator
+    if usual.ctrllimited == mujoco.mjtLimited.mjLIMITED_TRUE or usual.dyntype != mujoco.mjtDyn.mjDYN_NONE:
+        plain = mujoco.MjSpec().default.actuator  # servos that are added would have what the file's own have
+        for name in ("ctrllimited", "ctrlrange", "dyntype", "dynprm", "gaintype", "gainprm", "biastype", "biasprm"):
+            setattr(usual, name, getattr(plain, name))
     if not draft.urdf:
         collide_as_paired(spec, model, root, draft.findings)
     leave_only(spec, root, draft.findings)

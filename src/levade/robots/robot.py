@@ -27,6 +27,8 @@ from levade.robots.findings import Finding
 from levade.robots.shapes import balls, support
 from levade.robots.understanding import Leg
 
+_TOES = 0.02
+"""Of its height, by which the soles of a robot are ahead of its ankles at least where they tell the way that it faces."""
 _ROLES = {"haa": "hip abduction", "hfe": "hip flexion", "kfe": "knee"}
 _SPRAWLED_ROLES = {"yaw": "swing", "haa": "spread", "hfe": "lift", "kfe": "fold"}
 _ARM_ROLES = {"haa": "spread", "hfe": "lift", "kfe": "fold"}
@@ -88,6 +90,15 @@ class Robot:
         if len(standing) == 2:
             return "upright"
         return "sprawled" if sum(leg.roles[:1] == ("yaw",) for leg in standing) > len(standing) / 2 else "level"
+
+    @cached_property
+    def ahead(self) -> float:
+        """1 where a robot on two legs faces along x of its trunk, -1 where it faces the other way, by where its toes are."""
+        if self.stance != "upright":
+            return 1.0
+        data = self.data_at(self.postures["neutral"])
+        toes = [_middle(data, leg)[0] - data.joint(leg.joints[-1]).xanchor[0] for leg in self.standing]
+        return -1.0 if float(np.mean(toes)) < -_TOES * abs(self.neutral_height) else 1.0
 
     @property
     def feet(self) -> tuple[str, ...]:

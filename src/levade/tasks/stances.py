@@ -88,4 +88,6 @@ def as_attitude(fall: Mapping[str, Any], robot: Robot, where: str) -> dict[str, 
     if side not in attitudes:
         raise LevadeError(f"{where}.{LYING}: no side {side!r}; {did_you_mean(str(side), attitudes)}")
     table["roll"], table["pitch"] = attitudes[side]
+    if robot.ahead < 0 and side in ("back", "front"):
+        table["pitch"] = attitudes["front" if side == "back" else "back"][1]
     return table
