@@ -136,7 +136,7 @@ def test_limbs_are_freed_and_held_as_asked_for() -> None:
 def test_legs_of_an_insect_are_named_by_place(number: int, names: str) -> None:
     found = limbs_of(insect(number))
     assert " ".join(limb.name for limb in found.legs) == names
-    assert {limb.roles for limb in found.legs} == {("yaw", "hfe", "kfe")}
+    assert {limb.roles for limb in found.legs} == {("swing", "hfe", "kfe")}
     assert not found.held
 
 
@@ -227,3 +227,8 @@ def test_an_insect_stands_with_its_feet_level(tmp_path: Path) -> None:
     settled = settle(robot)
     assert settled.tilt < 0.05
     assert robot.stance == "sprawled"
+    groups = leg_groups(load_task("self-righting", robot=robot).policy, robot)
+    assert [len(group.followers) for group in groups] == [2, 2]
+    # of legs that do the same, the knees of all fold
+    signs = {sign for group in groups for follower in group.followers for sign in follower.signs[1:]}
+    assert signs == {1.0}

@@ -24,6 +24,8 @@ _HAND = 0.5
 """Parts beyond a fork that reach less than this share of the limb before it are a hand's, not limbs of their own."""
 _DEEP = 0.75
 """Of how deep the deepest limb reaches below the trunk, what a leg reaches at least."""
+_BELOW = 0.2
+"""Of a leg's length, by which legs reach below the trunk at least."""
 _SAMPLES = 200
 _LEVER = 0.4
 """Of an arm's length: joints that move its end by less, such as a wrist's, are held."""
@@ -41,13 +43,14 @@ class Branch:
     """A way from the trunk outward.
 
     stem: joints that it shares with other branches, from the trunk. joints: its own. body: the last that it moves.
-    low: z [m] of the deepest that it reaches. tip: (3,) [m], its end at zero angles.
+    low: z [m] of the deepest that it reaches. tip: (3,) [m], its end at zero angles. length: [m], along its joints.
     """
 
     stem: tuple[int, ...]
     joints: list[int]
     body: int
     low: float = 0.0
+    length: float = 0.0
     tip: Array = field(default_factory=lambda: np.zeros(3))
 
 
@@ -85,6 +88,10 @@ def read_limbs(model: mujoco.MjModel, trunk: int, where: str, wanted: Mapping[st
     _measure(model, data, tree, trunk, branches)
     pairs = _pairs(model, data, branches)
     standing = _standing(model, data, branches, pairs)
+    body = _colliding(model, {b for b in range(model.nbody) if model.body_weldid[b] == model.body_weldid[trunk]})
+    floor = min((float(support(model, data, g, _DOWN)[2]) for g in body), default=0.0)
+    if standing and all(branch.low > floor - _BELOW * branch.length for branch in standing):
+        return Limbs((), (), (), "the limbs that may be legs hardly reach below the trunk")
     if len(standing) < 2:
         return Limbs((), (), (), _census(model, branches))
     legs = _named_legs(model, data, trunk, tree, standing, where)
@@ -174,6 +181,8 @@ def _measure(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, trunk: int,
     for branch, own in zip(branches, geoms, strict=True):
         anchor = data.xanchor[branch.joints[-1]]
         branch.tip = np.mean([data.geom_xpos[g] for g in own], axis=0) if own else anchor.copy()
+        points = [*data.xanchor[branch.joints], branch.tip]
+        branch.length = float(sum(np.linalg.norm(b - a) for a, b in itertools.pairwise(points)))
         branch.low = min((float(support(model, data, g, _DOWN)[2]) for g in own), default=float(anchor[2]))
     moved = mujoco.MjData(model)
     hinges = [j for branch in branches for j in branch.joints if model.jnt_type[j] == mujoco.mjtJoint.mjJNT_HINGE]
@@ -327,6 +336,7 @@ def _others(
         if joints and geoms:
             side = "left" if branch.tip[1] > 0.02 else "right" if branch.tip[1] < -0.02 else "middle"
             found.append(_limb(model, data, kind, side, joints, branch.tip, geoms, counts))
+    found.sort(key=lambda limb: (limb.kind, limb.end, {"left": 0, "right": 1}.get(limb.side, 2)))
     stems = sorted({branch.stem for branch in [*rest, *standing] if branch.stem}, key=len)
     if kinds["waist"] == "free" and stems:
         joints = [j for j in stems[-1] if model.jnt_type[j] == hinge]
@@ -370,28 +380,28 @@ def _levers(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, branch: Bran
     generator = np.random.default_rng(0)
     lower, upper = _ranges(model, branch.joints)
     lever = np.zeros(len(branch.joints))
-    length = 0.0
-    anchors = [data.xanchor[j] for j in branch.joints] + [branch.tip]
-    for one, other in itertools.pairwise(anchors):
-        length += float(np.linalg.norm(other - one))
-    geoms = _colliding(model, tree.below(int(model.jnt_bodyid[branch.joints[-1]])))
+    last = branch.joints[-1]
+    geoms = _colliding(model, tree.below(int(model.jnt_bodyid[last])))
+    beyond = max((reach(model, data, g, data.xanchor[last]) for g in geoms), default=0.0)
     for _ in range(64):
         moved.qpos[:] = data.qpos
         moved.qpos[model.jnt_qposadr[branch.joints]] = generator.uniform(lower, upper)
         mujoco.mj_kinematics(model, moved)
         mujoco.mj_comPos(model, moved)
-        end = np.mean([moved.geom_xpos[g] for g in geoms], axis=0) if geoms else moved.xanchor[branch.joints[-1]]
-        for k, joint in enumerate(branch.joints):
-            lever[k] = max(lever[k], float(np.linalg.norm(np.cross(moved.xaxis[joint], end - moved.xanchor[joint]))))
-    last = max((k for k in range(len(lever)) if lever[k] >= _LEVER * length), default=-1)
-    return branch.joints[: last + 1]
+        away = np.mean([moved.geom_xpos[g] for g in geoms] or [moved.xanchor[last]], axis=0) - moved.xanchor[last]
+        end = moved.xanchor[last] + beyond * away / max(float(np.linalg.norm(away)), 1e-9)
+        arms = np.cross(moved.xaxis[branch.joints], end - moved.xanchor[branch.joints])
+        lever = np.maximum(lever, np.linalg.norm(arms, axis=1))
+    links = np.diff(data.xanchor[branch.joints], axis=0)
+    length = beyond + float(np.linalg.norm(links, axis=1).sum())
+    return branch.joints[: int(np.flatnonzero(lever >= _LEVER * length).max(initial=-1)) + 1]
 
 
 def limb_roles(model: mujoco.MjModel, data: mujoco.MjData, joints: Sequence[str], tip: Array) -> tuple[str, ...]:
     """Role of each joint by what it does at zero angles, in the plane in which the limb points outward.
 
     "haa" spreads the limb, "hfe" lifts it, "kfe" folds it, "pitch" and "roll" turn what is beyond; "yaw" turns about the
-    vertical.
+    vertical, which is called "swing" of a limb that points outward.
 
     data: kinematics at zero angles, the trunk frame on the world frame. tip: (3,) [m], where the limb ends.
     """
@@ -410,7 +420,7 @@ def limb_roles(model: mujoco.MjModel, data: mujoco.MjData, joints: Sequence[str]
         elif kind == "roll":
             named.append("haa" if "haa" not in named and "kfe" not in named else "roll")
         else:
-            named.append("yaw")
+            named.append("swing" if sprawled else "yaw")
     return tuple(named)
 
 

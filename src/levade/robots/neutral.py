@@ -294,8 +294,8 @@ def sprawled(bare: Bare) -> bool:
     Two legs never do.
     """
     standing = bare.standing
-    yaw_first = [bool(leg.roles) and leg.roles[0] == "yaw" for leg in standing]
-    return len(standing) > 2 and sum(yaw_first) > len(standing) / 2
+    swings = [bool(leg.roles) and leg.roles[0] == "swing" for leg in standing]
+    return len(standing) > 2 and sum(swings) > len(standing) / 2
 
 
 def _corners(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> Array:

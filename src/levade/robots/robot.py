@@ -30,8 +30,8 @@ from levade.robots.understanding import Leg
 _TOES = 0.02
 """Of its height, by which the soles of a robot are ahead of its ankles at least where they tell the way that it faces."""
 _ROLES = {"haa": "hip abduction", "hfe": "hip flexion", "kfe": "knee"}
-_SPRAWLED_ROLES = {"yaw": "swing", "haa": "spread", "hfe": "lift", "kfe": "fold"}
-_ARM_ROLES = {"haa": "spread", "hfe": "lift", "kfe": "fold"}
+_SPRAWLED_ROLES = {"swing": "swing", "haa": "spread", "hfe": "lift", "kfe": "fold"}
+_ARM_ROLES = {"swing": "yaw", "haa": "spread", "hfe": "lift", "kfe": "fold"}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -89,7 +89,7 @@ class Robot:
         standing = self.standing
         if len(standing) == 2:
             return "upright"
-        return "sprawled" if sum(leg.roles[:1] == ("yaw",) for leg in standing) > len(standing) / 2 else "level"
+        return "sprawled" if sum(leg.roles[:1] == ("swing",) for leg in standing) > len(standing) / 2 else "level"
 
     @cached_property
     def ahead(self) -> float:

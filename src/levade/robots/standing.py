@@ -47,7 +47,7 @@ class Bare:
         """Whether it stands on four legs or more of two or three joints that lift and fold, whose postures have a closed
         form."""
         short = all(len(leg.joints) <= 3 and {"hfe", "kfe"} <= set(leg.roles) for leg in self.standing)
-        return short and len(self.standing) >= 4 and all(leg.roles[0] != "yaw" for leg in self.standing)
+        return short and len(self.standing) >= 4 and all(leg.roles[0] != "swing" for leg in self.standing)
 
     def data_at(self, angles: Mapping[str, float]) -> mujoco.MjData:
         """Kinematics with the trunk frame on the world frame; joints that are not named at zero."""
@@ -81,7 +81,7 @@ class Bare:
     def leg_length(self, leg: Leg) -> float:
         """[m], from hip flexion over the knee to the end of the foot, along the links; of other legs, along all of them."""
         data = self.put(self._data, self._zero(leg))
-        if not {"hfe", "kfe"} <= set(leg.roles) or leg.roles[0] == "yaw":
+        if not {"hfe", "kfe"} <= set(leg.roles) or leg.roles[0] == "swing":
             points = [*(data.joint(joint).xanchor for joint in leg.joints), self.tip(data, leg)]
             return float(sum(np.linalg.norm(b - a) for a, b in itertools.pairwise(points)))
         hip, knee = (data.joint(leg.joints[leg.roles.index(role)]).xanchor for role in ("hfe", "kfe"))
@@ -209,7 +209,7 @@ def _stands(bare: Bare, frame: Keyframe) -> bool:
     feet = np.array([bare.tip(data, leg)[2] for leg in bare.standing])
     lengths = np.array([bare.leg_length(leg) for leg in bare.standing])
     hips = np.array([data.joint(leg.joints[_lift(leg)]).xanchor[2] for leg in bare.standing])
-    deep = 0.5 if all("yaw" not in leg.roles[:1] for leg in bare.standing) else 0.15
+    deep = 0.5 if all("swing" not in leg.roles[:1] for leg in bare.standing) else 0.15
     return bool(np.ptp(feet) < 0.1 * lengths.mean() and ((hips - feet) > deep * lengths).all())
 
 
