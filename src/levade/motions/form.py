@@ -56,12 +56,14 @@ class GeometryForm(_Form):
 
 
 class LegForm(_Form):
-    """joints: from the trunk outward. foot: name of a geom."""
+    """joints: from the trunk outward. foot: name of a geom, pads: of all where there are several. kind: as `levade.robots.Leg`."""
 
     joints: Annotated[list[Name], Field(min_length=1)]
     foot: Name
     side: Name = ""
     end: Name = ""
+    kind: Literal["leg", "arm", "waist", "head"] = "leg"
+    pads: list[Name] = []
     geometry: GeometryForm | None = None
 
 

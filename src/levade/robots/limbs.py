@@ -18,7 +18,7 @@ from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.robots.findings import some
 from levade.robots.shapes import reach, support
-from levade.robots.understanding import Leg, NoFootError, Tree, find_foot, level
+from levade.robots.understanding import Leg, Tree, find_foot, level
 
 _HAND = 0.5
 """Parts beyond a fork that reach less than this share of the limb before it are a hand's, not limbs of their own."""
@@ -101,6 +101,14 @@ def read_limbs(model: mujoco.MjModel, trunk: int, where: str, wanted: Mapping[st
     free = mujoco.mjtJoint.mjJNT_FREE
     names = [model.joint(j).name for j in range(model.njnt) if model.jnt_type[j] != free]
     return Limbs(tuple(legs), tuple(n for n in names if n not in used), tuple(model.joint(j).name for j in wheels))
+
+
+def stands(model: mujoco.MjModel, trunk: int) -> bool:
+    """Whether legs of any kind hang on the body of that id."""
+    try:
+        return not read_limbs(model, trunk, "", {}).problem
+    except LevadeError:  # legs, which something else is wrong with
+        return True
 
 
 def _branches(tree: Tree, data: mujoco.MjData, body: int, stem: tuple[int, ...]) -> list[Branch]:
@@ -429,6 +437,3 @@ def _census(model: mujoco.MjModel, branches: Sequence[Branch]) -> str:
         return "this model has no joints beside its free base"
     counted = [f"{len(b.joints)} from {model.joint(b.joints[0]).name}" for b in branches]
     return f"no two limbs of two to eight hinges stand alike left and right of the trunk (limbs: {some(counted, 6)})"
-
-
-__all__ = ["Limbs", "NoFootError", "limb_roles", "read_limbs"]
