@@ -56,7 +56,7 @@ class GeometryForm(_Form):
 
 
 class LegForm(_Form):
-    """joints: from the trunk outward. foot: name of a geom, pads: of all where there are several. kind: as `levade.robots.Leg`."""
+    """joints: from the trunk outward. foot: name of a geom, pads: of all of several. kind: as `levade.robots.Leg` has it."""
 
     joints: Annotated[list[Name], Field(min_length=1)]
     foot: Name

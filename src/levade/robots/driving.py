@@ -254,7 +254,10 @@ def _own_gains(
     bare: Bare, neutral: Mapping[str, float], torque: Array, kps: Array | None
 ) -> tuple[list[float], list[float]]:
     """Stiffness and damping of each joint by itself, stable at the time step."""
-    most = gains.stiffness(float(bare.model.body_mass.sum()), _leg_length(bare))
+    load = np.abs(list(bare.static_torque(neutral).values()))
+    most = np.maximum(
+        gains.stiffness(float(bare.model.body_mass.sum()), _leg_length(bare)), load / gains.GIVE_UNDER_LOAD
+    )
     standing = np.array([leg.stands for leg in bare.legs for _ in leg.joints])
     kp = np.minimum(most, torque / np.where(standing, gains.GIVE_STANDING, gains.GIVE_FREE)) if kps is None else kps
     inertia = np.array(list(bare.joint_inertia(neutral).values()))

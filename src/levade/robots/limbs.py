@@ -20,12 +20,14 @@ from levade.robots.findings import some
 from levade.robots.shapes import reach, support
 from levade.robots.understanding import Leg, Tree, find_foot, level
 
-_HAND = 0.5
+_HAND = 0.8
 """Parts beyond a fork that reach less than this share of the limb before it are a hand's, not limbs of their own."""
 _DEEP = 0.75
 """Of how deep the deepest limb reaches below the trunk, what a leg reaches at least."""
 _BELOW = 0.2
 """Of a leg's length, by which legs reach below the trunk at least."""
+_ABOVE = 0.25
+"""Of a leg's length, by which legs may begin above the robot's centre of mass at most."""
 _SAMPLES = 200
 _LEVER = 0.4
 """Of an arm's length: joints that move its end by less, such as a wrist's, are held."""
@@ -43,7 +45,8 @@ class Branch:
     """A way from the trunk outward.
 
     stem: joints that it shares with other branches, from the trunk. joints: its own. body: the last that it moves.
-    low: z [m] of the deepest that it reaches. tip: (3,) [m], its end at zero angles. length: [m], along its joints.
+    low: z [m] of the deepest that it reaches. tip: (3,) [m], its end at zero angles.
+    length: [m], along its joints. start: z [m] of its first joint.
     """
 
     stem: tuple[int, ...]
@@ -51,6 +54,7 @@ class Branch:
     body: int
     low: float = 0.0
     length: float = 0.0
+    start: float = 0.0
     tip: Array = field(default_factory=lambda: np.zeros(3))
 
 
@@ -90,8 +94,12 @@ def read_limbs(model: mujoco.MjModel, trunk: int, where: str, wanted: Mapping[st
     standing = _standing(model, data, branches, pairs)
     body = _colliding(model, {b for b in range(model.nbody) if model.body_weldid[b] == model.body_weldid[trunk]})
     floor = min((float(support(model, data, g, _DOWN)[2]) for g in body), default=0.0)
-    if standing and all(branch.low > floor - _BELOW * branch.length for branch in standing):
-        return Limbs((), (), (), "the limbs that may be legs hardly reach below the trunk")
+    middle = float(data.subtree_com[trunk, 2])
+    if standing and all(
+        branch.low > floor - _BELOW * branch.length or branch.start > middle + _ABOVE * branch.length
+        for branch in standing
+    ):
+        return Limbs((), (), (), "the limbs that may be legs are arms: they hang high, or hardly reach below the trunk")
     if len(standing) < 2:
         return Limbs((), (), (), _census(model, branches))
     legs = _named_legs(model, data, trunk, tree, standing, where)
@@ -190,6 +198,7 @@ def _measure(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, trunk: int,
         anchor = data.xanchor[branch.joints[-1]]
         branch.tip = np.mean([data.geom_xpos[g] for g in own], axis=0) if own else anchor.copy()
         points = [*data.xanchor[branch.joints], branch.tip]
+        branch.start = float(points[0][2])
         branch.length = float(sum(np.linalg.norm(b - a) for a, b in itertools.pairwise(points)))
         branch.low = min((float(support(model, data, g, _DOWN)[2]) for g in own), default=float(anchor[2]))
     moved = mujoco.MjData(model)

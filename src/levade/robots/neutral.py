@@ -23,7 +23,8 @@ UPRIGHT_EXTENSION, SPRAWLED_EXTENSION, LEVEL_EXTENSION = 0.94, 0.4, 0.8
 CROUCHED = 0.7
 """Extension of the crouched posture, as a share of that of the neutral one."""
 
-_LEG_TRIES, _ARM_TRIES, _AGAIN, _POPULATION = 1000, 400, 300, 12
+_LEG_TRIES, _ARM_TRIES, _AGAIN, _POPULATION = 160, 100, 60, 12
+"""Trials of each joint that is searched: for the legs, for arms, and for legs that begin near; and of each generation."""
 _STOP = 0.06
 """Of a joint's range, at most 0.1 rad: how far from its ends a posture stays."""
 _DOWN = np.array([0.0, 0.0, -1.0])
@@ -95,7 +96,16 @@ class PostureSearch:
     def standing(self, angles: Array, extension: float, tries: int = _AGAIN) -> Array:
         """The legs so long, what does not stand as it is; from angles that are near."""
         legs = list(self.bare.standing)
-        return self._search(angles, legs, lambda posture: self._leg_cost(posture, extension), tries)
+
+        def cost(posture: Array) -> float:
+            return self._leg_cost(posture, extension)
+
+        if self.sprawled and len({len(leg.joints) for leg in legs}) == 1:  # all alike at first
+            angles = self._search(angles, legs, cost, tries, self._turned(legs))
+            self._put(angles)
+            if np.ptp([self._lowest(sole) for sole in self.soles]) < 0.005 * self.scale:
+                return angles
+        return self._search(angles, legs, cost, tries)
 
     def faults(self, angles: Array) -> list[str]:
         """What keeps a posture from being one to stand in."""
@@ -111,11 +121,18 @@ class PostureSearch:
 
     # what is searched
 
-    def _search(self, angles: Array, limbs: Sequence[Leg], cost: Callable[[Array], float], tries: int) -> Array:
-        """The cheapest angles of some limbs, left and right the same."""
+    def _search(
+        self,
+        angles: Array,
+        limbs: Sequence[Leg],
+        cost: Callable[[Array], float],
+        tries: int,
+        alike: tuple[list[int], list[int], Array, list[int]] | None = None,
+    ) -> Array:
+        """The cheapest angles of some limbs; alike: which joints do the same, by default those of left and right."""
         import cma
 
-        leaders, followers, signs, images = self._leaders(limbs)
+        leaders, followers, signs, images = alike or self._leaders(limbs)
         lower, upper = self.lower[leaders], self.upper[leaders]
         scale = np.maximum(np.minimum(upper - lower, 2.0) * 0.25, 1e-3)
         centre = angles[leaders]
@@ -131,7 +148,7 @@ class PostureSearch:
             over = (x - np.clip(x, lower, upper)) / scale
             return cost(posture(u)) + 10.0 * float(over @ over)
 
-        options = {"popsize": _POPULATION, "maxfevals": tries, "verbose": -9, "seed": 1, "tolfun": 1e-6}
+        options = {"popsize": _POPULATION, "maxfevals": tries * len(leaders), "verbose": -9, "seed": 1, "tolfun": 1e-6}
         es = cma.CMAEvolutionStrategy(np.zeros(len(leaders)), 0.6, options)
         while not es.stop():
             asked = es.ask()
@@ -161,6 +178,22 @@ class PostureSearch:
                 signs.append(1.0 if mirrored @ axes[joint] >= 0 else -1.0)
         return leaders, followers, np.array(signs), images
 
+    def _turned(self, legs: Sequence[Leg]) -> tuple[list[int], list[int], Array, list[int]]:
+        """As `_leaders`, of legs that all do the same, each in the direction in which it points."""
+        self._put(np.zeros(len(self.joints)))
+        axes = []
+        for leg, sole in zip(legs, self.soles, strict=True):
+            own = [self.joints[joint] for joint in leg.joints]
+            away = (self._centre(sole) - self.data.xanchor[sole.first]) * [1.0, 1.0, 0.0]
+            outward = away / max(float(np.linalg.norm(away)), 1e-9)
+            hand = 1.0 if leg.side == legs[0].side else -1.0
+            frame = np.array([outward, hand * np.cross([0.0, 0.0, 1.0], outward), [0.0, 0.0, 1.0]])
+            axes.append(hand * self.data.xaxis[self.ids[own]] @ frame.T)
+        first = [self.joints[joint] for joint in legs[0].joints]
+        followers = [self.joints[joint] for leg in legs[1:] for joint in leg.joints]
+        signs = np.where(np.sum(np.array(axes[1:]) * axes[0], axis=2) < 0, -1.0, 1.0).ravel()
+        return first, followers, signs, first * (len(legs) - 1)
+
     # what it costs
 
     def _leg_cost(self, angles: Array, extension: float) -> float:
@@ -174,7 +207,7 @@ class PostureSearch:
             cost += 40.0 * ((hip[2] - lows[k]) / length - extension) ** 2
             if self.sprawled:
                 shank = centre - knee
-                cost += 0.6 * float(shank[:2] @ shank[:2]) / max(float(shank @ shank), 1e-9)
+                cost += 1.5 * float(shank[:2] @ shank[:2]) / max(float(shank @ shank), 1e-9)
             else:
                 cost += 30.0 * ((centre[1] - data.xanchor[sole.first][1]) / length) ** 2
                 if len(self.soles) > 2:
