@@ -93,7 +93,7 @@ def understand(draft: Draft, path: Path, form: RobotForm) -> tuple[Bare, Followe
                     f"{path}: legs: joint {joint} of {form.model} is in no leg; add it to one, or: fixed: {{{joint}: 0}}"
                 )
     else:
-        legs, others = _found_legs(draft, model, trunk, where, form.limbs)
+        legs, others = _found_legs(draft, model, trunk, where, {str(kind): how for kind, how in form.limbs.items()})
     draft.origins["legs"] = "robot.yaml" if form.legs else "found in the kinematics"
     joints = [joint for leg in legs for joint in leg.joints]
     draft.findings += open_loops(draft.loops, joints, {*held, *others}, draft.driven, where)

@@ -258,7 +258,7 @@ class PostureSearch:
 
     def _clearance_cost(self, low: float) -> float:
         """Nothing but soles near the ground, and nothing inside another part."""
-        reach = self.data.geom_xpos[self._shapes, 2] - self.model.geom_rbound[self._shapes] - low
+        reach = self.data.geom_xpos[self._shapes, 2] - np.asarray(self.model.geom_rbound)[self._shapes] - low
         cost = 0.0
         for geom in self._shapes[reach < 0.05 * self.scale]:
             above = float(support(self.model, self.data, int(geom), _DOWN)[2]) - low
