@@ -17,7 +17,7 @@ import numpy as np
 from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.robots.findings import some
-from levade.robots.shapes import reach, support
+from levade.robots.shapes import reach, support, thickness
 from levade.robots.understanding import Leg, Tree, find_foot, level
 
 _HAND = 0.8
@@ -31,8 +31,8 @@ _ABOVE = 0.25
 _SAMPLES = 200
 _LEVER = 0.4
 """Of an arm's length: joints that move its end by less, such as a wrist's, are held."""
-_PAD = 0.3
-"""Of a foot's extent: shapes on it whose lowest point is this near to the foot's lowest are part of the sole."""
+_PAD = 0.5
+"""Of a foot's thickness: shapes on its link whose lowest point is this near to the lowest of all are part of the sole."""
 _SAME_PLACE = 0.05
 """Of the distance between two limbs, or 2 cm: how far from mirror images they may be."""
 _ENDS = {1: ("middle",), 2: ("front", "hind"), 3: ("front", "middle", "hind")}
@@ -102,7 +102,7 @@ def read_limbs(model: mujoco.MjModel, trunk: int, where: str, wanted: Mapping[st
         return Limbs((), (), (), "the limbs that may be legs are arms: they hang high, or hardly reach below the trunk")
     if len(standing) < 2:
         return Limbs((), (), (), _census(model, branches))
-    legs = _named_legs(model, data, trunk, tree, standing, where)
+    legs = _named_legs(model, data, trunk, standing, where)
     rest = [branch for branch in branches if all(branch is not one for one in standing)]
     legs += _others(model, data, tree, rest, pairs, standing, wanted)
     used = {joint for leg in legs for joint in leg.joints}
@@ -275,7 +275,7 @@ def _standing(
 
 
 def _named_legs(
-    model: mujoco.MjModel, data: mujoco.MjData, trunk: int, tree: Tree, standing: list[Branch], where: str
+    model: mujoco.MjModel, data: mujoco.MjData, trunk: int, standing: list[Branch], where: str
 ) -> list[Leg]:
     centres = np.array([data.xanchor[branch.joints].mean(axis=0) for branch in standing])
     middle = centres.mean(axis=0)
@@ -299,7 +299,8 @@ def _named_legs(
             joints = tuple(model.joint(j).name for j in standing[i].joints)
             short = f"{side[0]}{letter}"
             foot = find_foot(model, standing[i].joints[-1], f"{where}: leg {short}")
-            pads = _pads(model, data, tree, standing[i].joints[-1], foot)
+            away = standing[i].tip - data.xanchor[standing[i].joints[0]]
+            pads = _pads(model, data, foot) if abs(away[2]) > np.linalg.norm(away[:2]) else ()
             legs.append(
                 Leg(short, joints, foot, side, end, limb_roles(model, data, joints, standing[i].tip), pads=pads)
             )
@@ -311,21 +312,16 @@ def _order(end: str) -> int:
     return {"front": 0, "middle": 1, "hind": 2}.get(end, int(end[3:]) if end[3:].isdigit() else 0)
 
 
-def _pads(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, joint: int, foot: str) -> tuple[str, ...]:
-    """Names of the shapes that stand on the ground with the foot: those that reach as deep, of what the last joint moves.
+def _pads(model: mujoco.MjModel, data: mujoco.MjData, foot: str) -> tuple[str, ...]:
+    """Names of the shapes that stand on the ground with the foot: those of its link that reach as deep, hanging down.
 
     Empty where the foot alone does.
     """
-    below = tree.below(int(model.jnt_bodyid[joint]))
-    geoms = _colliding(model, below)
-    body = int(model.geom_bodyid[model.geom(foot).id])
-    own = [g for g in geoms if int(model.geom_bodyid[g]) == body]
-    anchor = data.xanchor[joint]
+    geom = model.geom(foot).id
+    own = _colliding(model, {int(model.geom_bodyid[geom])})
     low = {g: float(support(model, data, g, _DOWN)[2]) for g in own}
-    deepest = min(low.values())
-    height = max(float(anchor[2]) - deepest, 1e-6)
-    pads = [g for g in own if low[g] <= deepest + _PAD * height]
-    return tuple(model.geom(g).name for g in pads) if len(pads) > 1 else ()
+    pads = [g for g in own if low[g] <= min(low.values()) + _PAD * thickness(model, geom)]
+    return tuple(model.geom(g).name for g in pads) if len(pads) > 1 and geom in pads else ()
 
 
 def _others(
