@@ -100,6 +100,10 @@ def read_limbs(model: mujoco.MjModel, trunk: int, where: str, wanted: Mapping[st
         for branch in standing
     ):
         return Limbs((), (), (), "the limbs that may be legs are arms: they hang high, or hardly reach below the trunk")
+    stray = _stray(data, branches, standing)
+    if stray is not None:
+        name = model.joint(stray.joints[0]).name
+        return Limbs((), (), (), f"the limb from {name} reaches as deep as the legs, and is none of them")
     if len(standing) < 2:
         return Limbs((), (), (), _census(model, branches))
     legs = _named_legs(model, data, trunk, standing, where)
@@ -272,6 +276,19 @@ def _standing(
     ]  # fmt: skip
     chosen = sorted([*deep, *alike])
     return [branches[i] for i in chosen if len(chosen) <= 8]
+
+
+def _stray(data: mujoco.MjData, branches: Sequence[Branch], standing: Sequence[Branch]) -> Branch | None:
+    """A limb on one side that reaches as deep as legs, and is no leg; an arm or a tail in the middle may."""
+    if not standing:
+        return None
+    deep = _DEEP * max(branch.low for branch in standing)
+    width = float(np.mean([abs(data.xanchor[branch.joints[0]][1]) for branch in standing]))
+    for branch in branches:
+        leg = any(branch is one for one in standing)
+        if not leg and branch.low <= deep < 0 and abs(data.xanchor[branch.joints[0]][1]) > 0.25 * width > 0:
+            return branch
+    return None
 
 
 def _named_legs(
