@@ -23,8 +23,10 @@ UPRIGHT_EXTENSION, SPRAWLED_EXTENSION, LEVEL_EXTENSION = 0.94, 0.4, 0.8
 CROUCHED = 0.7
 """Extension of the crouched posture, as a share of that of the neutral one."""
 
-_LEG_TRIES, _ARM_TRIES, _AGAIN, _POPULATION = 160, 100, 60, 12
+_LEG_TRIES, _ARM_TRIES, _AGAIN, _POPULATION = 200, 100, 80, 12
 """Trials of each joint that is searched: for the legs, for arms, and for legs that begin near; and of each generation."""
+_ATTEMPTS = 4
+"""Searches, each from the best of those before it, until the robot is balanced."""
 _STOP = 0.06
 """Of a joint's range, at most 0.1 rad: how far from its ends a posture stays."""
 _DOWN = np.array([0.0, 0.0, -1.0])
@@ -105,7 +107,21 @@ class PostureSearch:
             self._put(angles)
             if np.ptp([self._lowest(sole) for sole in self.soles]) < 0.005 * self.scale:
                 return angles
-        return self._search(angles, legs, cost, tries)
+        best = angles
+        for seed in range(1, _ATTEMPTS + 1):
+            found = self._search(best, legs, cost, tries, seed=seed)
+            best = min(best, found, key=cost) if seed > 1 else found
+            if self._balanced(best):
+                break
+        return best
+
+    def _balanced(self, angles: Array) -> bool:
+        """Whether a search has come to its end: the centre of mass over the middle of the feet, and these level."""
+        self._put(angles)
+        middle = np.mean([self._centre(sole)[:2] for sole in self.soles], axis=0)
+        off = self.data.subtree_com[self.bare.trunk][:2] - middle
+        lows = [self._lowest(sole) for sole in self.soles]
+        return bool(np.linalg.norm(off) < 0.03 * self.scale and np.ptp(lows) < 0.01 * self.scale)
 
     def faults(self, angles: Array) -> list[str]:
         """What keeps a posture from being one to stand in."""
@@ -128,6 +144,8 @@ class PostureSearch:
         cost: Callable[[Array], float],
         tries: int,
         alike: tuple[list[int], list[int], Array, list[int]] | None = None,
+        *,
+        seed: int = 1,
     ) -> Array:
         """The cheapest angles of some limbs; alike: which joints do the same, by default those of left and right."""
         import cma
@@ -148,7 +166,13 @@ class PostureSearch:
             over = (x - np.clip(x, lower, upper)) / scale
             return cost(posture(u)) + 10.0 * float(over @ over)
 
-        options = {"popsize": _POPULATION, "maxfevals": tries * len(leaders), "verbose": -9, "seed": 1, "tolfun": 1e-6}
+        options = {
+            "popsize": _POPULATION,
+            "maxfevals": tries * len(leaders),
+            "verbose": -9,
+            "seed": seed,
+            "tolfun": 1e-6,
+        }
         es = cma.CMAEvolutionStrategy(np.zeros(len(leaders)), 0.6, options)
         while not es.stop():
             asked = es.ask()
@@ -230,7 +254,7 @@ class PostureSearch:
             shoulder = self.data.xanchor[self.ids[self.joints[arm.joints[0]]]]
             hand = self.data.geom(arm.foot).xpos - shoulder
             cost += float(hand[2]) / max(float(np.linalg.norm(hand)), 1e-9) + 1.0  # it hangs
-        return 2.0 * cost + self._comfort(angles) + self._overlap_cost()
+        return 2.0 * cost + self._comfort(angles) + 10.0 * self._overlap_cost()
 
     def _comfort(self, angles: Array) -> float:
         """Near zero, or the middle two thirds of the range, and clear of its ends."""
