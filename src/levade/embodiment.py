@@ -95,12 +95,13 @@ class LegGeometry:
 
     Attributes:
         side: "left" or "right".
-        end: "front" or "hind".
+        end: "front" or "hind", or as `levade.robots.Leg` says.
         joints: Indices in the robot's joint order, from the trunk outward.
         anchors: (k, 3) [m], a point on each joint's axis.
         axes: (k, 3), unit.
         foot: (3,) [m], centre of the foot.
         sole: [m], how far the foot reaches below its centre, standing in the neutral posture.
+        stands: Whether it is a leg to stand on, or a limb that only moves, such as an arm.
     """
 
     name: str
@@ -111,6 +112,7 @@ class LegGeometry:
     axes: Array
     foot: Array
     sole: float
+    stands: bool = True
 
     def foot_position(self, joint_position: Array) -> Array:
         """(..., joints) [rad], all of the robot's, to (..., 3) [m]: the foot's centre in the trunk frame."""

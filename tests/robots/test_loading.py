@@ -216,7 +216,6 @@ def test_unknown_leg_and_posture() -> None:
         ("limits: {torque:", "limits: {torques:", "limits.torques: unknown key; did you mean torque?"),
         ("trunk: base", "", "robot.yaml: no free base, the robot is bolted to the world; give its trunk a <freejoint/>"),
         ("no_load_speed: 30", "time_constant: 0", "actuations.motor.no_load_speed: missing"),
-        ("neutral: 0", "stand: 0", "postures: neutral is missing; give the angles of the standing robot"),
         # types and values
         ("name: toy", "name: [toy]", "robot.yaml: name: should be a valid string, is a list"),
         ("side: left", "side: port", "legs.l.side: should be 'left' or 'right', is 'port'"),

@@ -40,6 +40,7 @@ def poses(simulation: RecordedSimulation) -> tuple[Array, list[Collision], Array
     motion, model, names = simulation.motion, simulation.model, simulation.embodiment
     data = mujoco.MjData(model)
     feet = [model.geom(foot).id for foot in names.feet]
+    soles = {model.geom(geom).id: number for number, leg in enumerate(motion.legs) for geom in leg.soles}
     steps = len(motion["time"])
     centres = np.empty((steps, len(feet), 3))
     normals = np.full((steps, len(feet), 3), np.nan)
@@ -64,8 +65,8 @@ def poses(simulation: RecordedSimulation) -> tuple[Array, list[Collision], Array
             if one and other:
                 continue
             part = pair[1] if one == 0 else pair[0]
-            if part in feet:
-                normals[row, feet.index(part)] = contact.frame[:3] if one == 0 else -contact.frame[:3]
+            if part in soles:
+                normals[row, soles[part]] = contact.frame[:3] if one == 0 else -contact.frame[:3]
     collisions = [
         Collision(bodies, *_deepest(depths, motion["time"]), share=len({row for _, row in depths}) / steps)
         for bodies, depths in found.items()

@@ -17,9 +17,7 @@ from rich.text import Text
 from levade.cli.tables import make_console
 from levade.robots import Robot, dimensions, load_robot
 from levade.robots.doctor import Patient, inspect
-from levade.robots.findings import Finding, counted
-
-_ROLES = {"haa": "hip abduction", "hfe": "hip flexion", "kfe": "knee", "other": "other"}
+from levade.robots.findings import Finding, counted, some
 
 
 def inspect_robot(name: str, *, picture: Path | None, as_json: bool) -> None:
@@ -57,7 +55,7 @@ def list_robots(*, as_json: bool) -> None:
     for name, description in rows_:
         print(f"{name:<{width}}  {description}")
     if packaged:
-        print("\nOf the packages, those with four legs can be used; the others are refused with the reason. A robot of")
+        print("\nOf the packages, those with legs can be used; the others are refused with the reason. A robot of")
     else:
         print("\nMore are found in installed packages: pip install levade[robots], see docs/your-robot.md. A robot of")
     print("your own: give the path of its URDF or MJCF. levade robots inspect NAME|FILE says what is understood of it.")
@@ -96,9 +94,9 @@ def _report(robot: Robot, findings: list[Finding]) -> Iterator[RenderableType]:
     facts.add_row(
         "mass", f"{robot.mass:.4g} kg, of which the trunk ({robot.trunk}, and what is fixed to it) {trunk:.4g} kg"
     )
-    facts.add_row("size", f"legs {size.leg:.3g} m, hips {size.trunk:.3g} m apart from front to hind, trunk's centre of mass"
-                  f" {size.height:.3g} m high when standing")  # fmt: skip
-    facts.add_row("legs", f"{len(robot.legs)}, {origins.get('legs', '')}")
+    hips = f"hips {size.trunk:.3g} m apart from front to hind, " if size.trunk else ""
+    facts.add_row("size", f"legs {size.leg:.3g} m, {hips}trunk's centre of mass {size.height:.3g} m high when standing")
+    facts.add_row("legs", f"{len(robot.standing)}, {origins.get('legs', '')}{_moving(robot)}")
     facts.add_row("posture", f"neutral: {origins.get('neutral', '')}; others: {', '.join(_others(robot))}")
     if "fixed" in origins:
         facts.add_row("held fixed", origins["fixed"])
@@ -114,6 +112,12 @@ def _report(robot: Robot, findings: list[Finding]) -> Iterator[RenderableType]:
     yield _joints(patient)
     yield Text()
     yield from _findings(findings)
+
+
+def _moving(robot: Robot) -> str:
+    """Which limbs move beside the legs."""
+    others = [leg.name for leg in robot.legs if not leg.stands]
+    return f"; {some(others)} {'moves' if len(others) == 1 else 'move'}, too" if others else ""
 
 
 def _others(robot: Robot) -> list[str]:
@@ -139,7 +143,10 @@ def _legs(patient: Patient) -> Table:
         kind = int(robot.model.geom(leg.foot).type[0])
         shape = _shape(kind)
         radius = f", radius {robot.model.geom(leg.foot).size[0]:.3g} m" if shape == "sphere" else ""
-        table.add_row(leg.name, f"{leg.side} {leg.end}", f"{patient.mass(leg):.3g} kg", leg.foot, f"{shape}{radius}")
+        if leg.pads:
+            shape, radius = f"sole of {len(leg.pads)} shapes", ""
+        where = f"{leg.side} {leg.end}" if leg.stands else f"{leg.side} {leg.kind}"
+        table.add_row(leg.name, where, f"{patient.mass(leg):.3g} kg", leg.foot, f"{shape}{radius}")
     return table
 
 
@@ -160,14 +167,14 @@ def _joints(patient: Patient) -> Table:
         table.add_column(f"{heading}\n[dim]{unit}[/]", justify="left" if left else "right", no_wrap=True)
     neutral, needed = robot.postures["neutral"], np.abs(patient.static_torque)
     for leg in robot.legs:
-        for joint, role in zip(leg.joints, leg.roles, strict=True):
+        for joint, role in zip(leg.joints, robot.role_words(leg), strict=True):
             i = robot.joint_names.index(joint)
             share = needed[i] / limits.torque[i]
             style = "red" if share > 1 else "yellow" if share > 0.6 else ""
             table.add_row(
                 leg.name if joint == leg.joints[0] else "",
                 joint,
-                _ROLES.get(role, role),
+                role,
                 f"{neutral[i]:.3f}",
                 f"{limits.lower[i]:.3g} to {limits.upper[i]:.3g}" if math.isfinite(limits.lower[i]) else "none",
                 _number(limits.torque[i]),
@@ -221,9 +228,11 @@ def _content(robot: Robot, findings: list[Finding]) -> dict[str, Any]:
             }
             finite = {key: float(value) if np.isfinite(value) else None for key, value in numbers.items()}
             joints.append({"name": joint, "role": role, **finite})
-        legs.append({"name": leg.name, "side": leg.side, "end": leg.end, "foot": leg.foot, "joints": joints})
+        place = {"name": leg.name, "kind": leg.kind, "side": leg.side, "end": leg.end, "foot": leg.foot}
+        legs.append({**place, "sole": list(leg.soles), "joints": joints})
     return {
         "robot": robot.name,
+        "stance": robot.stance,
         "source": robot.source,
         "trunk": robot.trunk,
         "mass": robot.mass,

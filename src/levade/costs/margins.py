@@ -77,6 +77,7 @@ class Margins:
             outward = [
                 leg.foot_position(trajectories.joint_position[:, rows])[..., 1] * (1.0 if leg.side == "left" else -1.0)
                 for leg in trajectories.legs
+                if leg.stands and leg.side in ("left", "right")
             ]
             missed += [_shortfall(side.min(axis=1, keepdims=True), self.midplane) for side in outward]
         if self.self_distance is not None:

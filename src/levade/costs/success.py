@@ -95,7 +95,7 @@ OF_FEET = ("lowest_foot", "highest_foot")
 MARGINS = ("angle_margin", "speed_margin", "torque_speed_margin", "self_distance")
 
 Legs = str | tuple[str, ...]
-"""Some of the legs: "all", "front", "hind", "left", "right", a leg's name, or several of these."""
+"""Some of the legs: "all", "front", "middle", "hind", "left", "right", the name of a leg or an arm, or several of these."""
 
 
 @dataclass(frozen=True)
@@ -305,11 +305,16 @@ def _margin(quantity: str, trajectories: Trajectories, rows: slice) -> Array:
 def chosen_legs(trajectories: Trajectories, legs: Legs) -> list[LegGeometry]:
     """The legs that a criterion or a term names. LevadeError for a name that is none."""
     names = (legs,) if isinstance(legs, str) else legs
-    valid = {name for leg in trajectories.legs for name in ("all", leg.end, leg.side, leg.name)}
+    standing = [leg for leg in trajectories.legs if leg.stands]
+    valid = {name for leg in standing for name in ("all", leg.end, leg.side)} | {leg.name for leg in trajectories.legs}
     for name in names:
         if name not in valid:
             raise LevadeError(f"legs: no {name!r}; {did_you_mean(name, valid) if valid else 'the robot has no legs'}")
-    chosen = [leg for leg in trajectories.legs if not {"all", leg.end, leg.side, leg.name}.isdisjoint(names)]
+    chosen = [
+        leg
+        for leg in trajectories.legs
+        if not ({"all", leg.end, leg.side, leg.name} if leg.stands else {leg.name}).isdisjoint(names)
+    ]
     if not chosen:
         raise LevadeError("legs: an empty list; name some, or leave the key out for all")
     return chosen

@@ -160,8 +160,14 @@ class Layout(Addresses):
         return np.linalg.norm(sensordata[..., address : address + 3], axis=-1)
 
 
-def add_contact_sensors(spec: mujoco.MjSpec, feet: Sequence[str]) -> None:
-    """Add sensors of the net force of each foot's contacts, and of each body's with the scene, in world axes."""
+def add_contact_sensors(spec: mujoco.MjSpec, feet: Sequence[str], whole: Sequence[str] = ()) -> None:
+    """Add sensors of the net force of each foot's contacts, and of each body's with the scene, in world axes.
+
+    Args:
+        spec: The robot in its scene; it is changed.
+        feet: Geom names of the feet.
+        whole: Those of them that are soles of several geoms: the forces on all of the body count.
+    """
     data_force = 1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE)
     netforce = 3
 
@@ -171,7 +177,10 @@ def add_contact_sensors(spec: mujoco.MjSpec, feet: Sequence[str]) -> None:
 
     geom, body = mujoco.mjtObj.mjOBJ_GEOM, mujoco.mjtObj.mjOBJ_BODY
     for foot in feet:
-        add(foot + _FOOT_SENSOR, objtype=geom, objname=foot)
+        if foot in whole:
+            add(foot + _FOOT_SENSOR, objtype=body, objname=spec.geom(foot).parent.name)
+        else:
+            add(foot + _FOOT_SENSOR, objtype=geom, objname=foot)
     for element in spec.bodies[1:]:
         add(element.name + _BODY_SENSOR, objtype=body, objname=element.name, reftype=body, refname="world")
 

@@ -53,7 +53,7 @@ def model_xml(
     option.cone = getattr(mujoco.mjtCone, f"mjCONE_{physics.cone.upper()}")
     option.impratio = physics.impratio
     option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
-    add_contact_sensors(spec, robot.feet)
+    add_contact_sensors(spec, robot.feet, [leg.foot for leg in robot.legs if leg.pads])
     if clearance is not None:
         measure_clearance(spec, robot.trunk, clearance)
     return spec.to_xml()

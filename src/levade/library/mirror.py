@@ -42,7 +42,7 @@ class Mirror:
         n = len(robot.joint_names)
         joints, signs = np.arange(n), np.ones(n)
         for leg in robot.legs:
-            others = [one for one in robot.legs if one.end == leg.end and one.side != leg.side]
+            others = [one for one in robot.legs if (one.kind, one.end) == (leg.kind, leg.end) and one.side != leg.side]
             if len(others) != 1:
                 return None
             try:

@@ -27,6 +27,8 @@ def robot_facts(embodiment: Embodiment, legs: Sequence[Leg]) -> dict[str, Any]:
                 "foot": leg.foot,
                 "side": leg.side,
                 "end": leg.end,
+                **({} if leg.stands else {"kind": leg.kind}),
+                **({"pads": list(leg.pads)} if leg.pads else {}),
                 "geometry": {
                     "anchors": shape.anchors.tolist(),
                     "axes": shape.axes.tolist(),
@@ -45,7 +47,15 @@ def robot_facts(embodiment: Embodiment, legs: Sequence[Leg]) -> dict[str, Any]:
 def legs_of(meta: Mapping[str, Any]) -> tuple[Leg, ...]:
     """Read the robot's legs."""
     return tuple(
-        Leg(name, tuple(leg["joints"]), str(leg["foot"]), str(leg.get("side", "")), str(leg.get("end", "")))
+        Leg(
+            name,
+            tuple(leg["joints"]),
+            str(leg["foot"]),
+            str(leg.get("side", "")),
+            str(leg.get("end", "")),
+            kind=str(leg.get("kind", "leg")),
+            pads=tuple(str(pad) for pad in leg.get("pads", ())),
+        )
         for name, leg in meta["legs"].items()
     )
 
@@ -74,6 +84,7 @@ def embodiment_of(meta: Mapping[str, Any], joint_names: tuple[str, ...], lines: 
                 axes=np.array(leg["geometry"]["axes"], dtype=float),
                 foot=np.array(leg["geometry"]["foot"], dtype=float),
                 sole=float(leg["geometry"]["sole"]),
+                stands=leg.get("kind", "leg") == "leg",
             )
             for name, leg in meta["legs"].items()
             if leg.get("geometry") is not None

@@ -56,12 +56,14 @@ class GeometryForm(_Form):
 
 
 class LegForm(_Form):
-    """A leg: its joints from the trunk outward, and the name of its foot's geom."""
+    """A limb: its joints from the trunk outward, its foot's geom, all of several (pads), and its kind (`levade.robots.Leg`)."""
 
     joints: Annotated[list[Name], Field(min_length=1)]
     foot: Name
     side: Name = ""
     end: Name = ""
+    kind: Literal["leg", "arm", "waist", "head"] = "leg"
+    pads: list[Name] = []
     geometry: GeometryForm | None = None
 
 

@@ -33,7 +33,6 @@ _NAME, _SMALL = 17, 14
 """[px], heights of letters."""
 _FINE = 2
 """Times finer that names and lines are drawn than the picture is."""
-_ROLES = {"haa": "hip abduction", "hfe": "hip flexion", "kfe": "knee", "other": "joint"}
 _AXES = (("x", "x forward"), ("y", "y left"), ("z", "z up"))
 
 
@@ -101,7 +100,7 @@ def _standing(robot: Robot, model: Any) -> Any:
 
 def _azimuth(robot: Robot, data: Any) -> float:
     """[deg], from the right front, so that the four legs are equally far apart in the picture: tan = length / 2 width."""
-    feet = np.array([data.geom(foot).xpos for foot in robot.feet])
+    feet = np.array([data.geom(leg.foot).xpos for leg in robot.standing])
     length, width = np.ptp(feet[:, 0]), np.ptp(feet[:, 1])
     aside = math.degrees(math.atan2(max(length, 1e-6), 2.0 * max(width, 1e-6)))
     return 180.0 - float(np.clip(aside, 30.0, 62.0))
@@ -129,7 +128,7 @@ def _labels(robot: Robot, data: Any, eye: _Eye) -> list[Label]:
     colours = leg_colours(robot.legs, LIGHT)
     labels: list[list[Label]] = []
     for leg in robot.legs:
-        seen = [(eye.see(place), name, what) for place, name, what in _places(data, leg)]
+        seen = [(eye.see(place), name, what) for place, name, what in _places(robot, data, leg)]
         labels.append([Label(name, what, colours[leg.name], *at) for at, name, what in seen])
     labels.sort(key=lambda of_leg: float(np.mean([label.x for label in of_leg])))
     for of_leg in labels[len(labels) // 2 :]:
@@ -138,14 +137,12 @@ def _labels(robot: Robot, data: Any, eye: _Eye) -> list[Label]:
     return [label for of_leg in labels for label in of_leg]
 
 
-def _places(data: Any, leg: Leg) -> list[tuple[Array, str, str]]:
+def _places(robot: Robot, data: Any, leg: Leg) -> list[tuple[Array, str, str]]:
     """Where each joint and the foot of a leg is [m], its name, and what it is."""
-    roles = leg.roles or ("other",) * len(leg.joints)
-    joints = [
-        (data.joint(joint).xanchor.copy(), joint, _ROLES.get(role, role))
-        for joint, role in zip(leg.joints, roles, strict=True)
-    ]
-    return [*joints, (data.geom(leg.foot).xpos.copy(), leg.foot, "foot")]
+    roles = ["joint" if role == "other" else role for role in robot.role_words(leg)]
+    places = zip(leg.joints, roles, strict=True)
+    joints = [(data.joint(joint).xanchor.copy(), joint, role) for joint, role in places]
+    return [*joints, (data.geom(leg.foot).xpos.copy(), leg.foot, "foot" if leg.stands else "end")]
 
 
 def _frame(robot: Robot, data: Any, eye: _Eye) -> list[tuple[str, str, tuple[float, float], tuple[float, float]]]:

@@ -11,12 +11,13 @@ import mujoco
 import numpy as np
 
 from levade.errors import LevadeError, did_you_mean
-from levade.robots.findings import note, some
+from levade.robots.findings import named, note, some
 from levade.robots.holding import Angle, Held, fix_joints
-from levade.robots.loops import Coupling, follower_angles, open_loops, refuse_coupling_tendons, why_no_legs
+from levade.robots.limbs import limb_roles, read_limbs
+from levade.robots.loops import Coupling, follower_angles, open_loops, open_tendons, why_no_legs
 from levade.robots.reading import Draft, Keyframe
 from levade.robots.standing import Bare
-from levade.robots.understanding import Leg, NoFootError, find_legs, find_trunk, roles
+from levade.robots.understanding import FrameError, Leg, NoFootError, find_legs, find_trunk, level, roles
 
 if TYPE_CHECKING:
     from levade.robots.description import RobotForm
@@ -78,6 +79,7 @@ def understand(draft: Draft, path: Path, form: RobotForm) -> tuple[Bare, Followe
         draft.spec.compiler.fusestatic = False
     held = fix_joints(draft, {**fixed, **followers}, path) if fixed or followers else {}
     if held:
+        draft.held_bodies = {joint: one.body for joint, one in held.items()}
         model = draft.compile()
         trunk = find_trunk(model, where)
     if fixed:
@@ -91,11 +93,11 @@ def understand(draft: Draft, path: Path, form: RobotForm) -> tuple[Bare, Followe
                     f"{path}: legs: joint {joint} of {form.model} is in no leg; add it to one, or: fixed: {{{joint}: 0}}"
                 )
     else:
-        legs, others = _found_legs(draft, model, trunk, where)
+        legs, others = _found_legs(draft, model, trunk, where, {str(kind): how for kind, how in form.limbs.items()})
     draft.origins["legs"] = "robot.yaml" if form.legs else "found in the kinematics"
     joints = [joint for leg in legs for joint in leg.joints]
     draft.findings += open_loops(draft.loops, joints, {*held, *others}, draft.driven, where)
-    refuse_coupling_tendons(draft.spec, joints, where)
+    draft.findings += open_tendons(draft.spec, joints, where)
     if others:
         frame = draft.keyframes[0] if draft.keyframes else None
         fix_joints(draft, {joint: _resting(model, joint, frame) for joint in others}, path)
@@ -142,16 +144,53 @@ def _resting_leaders(draft: Draft, model: mujoco.MjModel) -> dict[str, float]:
     return {joint: float(angle) for joint, angle in angles.items() if np.ndim(angle) == 0}
 
 
-def _found_legs(draft: Draft, model: mujoco.MjModel, trunk: int, where: str) -> tuple[tuple[Leg, ...], list[str]]:
-    """The legs that the kinematics tell, and the joints of none. Raises LevadeError with what may be the reason."""
+def _found_legs(
+    draft: Draft, model: mujoco.MjModel, trunk: int, where: str, wanted: Mapping[str, str]
+) -> tuple[tuple[Leg, ...], list[str]]:
+    """The limbs that the kinematics tell, and the joints of none. Raises LevadeError with what may be the reason.
+
+    The four legs of a mammal are looked for first, then limbs of any kind.
+    """
     try:
-        return find_legs(model, trunk, where)
+        legs, others = find_legs(model, trunk, where)
+        if "free" in wanted.values():
+            added = [limb for limb in read_limbs(model, trunk, where, wanted).legs if set(limb.joints) <= set(others)]
+            legs = (*legs, *added)
+            others = [joint for joint in others if all(joint not in limb.joints for limb in added)]
+        return legs, others
+    except FrameError as error:
+        raise LevadeError(str(error)) from None
     except LevadeError as error:
-        reason = why_no_legs(draft.loops, draft.couplings)
-        if isinstance(error, NoFootError):  # most often since its meshes are not there
-            lost = next((f.what for f in draft.findings if f.what.startswith("collides with nothing")), "")
-            raise LevadeError(f"{error}{lost and f' ({lost})'}") from None
-        raise LevadeError(f"{error}{reason and f'; {reason}'}") from None
+        problem = error
+    lost = next((f.what for f in draft.findings if f.what.startswith("collides with nothing")), "")
+    try:
+        limbs = read_limbs(model, trunk, where, wanted)
+    except NoFootError as error:  # most often since its meshes are not there
+        raise LevadeError(f"{error}{lost and f' ({lost})'}") from None
+    bound = [coupling for coupling in draft.couplings if _in_leg(draft, limbs.legs, coupling)]
+    if limbs.problem or bound:
+        if isinstance(problem, NoFootError):
+            raise LevadeError(f"{problem}{lost and f' ({lost})'}") from None
+        reason = why_no_legs(draft.loops, bound or draft.couplings)
+        raise LevadeError(f"{problem}{reason and f'; {reason}'}") from None
+    if limbs.wheels:
+        draft.findings.append(
+            note(named("joint", limbs.wheels), "turns a wheel: locked" if len(limbs.wheels) == 1 else "turn wheels: locked",
+                 "robot.yaml, limbs: {wheel: free} lets them turn")
+        )  # fmt: skip
+    return limbs.legs, list(limbs.held)
+
+
+def _in_leg(draft: Draft, limbs: Sequence[Leg], coupling: Coupling) -> bool:
+    """Whether the body of a follower, which is held by now, lies between the trunk and the end of a limb that moves."""
+    body = draft.held_bodies.get(coupling.follower, "")
+    for limb in limbs:
+        inside = draft.spec.geom(limb.foot).parent if limb.stands else draft.spec.joint(limb.joints[-1]).parent
+        while inside is not None and inside.name != "world":
+            if inside.name == body:
+                return True
+            inside = inside.parent
+    return False
 
 
 def _resting(model: mujoco.MjModel, joint: str, frame: Keyframe | None) -> Angle:
@@ -191,7 +230,12 @@ def _described_legs(model: mujoco.MjModel, trunk: int, path: Path, form: RobotFo
             hint = did_you_mean(leg.foot, filter(None, geoms))
             raise LevadeError(f"{path}: legs.{name}.foot: no geom {leg.foot!r} in {form.model}; {hint}")
         ordered = tuple(leg.joints)
-        legs.append(Leg(name, ordered, leg.foot, leg.side, leg.end, roles(model, ordered)))
+        named_roles = roles(model, ordered)
+        if len(ordered) > 3 or not {"hfe", "kfe"} <= set(named_roles):
+            data = mujoco.MjData(model)
+            level(model, data, trunk)
+            named_roles = limb_roles(model, data, ordered, data.geom(leg.foot).xpos)
+        legs.append(Leg(name, ordered, leg.foot, leg.side, leg.end, named_roles))
     return tuple(legs)
 
 

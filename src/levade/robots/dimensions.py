@@ -25,7 +25,7 @@ class Dimensions:
 
     height: [m], the trunk's centre of mass over the ground, standing level in the neutral posture, joints unloaded.
     leg: [m], the longest leg: sum of the distances from each joint's axis to the next one's, and to the foot's centre.
-    trunk: [m], from the front hips to the hind hips along x.
+    trunk: [m], from the front hips to the hind hips along x; 0 where there are no such.
     """
 
     height: float
@@ -42,11 +42,11 @@ def dimensions(robot: Robot) -> Dimensions:
     """The robot's own units, from its kinematics alone: they depend neither on gains nor on time steps."""
     data = robot.data_at(robot.posture("neutral"))
     axes = {joint: (data.joint(joint).xanchor.copy(), data.joint(joint).xaxis.copy()) for joint in robot.joint_names}
-    hips = {end: [_hip(axes, leg) for leg in robot.legs if leg.end == end] for end in ("front", "hind")}
+    hips = {end: [_hip(axes, leg) for leg in robot.standing if leg.end == end] for end in ("front", "hind")}
     trunk = float(np.mean(hips["front"]) - np.mean(hips["hind"])) if all(hips.values()) else 0.0
     return Dimensions(
         height=robot.neutral_height + float(robot.trunk_com_offset[2]),
-        leg=max(_length(axes, leg, data.geom(leg.foot).xpos) for leg in robot.legs),
+        leg=max(_length(axes, leg, data.geom(leg.foot).xpos) for leg in robot.standing),
         trunk=abs(trunk),
     )
 

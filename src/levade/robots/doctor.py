@@ -169,8 +169,8 @@ def _torques(patient: Patient) -> Iterator[Finding]:
 def _feet(patient: Patient) -> Iterator[Finding]:
     robot, model = patient.robot, patient.robot.model
     sphere = mujoco.mjtGeom.mjGEOM_SPHERE
-    kinds = {leg.foot: mujoco.mjtGeom(int(model.geom(leg.foot).type[0])) for leg in robot.legs}
-    flat = [foot for foot, kind in kinds.items() if kind != sphere]
+    kinds = {leg.foot: mujoco.mjtGeom(int(model.geom(leg.foot).type[0])) for leg in robot.standing}
+    flat = [foot for foot, kind in kinds.items() if kind != sphere] if len(robot.standing) > 2 else []
     if flat:
         shape = kinds[flat[0]].name.removeprefix("mjGEOM_").lower()
         many = kinds[flat[0]] in (mujoco.mjtGeom.mjGEOM_MESH, mujoco.mjtGeom.mjGEOM_BOX)
@@ -178,14 +178,14 @@ def _feet(patient: Patient) -> Iterator[Finding]:
         remedy = "a sphere at the tip is best; robot.yaml, legs: {lf: {foot: ...}} names another shape of the model"
         yield Finding("warning" if many else "note", named("foot", flat), what, remedy)
     data = robot.data_at(robot.postures["neutral"])
-    depth = {leg.foot: _lowest(model, data, model.geom(leg.foot).id) for leg in robot.legs}
+    depth = {leg.foot: min(_lowest(model, data, model.geom(g).id) for g in leg.soles) for leg in robot.standing}
     ground = min(depth.values())
     height = max(dimensions(robot).height, 0.25 * patient.leg_length)
     uneven = [foot for foot, z in depth.items() if z > ground + 0.02 * height]
     if uneven:
         what = f"up to {max(depth.values()) - ground:.2g} m above the lowest one in the neutral posture"
         yield note(named("foot", uneven), what, "robot.yaml, postures: {neutral: ...}")
-    feet = {model.geom(foot).id for foot in depth}
+    feet = {model.geom(geom).id for leg in robot.standing for geom in leg.soles}
     lower = [
         model.geom(g).name or model.body(int(model.geom_bodyid[g])).name
         for g in range(model.ngeom)
@@ -210,10 +210,10 @@ def _shapes(patient: Patient) -> Iterator[Finding]:
     if not colliding & welded:
         what = "without a collision shape: falls through the ground"
         yield warning(f"trunk {robot.trunk}", what, "give it one, a box is enough; falls and boxes need it")
-    shanks = [model.body(int(model.geom(leg.foot).bodyid[0])).name for leg in robot.legs]
+    shanks = [model.body(int(model.geom(leg.foot).bodyid[0])).name for leg in robot.standing]
     links = [
         model.body(int(model.jnt_bodyid[model.joint(joint).id])).name
-        for leg in robot.legs
+        for leg in robot.standing
         for joint, role in zip(leg.joints, leg.roles, strict=True)
         if role in ("hfe", "kfe") and int(model.jnt_bodyid[model.joint(joint).id]) not in colliding
     ]
@@ -226,6 +226,8 @@ def _shapes(patient: Patient) -> Iterator[Finding]:
 def _back(patient: Patient) -> Iterator[Finding]:
     """Whether feet come to the ground when the robot lies on its back, as righting itself asks for."""
     robot, model = patient.robot, patient.robot.model
+    if robot.stance == "upright":  # it sits up
+        return
     data = robot.data_at(robot.postures["neutral"])
     trunk = int(model.body_weldid[model.body(robot.trunk).id])
     shapes = [
@@ -240,8 +242,8 @@ def _back(patient: Patient) -> Iterator[Finding]:
     lower = np.where(endless, -np.pi, robot.limits.lower)
     upper = np.where(endless, np.pi, robot.limits.upper)
     highest = -np.inf
-    legs = [[robot.joint_names.index(joint) for joint in leg.joints] for leg in robot.legs]
-    feet = [model.geom(leg.foot).id for leg in robot.legs]
+    legs = [[robot.joint_names.index(joint) for joint in leg.joints] for leg in robot.standing]
+    feet = [model.geom(leg.foot).id for leg in robot.standing]
     angles = robot.postures["neutral"].copy()
     addresses = joint_positions(model, robot.joint_names)
     most = max(map(len, legs))
@@ -298,12 +300,16 @@ def _largest(inertia: Array, diagonal: Array) -> tuple[float, int]:
 
 def _symmetry(patient: Patient) -> Iterator[Finding]:
     robot, limits = patient.robot, patient.robot.limits
-    by_place = {(leg.side, leg.end): leg for leg in robot.legs}
-    if len(by_place) < 4:
+    by_place = {(leg.kind, leg.side, leg.end): leg for leg in robot.legs}
+    pairs = [
+        (leg, by_place[kind, "right", end])
+        for (kind, side, end), leg in by_place.items()
+        if side == "left" and (kind, "right", end) in by_place
+    ]
+    if 2 * len([left for left, _ in pairs if left.stands]) < len(robot.standing):
         return
-    for end in ("front", "hind"):
-        left, right = by_place["left", end], by_place["right", end]
-        where = f"legs {left.name} and {right.name}"
+    for left, right in pairs:
+        where = f"{left.kind}s {left.name} and {right.name}"
         try:
             signs = mirror_signs(robot, left, right)
         except LevadeError as error:
@@ -347,7 +353,14 @@ def _frame(patient: Patient) -> Iterator[Finding]:
             yield warning(f"leg {leg.name}", what, remedy)
             return
     data = robot.data_at(robot.postures["neutral"])
-    hips = np.array([data.joint(leg.joints[0]).xanchor for leg in robot.legs])
+    if robot.ahead < 0:
+        what = (
+            "x points backward, by its toes: front and back in tasks are those of the toes, left and right of the frame"
+        )
+        yield note(f"trunk {robot.trunk}", what, "turn that frame")
+    if robot.stance != "level":
+        return
+    hips = np.array([data.joint(leg.joints[0]).xanchor for leg in robot.standing])
     length, width = np.ptp(hips[:, 0]), np.ptp(hips[:, 1])
     if width > 1.5 * length:
         what = f"hips {width:.2g} m apart from left to right, but {length:.2g} m from front to hind"

@@ -15,6 +15,7 @@ from levade.embodiment import JointLimits
 from levade.robots import gains
 from levade.robots.actuation import PID, Actuation, DCMotor
 from levade.robots.findings import named, note, warning
+from levade.robots.preparing import TIMESTEP
 from levade.robots.reading import Draft
 from levade.robots.standing import Bare
 
@@ -109,12 +110,29 @@ def _torque(draft: Draft, bare: Bare, path: Path, form: RobotForm) -> tuple[Arra
     if form.actuations:
         return torque, none
     assumed = gains.assumed_torque(float(bare.model.body_mass.sum()), _leg_length(bare))
+    standing = np.array([leg.stands for leg in bare.legs for _ in leg.joints])
     missing = ~(torque <= _NO_LIMIT * assumed)
+    for legs, values in ((True, np.full(len(joints), assumed)), (False, _arm_torque(bare, assumed))):
+        chosen = missing & (standing == legs)
+        if chosen.any():
+            _say_assumed(draft, bare, torque, chosen, float(values[chosen].max()))
+            torque = np.where(chosen, values, torque)
     if missing.any():
-        _say_assumed(draft, bare, torque, missing, assumed)
         draft.origins["torque"] = "assumed" if missing.all() else f"{_file(draft)}, or assumed"
-        torque = np.where(missing, assumed, torque)
     return torque, missing
+
+
+def _arm_torque(bare: Bare, most: float) -> Array:
+    """(joints,) [Nm], assumed of joints that do not stand: what they carry, held out straight, a few times over."""
+    data = bare.data_at({joint: bare.resting(joint) for joint in bare.joints})
+    model = bare.model
+    torque = np.full(len(bare.joints), most)
+    for k, joint in enumerate(bare.joints):
+        body = int(model.jnt_bodyid[model.joint(joint).id])
+        mass = float(model.body_subtreemass[body])
+        away = float(np.linalg.norm(data.subtree_com[body] - data.joint(joint).xanchor))
+        torque[k] = min(most, max(gains.ARM_RESERVE * mass * gains.GRAVITY * away, 0.05 * most))
+    return torque
 
 
 def _say_assumed(draft: Draft, bare: Bare, torque: Array, missing: NDArray[np.bool_], assumed: float) -> None:
@@ -178,7 +196,7 @@ def find_actuation(
     kds = values("kd") if kd is None else np.full(len(joints), float(kd))
     draft.origins["gains"] = "as asked for" if kp is not None or kd is not None else f"robot.yaml, actuation {name}"
     if kps is None or kds is None:
-        own_kp, own_kd, draft.origins["gains"] = _gains(draft, bare, neutral, kps, keep=chosen is None)
+        own_kp, own_kd, draft.origins["gains"] = _gains(draft, bare, neutral, limits.torque, kps, keep=chosen is None)
         kps = own_kp if kps is None else kps
         kds = own_kd if kds is None else kds
         own = draft.origins["gains"] == "the model's servos"
@@ -201,25 +219,50 @@ def find_actuation(
 
 
 def _gains(
-    draft: Draft, bare: Bare, neutral: Mapping[str, float], kps: Array | None, *, keep: bool
+    draft: Draft, bare: Bare, neutral: Mapping[str, float], torque: Array, kps: Array | None, *, keep: bool
 ) -> tuple[Array, Array, str]:
     """(joints,) kp and kd: those of the model's own servos, where it has them, else derived; and which it was.
 
-    kps: stiffness that is given already, for which the damping is to be found. keep: whether the model's own count.
+    torque: (joints,) [Nm], limits. kps: stiffness that is given already, for which the damping is to be found. keep: whether
+    the model's own count.
     """
     joints = bare.joints
     servos = {joint: draft.servos[joint] for joint in joints if keep and joint in draft.servos}
-    mass = float(bare.model.body_mass.sum())
-    stiffness = gains.stiffness(mass, _leg_length(bare))
-    inertia = max(bare.joint_inertia(neutral).values())
-    damping = gains.damping(float((np.array([stiffness]) if kps is None else kps).max()), inertia)
-    kp = np.array([servos[joint].kp if joint in servos else stiffness for joint in joints], dtype=float)
-    kd = np.array([servos[joint].kd if joint in servos else damping for joint in joints], dtype=float)
+    if bare.columnar and len(bare.standing) == len(bare.legs):
+        stiffness, damping = _same_gains(bare, neutral, kps)
+    else:
+        stiffness, damping = _own_gains(bare, neutral, torque, kps)
+    kp = np.array([servos[j].kp if j in servos else k for j, k in zip(joints, stiffness, strict=True)], dtype=float)
+    kd = np.array([servos[j].kd if j in servos else k for j, k in zip(joints, damping, strict=True)], dtype=float)
     if not servos:
         return kp, kd, "derived from mass and inertia"
     if len(servos) == len(joints):
         return kp, kd, "the model's servos"
     return kp, kd, "the model's servos, or derived from mass and inertia"
+
+
+def _same_gains(bare: Bare, neutral: Mapping[str, float], kps: Array | None) -> tuple[list[float], list[float]]:
+    """Stiffness and damping of each joint, of legs whose joints are all alike."""
+    mass = float(bare.model.body_mass.sum())
+    stiffness = gains.stiffness(mass, _leg_length(bare))
+    inertia = max(bare.joint_inertia(neutral).values())
+    damping = gains.damping(float((np.array([stiffness]) if kps is None else kps).max()), inertia)
+    return [stiffness] * len(bare.joints), [damping] * len(bare.joints)
+
+
+def _own_gains(
+    bare: Bare, neutral: Mapping[str, float], torque: Array, kps: Array | None
+) -> tuple[list[float], list[float]]:
+    """Stiffness and damping of each joint by itself, stable at the time step."""
+    load = np.abs(list(bare.static_torque(neutral).values()))
+    most = np.maximum(
+        gains.stiffness(float(bare.model.body_mass.sum()), _leg_length(bare)), load / gains.GIVE_UNDER_LOAD
+    )
+    standing = np.array([leg.stands for leg in bare.legs for _ in leg.joints])
+    kp = np.minimum(most, torque / np.where(standing, gains.GIVE_STANDING, gains.GIVE_FREE)) if kps is None else kps
+    inertia = np.array(list(bare.joint_inertia(neutral).values()))
+    kd = np.array([gains.damping(float(k), float(i)) for k, i in zip(kp, inertia, strict=True)])
+    return kp.tolist(), np.minimum(kd, inertia / TIMESTEP).tolist()
 
 
 def _range(values: Array, unit: str) -> str:

@@ -18,6 +18,8 @@ from levade.robots.findings import Finding, named, note, some, warning
 from levade.robots.world import delete_tendons, label, sides, tendon_bodies
 
 _OF_BODIES = (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD)
+_SUM = 3
+"""Joints in a tendon from which on it binds a sum, and does not tie one joint to another."""
 _SERIAL = "levade moves legs without closed loops: give it a serial model, each of whose joints has a motor"
 
 
@@ -185,8 +187,15 @@ def open_loops(
     return findings
 
 
-def refuse_coupling_tendons(spec: mujoco.MjSpec, legs: Iterable[str], where: str) -> None:
-    """Delete tendons whose length is bound. Raises LevadeError for those over joints of legs, which they couple."""
+def open_tendons(spec: mujoco.MjSpec, legs: Iterable[str], where: str) -> list[Finding]:
+    """Delete tendons whose length is bound.
+
+    Returns:
+        A warning of those that bind a sum of three joints of a leg or more: the leg gets a freedom that its drives do not have.
+
+    Raises:
+        LevadeError: For others over joints of legs, which they couple as a belt does.
+    """
     bound = {
         name
         for e in spec.equalities
@@ -195,12 +204,20 @@ def refuse_coupling_tendons(spec: mujoco.MjSpec, legs: Iterable[str], where: str
         if name
     }
     bodies = {spec.joint(joint).parent.name for joint in legs}
+    sums = []
     for tendon in [tendon for tendon in spec.tendons if tendon.name in bound]:
-        if tendon_bodies(tendon) & bodies:
+        wraps = [wrap.type for wrap in tendon.path]
+        if tendon_bodies(tendon) & bodies and len(wraps) >= _SUM and set(wraps) == {mujoco.mjtWrap.mjWRAP_JOINT}:
+            sums.append(tendon.name)
+        elif tendon_bodies(tendon) & bodies:
             raise LevadeError(
                 f"{where}: <tendon> {tendon.name}, whose length is bound, couples joints of a leg; {_SERIAL}"
             )
         delete_tendons(spec, [tendon])
+    if not sums:
+        return []
+    what = "binds a sum of joints of a leg: left out, and each of them gets a servo of its own"
+    return [warning(named("tendon", sums), what, "motions may bend them as the robot's own drives do not")]
 
 
 def _between(spec: mujoco.MjSpec, one: str, other: str) -> set[str]:

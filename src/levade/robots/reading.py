@@ -55,7 +55,8 @@ class Draft:
 
     effort [Nm], velocity [rad/s]: joint -> limit, of those that have one. servos: joint -> position servo.
     driven: joints of an MJCF that an actuator drives. couplings: joints that follow others. loops: bodies that were
-    held together. held: joint that was taken out -> its angle [rad], or [m]. origins: what of the robot came from where,
+    held together. held: joint that was taken out -> its angle [rad], or [m]; held_bodies: -> its body, of those that the
+    description or another joint holds. origins: what of the robot came from where,
     see `Robot`. joints: of the file except the free one, in its order.
     """
 
@@ -71,6 +72,7 @@ class Draft:
     couplings: list[Coupling] = field(default_factory=list)
     loops: list[Loop] = field(default_factory=list)
     held: dict[str, float] = field(default_factory=dict)
+    held_bodies: dict[str, str] = field(default_factory=dict)
     findings: list[Finding] = field(default_factory=list)
     origins: dict[str, str] = field(default_factory=dict)
     joints: list[str] = field(default_factory=list)
@@ -282,6 +284,11 @@ def _strip(draft: Draft, model: mujoco.MjModel, root: str | None) -> None:
     spec = draft.spec
     for element in [*spec.sensors, *spec.actuators, *spec.keys]:
         spec.delete(element)
+    usual = spec.default.actuator
+    if usual.ctrllimited == mujoco.mjtLimited.mjLIMITED_TRUE or usual.dyntype != mujoco.mjtDyn.mjDYN_NONE:
+        plain = mujoco.MjSpec().default.actuator  # servos that are added would have what the file's own have
+        for name in ("ctrllimited", "ctrlrange", "dyntype", "dynprm", "gaintype", "gainprm", "biastype", "biasprm"):
+            setattr(usual, name, getattr(plain, name))
     if not draft.urdf:
         collide_as_paired(spec, model, root, draft.findings)
     leave_only(spec, root, draft.findings)

@@ -27,6 +27,12 @@ from levade.robots.findings import Finding
 from levade.robots.shapes import balls, support
 from levade.robots.understanding import Leg
 
+_TOES = 0.02
+"""Of its height, by which the soles of a robot are ahead of its ankles at least where they tell the way that it faces."""
+_ROLES = {"haa": "hip abduction", "hfe": "hip flexion", "kfe": "knee"}
+_SPRAWLED_ROLES = {"swing": "swing", "haa": "spread", "hfe": "lift", "kfe": "fold"}
+_ARM_ROLES = {"swing": "yaw", "haa": "spread", "hfe": "lift", "kfe": "fold"}
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Robot:
@@ -70,8 +76,33 @@ class Robot:
         return tuple(joint for leg in self.legs for joint in leg.joints)
 
     @property
+    def standing(self) -> tuple[Leg, ...]:
+        """The legs that stand: all of them but arms and others that only move."""
+        return tuple(leg for leg in self.legs if leg.stands)
+
+    @property
+    def stance(self) -> str:
+        """How it stands.
+
+        "upright" on two legs; "sprawled" on more that begin with a joint about the vertical, as an insect's; else "level".
+        """
+        standing = self.standing
+        if len(standing) == 2:
+            return "upright"
+        return "sprawled" if sum(leg.roles[:1] == ("swing",) for leg in standing) > len(standing) / 2 else "level"
+
+    @cached_property
+    def ahead(self) -> float:
+        """1 where a robot on two legs faces along x of its trunk, -1 where it faces the other way, by where its toes are."""
+        if self.stance != "upright":
+            return 1.0
+        data = self.data_at(self.postures["neutral"])
+        toes = [_middle(data, leg)[0] - data.joint(leg.joints[-1]).xanchor[0] for leg in self.standing]
+        return -1.0 if float(np.mean(toes)) < -_TOES * abs(self.neutral_height) else 1.0
+
+    @property
     def feet(self) -> tuple[str, ...]:
-        """Geom names of the feet, in leg order."""
+        """Geom names of the feet, in leg order; of an arm, the geom at its end."""
         return tuple(leg.foot for leg in self.legs)
 
     def leg(self, name: str) -> Leg:
@@ -118,6 +149,11 @@ class Robot:
             angles[i] = angle
         return angles
 
+    def role_words(self, leg: Leg) -> tuple[str, ...]:
+        """What each joint of a limb does, in words."""
+        words = _SPRAWLED_ROLES if self.stance == "sprawled" and leg.stands else _ROLES if leg.stands else _ARM_ROLES
+        return tuple(words.get(role, role) for role in leg.roles or ("other",) * len(leg.joints))
+
     def joint_indices(self, leg: Leg) -> slice:
         """Where the leg's joints are in arrays over joints."""
         first = self.joint_names.index(leg.joints[0])
@@ -157,14 +193,14 @@ class Robot:
         return data
 
     def foot_positions(self, joint_position: Array) -> Array:
-        """(feet, 3) [m], centres of the foot geoms in the trunk frame, at (joints,) [rad]."""
+        """(standing legs, 3) [m], centres of the feet in the trunk frame, at (joints,) [rad]."""
         data = self.data_at(joint_position)
-        return np.array([data.geom(foot).xpos for foot in self.feet])
+        return np.array([_middle(data, leg) for leg in self.standing])
 
     def foot_depths(self, joint_position: Array) -> Array:
-        """(feet,) [m], how far the lowest point of each foot is below the trunk's origin at (joints,) [rad]."""
+        """(standing legs,) [m], how far the lowest point of each foot is below the trunk's origin at (joints,) [rad]."""
         data = self.data_at(joint_position)
-        return np.array([_depth(self.model, data, foot) for foot in self.feet])
+        return np.array([max(_depth(self.model, data, geom) for geom in leg.soles) for leg in self.standing])
 
     def standing_height(self, posture: str | Mapping[str, float | str] = "neutral") -> float:
         """[m], the trunk's origin above the lowest point of the feet, the trunk level; see `levade.robots.dimensions`.
@@ -193,8 +229,9 @@ class Robot:
                     joints=tuple(range(indices.start, indices.stop)),
                     anchors=np.array([joint.xanchor for joint in joints]),
                     axes=np.array([joint.xaxis for joint in joints]),
-                    foot=data.geom(leg.foot).xpos.copy(),
-                    sole=_depth(self.model, stood, leg.foot) + float(stood.geom(leg.foot).xpos[2]),
+                    foot=_middle(data, leg),
+                    sole=max(_depth(self.model, stood, geom) for geom in leg.soles) + float(_middle(stood, leg)[2]),
+                    stands=leg.stands,
                 )
             )
         return tuple(geometry)
@@ -244,6 +281,13 @@ class Robot:
     @property
     def _free_joint(self) -> int:
         return int(self.model.body(self.trunk).jntadr[0])
+
+
+def _middle(data: mujoco.MjData, leg: Leg) -> Array:
+    """(3,) [m], centre of the leg's foot, or of the shapes that are its sole."""
+    if not leg.pads:
+        return data.geom(leg.foot).xpos.copy()
+    return np.mean([data.geom(pad).xpos for pad in leg.pads], axis=0)
 
 
 def _depth(model: mujoco.MjModel, data: mujoco.MjData, geom: str) -> float:

@@ -48,7 +48,7 @@ def read_servos(model: mujoco.MjModel) -> dict[str, Servo]:
         affine = model.actuator_biastype[i] == mujoco.mjtBias.mjBIAS_AFFINE
         kp = kd = None
         if fixed and affine and gain[0] > 0 and math.isclose(gain[0], -bias[1], rel_tol=1e-9):
-            kp, kd = float(gain[0]) * gear**2, float(-bias[2]) * gear**2
+            kp, kd = float(gain[0]) * gear**2, float(-bias[2]) * gear**2 + 0.0  # no negative zero
         elif fixed and not affine and model.actuator_ctrllimited[control]:  # a motor: its command is its force
             limits.append(gear * float(gain[0]) * float(abs(model.actuator_ctrlrange[control]).min()))
         positive = [limit for limit in limits if limit > 0]

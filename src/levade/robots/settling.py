@@ -24,6 +24,10 @@ from levade.robots.shapes import thickness
 
 TIME = 1.0
 """[s], as the built-in tasks settle."""
+BALANCE_TIME, PUSH_TIME = 3.0, 0.2
+"""[s], for which a robot that balances on two legs has to stand, and for which it is pushed in the middle of that."""
+_PUSH = 0.05
+"""Of the robot's weight."""
 _GROUND = "levade-ground"
 _SAG, _TILT, _SINK = 0.15, math.radians(15), 0.25
 """Share of the height, [rad], and share of a foot's radius that are worth a warning."""
@@ -43,12 +47,14 @@ class Settled:
     broken: bool
 
 
-def settle(robot: Robot, *, stiff: bool = False) -> Settled:
+def settle(robot: Robot, *, stiff: bool = False, time: float = TIME, push: tuple[float, float] = (0.0, 0.0)) -> Settled:
     """Put a robot down on flat ground, in its neutral posture, level, its lowest foot touching.
 
     Args:
         robot: The robot.
         stiff: Whether contact is that of a scene with ``contact: stiff``, instead of the robot's own.
+        time: How long it stands [s].
+        push: Force on its trunk along x and y, as shares of its weight, for `PUSH_TIME` in the middle of that.
     """
     model = _on_ground(robot, stiff=stiff)
     data = mujoco.MjData(model)
@@ -60,11 +66,19 @@ def settle(robot: Robot, *, stiff: bool = False) -> Settled:
         data.joint(name).qpos[0] = angle
         data.ctrl[2 * i] = angle
     with quiet():
-        mujoco.mj_step(model, data, nstep=round(TIME / TIMESTEP))
+        steps, pushed = round(time / TIMESTEP), round(PUSH_TIME / TIMESTEP) if any(push) else 0
+        first = (steps - pushed) // 2
+        mujoco.mj_step(model, data, nstep=first)
+        data.xfrc_applied[trunk, :2] = np.array(push) * 9.81 * float(model.body_mass.sum())
+        if pushed:
+            mujoco.mj_step(model, data, nstep=pushed)
+        data.xfrc_applied[trunk] = 0.0
+        mujoco.mj_step(model, data, nstep=steps - first - pushed)
         mujoco.mj_forward(model, data)
     depth = {
         foot: -min((float(c.dist) for c in data.contact if model.geom(foot).id in c.geom), default=0.0)
-        for foot in robot.feet
+        for leg in robot.standing
+        for foot in leg.soles
     }
     up = data.xmat[trunk].reshape(3, 3)[2, 2]
     com = float(robot.trunk_com_offset @ data.xmat[trunk].reshape(3, 3)[2]) + float(data.xpos[trunk, 2])
@@ -76,7 +90,8 @@ def settle(robot: Robot, *, stiff: bool = False) -> Settled:
 def doubt_standing(robot: Robot) -> Iterator[Finding]:
     """Warn of robots that do not stand in their neutral posture, and of feet that sink into the ground."""
     try:
-        settled = settle(robot)
+        balances = robot.stance == "upright"
+        settled = settle(robot, time=BALANCE_TIME if balances else TIME)
     except (ValueError, LevadeError):  # what MuJoCo does not take is said elsewhere
         return
     height = dimensions(robot).height
@@ -87,12 +102,34 @@ def doubt_standing(robot: Robot) -> Iterator[Finding]:
         what = (
             "its simulation breaks down"
             if settled.broken
-            else f"its trunk is {abs(settled.sag):.2g} m {'lower' if settled.sag > 0 else 'higher'} after {TIME:g} s{tilt}"
+            else f"its trunk is {abs(settled.sag):.2g} m {'lower' if settled.sag > 0 else 'higher'} after"
+            f" {BALANCE_TIME if balances else TIME:g} s{tilt}"
         )
         what = f"does not stand in its neutral posture: {what}, and tasks start from there"
         yield warning("robot", what, _remedy(robot))
         return
+    if balances:
+        yield from _doubt_balance(robot, height)
     yield from _sunk(robot, settled)
+
+
+def _doubt_balance(robot: Robot, height: float) -> Iterator[Finding]:
+    """Warn of robots on two legs that a slight push fells."""
+    ways = {"forward": (_PUSH, 0.0), "backward": (-_PUSH, 0.0), "sideways": (0.0, _PUSH)}
+    felled = []
+    for way, push in ways.items():
+        pushed = settle(robot, time=BALANCE_TIME, push=push)
+        if pushed.broken or pushed.tilt > _TILT or abs(pushed.sag) > _SAG * height:
+            felled.append(way)
+    if felled:
+        joints = robot.standing[0].joints
+        ankle = joints[-1] if felled == ["sideways"] else next(
+            (j for j, role in zip(reversed(joints), reversed(robot.standing[0].roles), strict=True)
+             if role in ("pitch", "kfe", "hfe")), joints[-1])  # fmt: skip
+        what = f"stands, but {_PUSH:.0%} of its weight for {PUSH_TIME:g} s, {' and '.join(felled)}, fells it"
+        yield warning(
+            "robot", what, f"stiffer servos, of {ankle} and its image first: robot.yaml, actuations, or a lower posture"
+        )
 
 
 def _remedy(robot: Robot) -> str:

@@ -37,16 +37,29 @@ class Bare:
     def joints(self) -> tuple[str, ...]:
         return tuple(joint for leg in self.legs for joint in leg.joints)
 
+    @property
+    def standing(self) -> tuple[Leg, ...]:
+        """The limbs that stand."""
+        return tuple(leg for leg in self.legs if leg.stands)
+
+    @property
+    def columnar(self) -> bool:
+        """Whether it stands on four legs or more of two or three joints that lift and fold, whose postures have a closed
+        form."""
+        short = all(len(leg.joints) <= 3 and {"hfe", "kfe"} <= set(leg.roles) for leg in self.standing)
+        return short and len(self.standing) >= 4 and all(leg.roles[0] != "swing" for leg in self.standing)
+
     def data_at(self, angles: Mapping[str, float]) -> mujoco.MjData:
         """Kinematics with the trunk frame on the world frame; joints that are not named at zero."""
-        return self._set(mujoco.MjData(self.model), angles)
+        return self.put(mujoco.MjData(self.model), angles)
 
     @cached_property
     def _data(self) -> mujoco.MjData:
         """For many postures in turn: to make one takes longer than the kinematics of a posture."""
         return mujoco.MjData(self.model)
 
-    def _set(self, data: mujoco.MjData, angles: Mapping[str, float]) -> mujoco.MjData:
+    def put(self, data: mujoco.MjData, angles: Mapping[str, float]) -> mujoco.MjData:
+        """`data_at`, in data that is there already."""
         data.qpos[:] = 0.0
         data.qpos[int(self.model.jnt_qposadr[self.model.body_jntadr[self.trunk]]) + 3] = 1.0
         for joint, angle in angles.items():
@@ -59,10 +72,16 @@ class Bare:
         """(3,) [m], where the leg's foot ends, in the trunk frame."""
         return tip(self.model, data, self.model.geom(leg.foot).id, self.model.joint(leg.joints[-1]).id)
 
+    def stand_point(self, data: mujoco.MjData, leg: Leg) -> Array:
+        """(3,) [m], where the ground pushes: the middle of several shapes, else the foot's tip."""
+        if not leg.pads:
+            return self.tip(data, leg)
+        return np.mean([data.geom(pad).xpos for pad in leg.pads], axis=0)
+
     def leg_length(self, leg: Leg) -> float:
         """[m], from hip flexion over the knee to the end of the foot, along the links; of other legs, along all of them."""
-        data = self._set(self._data, self._zero(leg))
-        if not {"hfe", "kfe"} <= set(leg.roles):
+        data = self.put(self._data, self._zero(leg))
+        if not {"hfe", "kfe"} <= set(leg.roles) or leg.roles[0] == "swing":
             points = [*(data.joint(joint).xanchor for joint in leg.joints), self.tip(data, leg)]
             return float(sum(np.linalg.norm(b - a) for a, b in itertools.pairwise(points)))
         hip, knee = (data.joint(leg.joints[leg.roles.index(role)]).xanchor for role in ("hfe", "kfe"))
@@ -70,13 +89,17 @@ class Bare:
         flat = np.eye(3) - np.outer(axis, axis)
         return float(np.linalg.norm(flat @ (knee - hip)) + np.linalg.norm(flat @ (self.tip(data, leg) - knee)))
 
+    def resting(self, joint: str) -> float:
+        """[rad], zero, or the end of the range that is nearest to it."""
+        return float(np.clip(0.0, *self.ranges[joint]))
+
     def _zero(self, leg: Leg) -> dict[str, float]:
         return {joint: float(np.clip(0.0, *self.ranges[joint])) for joint in leg.joints}
 
     def posture(self, extension: float) -> dict[str, float] | None:
         """Joint -> angle [rad] with every foot under its hip, ``extension`` leg lengths below; None if out of range."""
         angles: dict[str, float] = {}
-        for leg in self.legs:
+        for leg in self.standing:
             found = self._stand(leg, extension)
             if found is None:
                 return None
@@ -88,7 +111,7 @@ class Bare:
         angles = self._zero(leg)
         hip, knee = (leg.joints[leg.roles.index(role)] for role in ("hfe", "kfe"))
         wanted = extension * self.leg_length(leg)
-        data = self._set(self._data, angles)
+        data = self.put(self._data, angles)
         anchor, axis = data.joint(hip).xanchor.copy(), data.joint(hip).xaxis.copy()
         pivot, hinge = data.joint(knee).xanchor.copy(), data.joint(knee).xaxis.copy()
         shank = self.tip(data, leg) - pivot
@@ -129,26 +152,31 @@ class Bare:
     def _outward(self, leg: Leg, angles: Mapping[str, float]) -> float:
         """How far the knee is from the line hip - foot, away from the middle of the robot [m]: where both ways are in range,
         knees bend inward, as HyQ's and ANYmal's."""
-        data = self._set(self._data, angles)
+        data = self.put(self._data, angles)
         hip, knee = (data.joint(leg.joints[leg.roles.index(role)]).xanchor for role in ("hfe", "kfe"))
         ahead = float(knee[0] - 0.5 * (hip[0] + self.tip(data, leg)[0]))
         return ahead if leg.end == "front" else -ahead
 
     def static_torque(self, angles: Mapping[str, float]) -> dict[str, float]:
         """Joint -> torque [Nm] that carries the robot on vertical foot forces of least norm."""
-        model, data = self.model, self.data_at(angles)
-        mujoco.mj_forward(model, data)
+        data = self.data_at(angles)
+        mujoco.mj_forward(self.model, data)
+        return self._carried(data, data.qfrc_bias, data.qfrc_bias - data.qfrc_passive)
+
+    def _carried(self, data: mujoco.MjData, bias: Array, load: Array) -> dict[str, float]:
+        """Joint -> torque [Nm] against a load (nv,), the feet carrying the weight, which is in bias (nv,)."""
+        model = self.model
         contacts, rows = [], []
-        for leg in self.legs:
-            point, body = self.tip(data, leg), int(model.geom_bodyid[model.geom(leg.foot).id])
+        for leg in self.standing:
+            point, body = self.stand_point(data, leg), int(model.geom_bodyid[model.geom(leg.foot).id])
             jacobian = np.zeros((3, model.nv))
             mujoco.mj_jac(model, data, jacobian, None, point, body)
             contacts.append(jacobian[2])
         free = int(model.jnt_dofadr[model.body_jntadr[self.trunk]])
         base = np.array([row[free : free + 6] for row in contacts]).T
         rows = np.array(contacts)
-        force = np.linalg.lstsq(base[2:5], data.qfrc_bias[free + 2 : free + 5], rcond=None)[0]
-        torque = data.qfrc_bias - data.qfrc_passive - rows.T @ force
+        force = np.linalg.lstsq(base[2:5], bias[free + 2 : free + 5], rcond=None)[0]
+        torque = load - rows.T @ force
         return {joint: float(torque[int(model.joint(joint).dofadr[0])]) for joint in self.joints}
 
     def joint_inertia(self, angles: Mapping[str, float]) -> dict[str, float]:
@@ -178,10 +206,16 @@ def _stands(bare: Bare, frame: Keyframe) -> bool:
     if any(not lower <= angles[joint] <= upper for joint, (lower, upper) in bare.ranges.items()):
         return False
     data = bare.data_at(angles)
-    feet = np.array([bare.tip(data, leg)[2] for leg in bare.legs])
-    lengths = np.array([bare.leg_length(leg) for leg in bare.legs])
-    hips = np.array([data.joint(leg.joints[leg.roles.index("hfe")]).xanchor[2] for leg in bare.legs])
-    return bool(np.ptp(feet) < 0.1 * lengths.mean() and ((hips - feet) > 0.5 * lengths).all())
+    feet = np.array([bare.tip(data, leg)[2] for leg in bare.standing])
+    lengths = np.array([bare.leg_length(leg) for leg in bare.standing])
+    hips = np.array([data.joint(leg.joints[_lift(leg)]).xanchor[2] for leg in bare.standing])
+    deep = 0.5 if all("swing" not in leg.roles[:1] for leg in bare.standing) else 0.15
+    return bool(np.ptp(feet) < 0.1 * lengths.mean() and ((hips - feet) > deep * lengths).all())
+
+
+def _lift(leg: Leg) -> int:
+    """Index of the joint that lifts the leg."""
+    return leg.roles.index("hfe") if "hfe" in leg.roles else 0
 
 
 def _within(angle: float, lower: float, upper: float) -> float | None:

@@ -25,7 +25,8 @@ def mirror_signs(robot: Robot, leader: Leg, follower: Leg) -> Array:
 
     Legs on different sides are reflected across the trunk's sagittal plane y = 0. Front and hind legs are reflected across
     the transverse plane halfway between their first joints, or shifted along x where all knees bend the same way: whichever
-    takes the neutral posture of the leader to that of the follower. Axes and positions are those at zero angles. Raises
+    takes the neutral posture of the leader to that of the follower. An insect's legs that are no images are turned about the
+    vertical. Axes and positions are those at zero angles. Raises
     `LevadeError` if the legs are not images of each other to 2 cm (or 5 % of the distance between them) and 1 degree.
     """
     where = f"robot {robot.name}: legs {leader.name} and {follower.name} are not mirror images"
@@ -44,9 +45,40 @@ def mirror_signs(robot: Robot, leader: Leg, follower: Leg) -> Array:
             problems.append(str(error))
         else:
             found.append((float(np.abs(signs * lead - follow).sum()), signs))
+    if not found and robot.stance == "sprawled":
+        turned = _turned_signs(robot, leader, follower)
+        if turned is not None:
+            return turned
     if not found:
         raise LevadeError(f"{where}: {problems[0]}")
     return min(found, key=lambda candidate: candidate[0])[1]
+
+
+def _turned_signs(robot: Robot, leader: Leg, follower: Leg) -> Array | None:
+    """The signs for legs that point outward and are the same but for where they point; None if they are not.
+
+    Each is taken in its own frame: outward, across and up, across the other way for legs on different sides.
+    """
+    data = robot.data_at(np.zeros(len(robot.joint_names)))
+    shapes = []
+    for leg in (leader, follower):
+        joints = [data.joint(joint) for joint in leg.joints]
+        first = joints[0].xanchor
+        away = (data.geom(leg.foot).xpos - first) * [1.0, 1.0, 0.0]
+        outward = away / max(float(np.linalg.norm(away)), 1e-9)
+        hand = -1.0 if leader.side != follower.side and leg is follower else 1.0
+        frame = np.array([outward, hand * np.cross([0.0, 0.0, 1.0], outward), [0.0, 0.0, 1.0]])
+        points = np.array([*(joint.xanchor - first for joint in joints), data.geom(leg.foot).xpos - first])
+        # a mirror takes the axis of a rotation to the opposite of its image
+        shapes.append((hand * np.array([joint.xaxis for joint in joints]) @ frame.T, points @ frame.T))
+    (axes, points), (other_axes, other_points) = shapes
+    reach = float(np.linalg.norm(points[-1]))
+    askew = np.linalg.norm(np.cross(axes, other_axes), axis=1).max()
+    if askew > np.sin(_ANGLE_TOLERANCE) or np.abs(points - other_points).max() > max(
+        _DISTANCE_TOLERANCE, _SHARE * reach
+    ):
+        return None
+    return np.where(np.sum(axes * other_axes, axis=1) < 0, -1.0, 1.0)
 
 
 def _signs(robot: Robot, leader: Leg, follower: Leg, mirror: Array) -> Array:

@@ -30,12 +30,19 @@ class NoFootError(LevadeError):
     """Nothing collides where a leg ends."""
 
 
+class FrameError(LevadeError):
+    """The trunk's frame does not have x forward, y left and z up."""
+
+
 @dataclass(frozen=True)
 class Leg:
     """One leg.
 
     joints: names from the trunk outward. foot: name of the geom that stands on the ground. side: "left" or "right".
-    end: "front" or "hind". roles: of the joints: "haa" (hip abduction), "hfe" (hip flexion), "kfe" (knee).
+    end: "front" or "hind"; "middle", or "row1", "row2" and so on, of other numbers of legs than four. roles: of the joints:
+    "haa" (hip abduction), "hfe" (hip flexion), "kfe" (knee); see `levade.robots.limbs.limb_roles`.
+    kind: "leg"; or "arm", "waist", "head", which move and do not stand: their foot is the geom at their end.
+    pads: names of all geoms that stand on the ground, where these are several, the foot among them.
     """
 
     name: str
@@ -44,6 +51,18 @@ class Leg:
     side: str
     end: str
     roles: tuple[str, ...] = ()
+    kind: str = "leg"
+    pads: tuple[str, ...] = ()
+
+    @property
+    def stands(self) -> bool:
+        """Whether it is there to stand on."""
+        return self.kind == "leg"
+
+    @property
+    def soles(self) -> tuple[str, ...]:
+        """Names of the geoms that stand on the ground."""
+        return self.pads or (self.foot,)
 
 
 @dataclass
@@ -133,10 +152,12 @@ def find_legs(model: mujoco.MjModel, trunk: int, where: str) -> tuple[tuple[Leg,
     """
     limbs = find_limbs(model, trunk)
     data = mujoco.MjData(model)
-    _level(model, data, trunk)
+    level(model, data, trunk)
     legs = _four_alike(model, limbs) or _four_within(model, trunk)
     if legs is None:
-        raise LevadeError(f"{where}: levade moves four legs of two or three hinges each; {_census(model, limbs)}")
+        raise LevadeError(
+            f"{where}: levade moves two and more legs of two to eight hinges each; {_census(model, limbs)}"
+        )
     for limb in legs:
         _check_roles(model, data, trunk, limb, where)
     centres = np.array([data.xanchor[limb.joints].mean(axis=0) for limb in legs])
@@ -147,7 +168,8 @@ def find_legs(model: mujoco.MjModel, trunk: int, where: str) -> tuple[tuple[Leg,
     ]
     if sorted(quadrants) != sorted(LEG_NAMES):
         turned = _turned(model, data, legs[0], np.array([data.xaxis[j] for j in legs[0].joints]))
-        raise LevadeError(
+        kind = FrameError if turned else LevadeError
+        raise kind(
             f"{where}: its four legs are not left, right, front and hind in the frame of {model.body(trunk).name}"
             f" (x forward, y left, z up); {f'it seems that {turned} there: ' if turned else ''}turn that frame"
         )
@@ -245,7 +267,8 @@ def _check_roles(model: mujoco.MjModel, data: mujoco.MjData, trunk: int, limb: L
     axes = np.array([data.xaxis[j] for j in limb.joints])
     turned = _turned(model, data, limb, axes)
     remedy = f"it seems that {turned} there: turn the model" if turned else "this limb is no such leg"
-    raise LevadeError(
+    kind = FrameError if turned else LevadeError
+    raise kind(
         f"{where}: joints {', '.join(names)} turn about {', '.join(map(_axis_name, axes))} of {model.body(trunk).name};"
         f" levade knows legs of hip abduction (about x), hip flexion and knee (about y), x forward; {remedy}"
     )
@@ -289,7 +312,7 @@ def _axis_name(axis: Array) -> str:
 def roles(model: mujoco.MjModel, joints: tuple[str, ...]) -> tuple[str, ...]:
     """Role of each joint of a leg by its axis at zero angles: about x abduction, about y hip flexion and then knee."""
     data = mujoco.MjData(model)
-    _level(model, data, int(model.body_rootid[model.jnt_bodyid[model.joint(joints[0]).id]]))
+    level(model, data, int(model.body_rootid[model.jnt_bodyid[model.joint(joints[0]).id]]))
     named = []
     for joint in joints:
         axis = np.abs(data.joint(joint).xaxis)
@@ -344,8 +367,8 @@ def moved_bodies(model: mujoco.MjModel, leg: Leg) -> list[int]:
     return bodies
 
 
-def _level(model: mujoco.MjModel, data: mujoco.MjData, trunk: int) -> None:
-    """Kinematics at zero angles, the trunk frame on the world frame."""
+def level(model: mujoco.MjModel, data: mujoco.MjData, trunk: int) -> None:
+    """Compute kinematics at zero angles, the trunk frame on the world frame."""
     data.qpos[:] = 0.0
     for j in range(model.njnt):
         if model.jnt_type[j] == mujoco.mjtJoint.mjJNT_FREE:

@@ -13,6 +13,7 @@ import numpy as np
 
 from levade.errors import LevadeError
 from levade.robots.findings import Finding, counted, named, note, some, warning
+from levade.robots.limbs import stands
 from levade.robots.understanding import has_legs
 
 _FREE = mujoco.mjtJoint.mjJNT_FREE
@@ -49,7 +50,8 @@ def robot_root(
     if len(free) == 1 and (_articulated(spec.body(free[0])) or not any(_articulated(root) for root in roots)):
         return free[0]
     jointed = [name for name in free if _articulated(spec.body(name))]
-    legged = [name for name in jointed if has_legs(model, model.body(name).id)]
+    mammals = [name for name in jointed if has_legs(model, model.body(name).id)]
+    legged = mammals or [name for name in jointed if stands(model, model.body(name).id)]
     for candidates in (legged, jointed):
         if len(candidates) == 1:
             return candidates[0]

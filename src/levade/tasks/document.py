@@ -33,6 +33,7 @@ from levade.document import CONTROL, build, kind_of, parse_yaml, read_text
 from levade.errors import LevadeError, did_you_mean
 from levade.optimizers import ALIASES, canonical
 from levade.robots import Dimensions, Robot, dimensions, load_robot
+from levade.tasks import stances
 from levade.tasks.code import (
     KEY,
     MissingCode,
@@ -114,7 +115,7 @@ def load_task(name_or_path: str | Path, *, robot: str | Robot | None = None, cha
                 and canonical(content["search"]["optimizer"]) != task.search.optimizer
             ):
                 content["search"]["settings"] = {}
-        task = _changed(content)
+        task = _changed(content, made)
     return task
 
 
@@ -130,9 +131,9 @@ def _other_robot(content: Any, name: str | None, changes: Sequence[str], *, wher
         return dataclasses.asdict(build(RobotChoice, table["robot"], where=f"{_CHANGES}.robot"))
 
 
-def _changed(content: Mapping[str, Any]) -> Task:
+def _changed(content: Mapping[str, Any], robot: Robot | None = None) -> Task:
     with _changing():
-        return task_from_dict(content, where=_CHANGES)
+        return task_from_dict(content, where=_CHANGES, robot=robot)
 
 
 _CHANGES = "changes"
@@ -163,6 +164,16 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
         LevadeError: If something is missing, unknown or wrong.
     """
     content = dict(content)
+
+    @functools.cache
+    def chosen() -> Robot:
+        if robot is not None:
+            return robot
+        choice = build(RobotChoice, content.get("robot", {}), where=f"{where}.robot")
+        return load_robot(choice.name, variant=choice.variant)
+
+    measures = functools.cache(lambda: dimensions(chosen()))
+    content = stances.on_robot(content, chosen, where)
     if isinstance(content.get("success"), Mapping):
         content["success"] = _with_quantities(content["success"], where)
         content["robust"] = _good_enough(content.get("robust"), content["success"], where)
@@ -171,13 +182,6 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
         content["costs"] = {
             name: {"term": name, **value} if isinstance(value, Mapping) else value for name, value in costs.items()
         }
-
-    @functools.cache
-    def measures() -> Dimensions:
-        if robot is not None:
-            return dimensions(robot)
-        choice = build(RobotChoice, content.get("robot", {}), where=f"{where}.robot")
-        return dimensions(load_robot(choice.name, variant=choice.variant))
 
     if isinstance(content.get("stages"), list):
         content["stages"] = [
@@ -444,7 +448,7 @@ def _apply(content: dict[str, Any], change: str) -> None:
 
 def _may_add(table: str, value: Any) -> bool:
     """Whether a change may add to a table; a wrong name there is told by the task itself."""
-    return table == "search.settings" or (table in ("costs", "success") and isinstance(value, Mapping))
+    return table in ("search.settings", "start.fall") or (table in ("costs", "success") and isinstance(value, Mapping))
 
 
 def _plain(value: Any) -> Any:

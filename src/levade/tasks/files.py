@@ -85,11 +85,11 @@ def read_task(path: Path, *, seen: tuple[Path, ...] = ()) -> dict[str, Any]:
         raise LevadeError(f"{path}: {EXTENDS}: {names}, in a circle; begin from a task of its own")
     if not isinstance(content.get("name"), str):
         raise LevadeError(f"{path}: name: is missing; a task that extends {named} has a name of its own")
-    return _extended(read_task(other, seen=seen), content)
+    return extended(read_task(other, seen=seen), content)
 
 
-def _extended(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
-    """The tables of a task with another one's changes."""
+def extended(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
+    """The tables of a task with the changes of one that extends it."""
     content = {**base, **changes}
     for name in MERGED:
         ours, theirs = changes.get(name), base.get(name)

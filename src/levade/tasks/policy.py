@@ -137,10 +137,13 @@ def leg_groups(choice: PolicyChoice, robot: Robot) -> tuple[Group, ...]:
         "sides": lambda leg: leg.side,
         "all": lambda leg: "",
         "independent": lambda leg: leg.name,
-    }
+    }  # of limbs of one kind: arms never do what legs do
     if isinstance(choice.groups, str):
         of = key[choice.groups]
-        grouped = [[leg for leg in legs if of(leg) == name] for name in dict.fromkeys(map(of, legs))]
+        grouped = [
+            [leg for leg in legs if (leg.kind, of(leg)) == name]
+            for name in dict.fromkeys((leg.kind, of(leg)) for leg in legs)
+        ]
     else:
         with located("policy.groups: "):
             grouped = [[robot.leg(name) for name in names] for names in choice.groups]

@@ -30,7 +30,7 @@ def check_reach(task: Task, robot: Robot, model: Any) -> None:
     """
     if task.scene.slope:
         return
-    leg, hip = max((_reaches(robot, leg) for leg in robot.legs), key=sum)
+    leg, hip = max((_reaches(robot, leg) for leg in robot.standing), key=sum)
     ground = _highest(model)
     highest = ground + leg + hip
     heights = {name: criterion for name, criterion in task.success.items() if criterion.quantity == "height"}

@@ -22,6 +22,7 @@ from levade.engines import ENGINES
 from levade.tasks.document import TERMS
 from levade.tasks.files import EXTENDS
 from levade.tasks.parts import HorizonRange
+from levade.tasks.stances import ATTITUDES, KEY, LYING, STANCES
 from levade.tasks.task import Task
 from levade.tasks.units import PLURALS, ROBOT_UNITS, UNITS, measured
 
@@ -47,6 +48,16 @@ def task_schema() -> Schema:
     engine["enum"] = list(ENGINES)
     task["properties"]["hardware"] = {"anyOf": [{"type": "boolean"}, task["properties"]["hardware"]]}
     definitions["StartChoice"] |= {"minProperties": 1, "maxProperties": 1}
+    definitions["Fall"]["properties"][LYING] = {
+        "enum": list(ATTITUDES["level"]),
+        "description": "The side that it comes to lie on: gives roll and pitch, by how the robot stands.",
+    }
+    task["properties"][KEY] = {
+        "type": "object",
+        "description": "What differs with how a robot stands; or a text: why the task means nothing there.",
+        "properties": {name: {"type": ["object", "string"]} for name in STANCES},
+        "additionalProperties": False,
+    }
     _extending(task)
     return {"$schema": DIALECT, "title": "levade task", **task, "$defs": definitions}
 

@@ -174,7 +174,7 @@ def _joints(robot: Robot) -> list[dict[str, Any]]:
 def _together(robot: Robot) -> list[dict[str, Any]]:
     """Ways to move several legs at a time, as mirror images: a label, and of each joint its group and sign in it."""
     ways: list[dict[str, Any]] = []
-    for label, key in (("left and right", lambda leg: leg.end), ("all legs", lambda leg: "")):
+    for label, key in (("left and right", lambda leg: leg.kind + leg.end), ("all legs", lambda leg: leg.kind)):
         leaders: dict[str, Leg] = {}
         joints: list[list[Any]] = []
         try:
@@ -230,7 +230,7 @@ def _feet(model: Any, robot: Robot) -> list[dict[str, Any]]:
     neutral = robot.postures["neutral"]
     down = robot.foot_depths(neutral) + robot.foot_positions(neutral)[:, 2]
     feet = []
-    for number, leg in enumerate(robot.legs):
+    for number, leg in enumerate(robot.standing):
         geom = model.geom(leg.foot)
         feet.append(
             {

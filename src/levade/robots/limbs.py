@@ -1,0 +1,461 @@
+"""Limbs of any robot: which branches of its kinematics stand on the ground, which do not, and what lies between.
+
+A limb is a way from the trunk outward to where it ends or falls apart into small parts, as a hand into fingers. What carries
+two or more limbs is a waist. Limbs that have a mirror image on the trunk's other side, and reach about as deep as any, are
+legs; other pairs are arms. Names are not looked at.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import mujoco
+import numpy as np
+
+from levade.arrays import Array
+from levade.errors import LevadeError
+from levade.robots.findings import some
+from levade.robots.shapes import reach, support, thickness
+from levade.robots.understanding import Leg, Tree, find_foot, level
+
+_HAND = 0.8
+"""Parts beyond a fork that reach less than this share of the limb before it are a hand's, not limbs of their own."""
+_DEEP = 0.75
+"""Of how deep the deepest limb reaches below the trunk, what a leg reaches at least."""
+_BELOW = 0.2
+"""Of a leg's length, by which legs reach below the trunk at least."""
+_ABOVE = 0.25
+"""Of a leg's length, by which legs may begin above the robot's centre of mass at most."""
+_SAMPLES = 200
+_LEVER = 0.4
+"""Of an arm's length: joints that move its end by less, such as a wrist's, are held."""
+_PAD = 0.5
+"""Of a foot's thickness: shapes on its link whose lowest point is this near to the lowest of all are part of the sole."""
+_SAME_PLACE = 0.05
+"""Of the distance between two limbs, or 2 cm: how far from mirror images they may be."""
+_ENDS = {1: ("middle",), 2: ("front", "hind"), 3: ("front", "middle", "hind")}
+_SHORT = {"front": "f", "middle": "m", "hind": "h"}
+_DOWN = np.array([0.0, 0.0, -1.0])
+
+
+@dataclass
+class Branch:
+    """A way from the trunk outward.
+
+    stem: joints that it shares with other branches, from the trunk. joints: its own. body: the last that it moves.
+    low: z [m] of the deepest that it reaches. tip: (3,) [m], its end at zero angles.
+    length: [m], along its joints. start: z [m] of its first joint.
+    """
+
+    stem: tuple[int, ...]
+    joints: list[int]
+    body: int
+    low: float = 0.0
+    length: float = 0.0
+    start: float = 0.0
+    tip: Array = field(default_factory=lambda: np.zeros(3))
+
+
+@dataclass(frozen=True)
+class Limbs:
+    """What was found. legs: limbs that move, those that stand first. held: names of the other joints. wheels: of those, wheels.
+
+    problem: why there are no legs, in one line; empty if there are.
+    """
+
+    legs: tuple[Leg, ...]
+    held: tuple[str, ...]
+    wheels: tuple[str, ...] = ()
+    problem: str = ""
+
+
+def read_limbs(model: mujoco.MjModel, trunk: int, where: str, wanted: Mapping[str, str]) -> Limbs:
+    """Find the limbs of a robot of any kind.
+
+    Args:
+        model: The robot, floating freely.
+        trunk: Id of its trunk.
+        where: What messages start with.
+        wanted: "arm", "waist", "head" or "wheel" -> "free" or "held", where it is not as usual.
+
+    Raises:
+        LevadeError: If its legs are not in the trunk's frame, or end in nothing that collides.
+    """
+    data = mujoco.MjData(model)
+    level(model, data, trunk)
+    tree = Tree(model)
+    branches = [branch for start in tree.starts(trunk) for branch in _branches(tree, data, start, ())]
+    wheels = _take_wheels(model, data, tree, branches) if wanted.get("wheel") != "free" else []
+    branches = [branch for branch in branches if branch.joints]
+    _measure(model, data, tree, trunk, branches)
+    pairs = _pairs(model, data, branches)
+    standing = _standing(model, data, branches, pairs)
+    body = _colliding(model, {b for b in range(model.nbody) if model.body_weldid[b] == model.body_weldid[trunk]})
+    floor = min((float(support(model, data, g, _DOWN)[2]) for g in body), default=0.0)
+    middle = float(data.subtree_com[trunk, 2])
+    if standing and all(
+        branch.low > floor - _BELOW * branch.length or branch.start > middle + _ABOVE * branch.length
+        for branch in standing
+    ):
+        return Limbs((), (), (), "the limbs that may be legs are arms: they hang high, or hardly reach below the trunk")
+    stray = _stray(data, branches, standing)
+    if stray is not None:
+        name = model.joint(stray.joints[0]).name
+        return Limbs((), (), (), f"the limb from {name} reaches as deep as the legs, and is none of them")
+    if len(standing) < 2:
+        return Limbs((), (), (), _census(model, branches))
+    legs = _named_legs(model, data, trunk, standing, where)
+    rest = [branch for branch in branches if all(branch is not one for one in standing)]
+    legs += _others(model, data, tree, rest, pairs, standing, wanted)
+    used = {joint for leg in legs for joint in leg.joints}
+    free = mujoco.mjtJoint.mjJNT_FREE
+    names = [model.joint(j).name for j in range(model.njnt) if model.jnt_type[j] != free]
+    return Limbs(tuple(legs), tuple(n for n in names if n not in used), tuple(model.joint(j).name for j in wheels))
+
+
+def stands(model: mujoco.MjModel, trunk: int) -> bool:
+    """Whether legs of any kind hang on the body of that id."""
+    try:
+        return not read_limbs(model, trunk, "", {}).problem
+    except LevadeError:  # legs, which something else is wrong with
+        return True
+
+
+def _branches(tree: Tree, data: mujoco.MjData, body: int, stem: tuple[int, ...]) -> list[Branch]:
+    """The branches from a body with joints outward."""
+    joints: list[int] = []
+    first = data.xanchor[tree.joints(body)[0]].copy()
+    place, length = first, 0.0
+    while True:
+        for joint in tree.joints(body):
+            length += float(np.linalg.norm(data.xanchor[joint] - place))
+            place = data.xanchor[joint].copy()
+            joints.append(joint)
+        further = tree.moving(body)
+        if not further:
+            return [Branch(stem, joints, body)]
+        sizes = [(_size(tree, data, child, place), child) for child in further]
+        large = [child for size, child in sizes if size > _HAND * length]
+        largest = max(sizes)[1]
+        if len(large) > 1:
+            nearer = (*stem, *joints)
+            return [branch for child in large for start in _starts(tree, child) for branch in
+                    _branches(tree, data, start, nearer)]  # fmt: skip
+        if len(further) > 1 and not large:
+            return [Branch(stem, joints, body)]
+        body = largest
+
+
+def _starts(tree: Tree, body: int) -> list[int]:
+    return [body] if tree.model.body_jntnum[body] else tree.starts(body)
+
+
+def _size(tree: Tree, data: mujoco.MjData, body: int, place: Array) -> float:
+    """[m], how far from a place what a body carries reaches."""
+    model, below = tree.model, tree.below(body)
+    ends = [data.xanchor[j] for b in below for j in tree.joints(b)]
+    far = [float(np.linalg.norm(end - place)) for end in ends]
+    far += [reach(model, data, g, place) for g in _colliding(model, below)]
+    return max(far, default=0.0)
+
+
+def _colliding(model: mujoco.MjModel, bodies: set[int]) -> list[int]:
+    return [
+        g
+        for g in range(model.ngeom)
+        if int(model.geom_bodyid[g]) in bodies and (model.geom_contype[g] or model.geom_conaffinity[g])
+    ]
+
+
+def _take_wheels(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, branches: list[Branch]) -> list[int]:
+    """Take last joints that turn without end, about the middle of what they carry, off their branches."""
+    found = []
+    for branch in branches:
+        while branch.joints and _is_wheel(model, data, tree, branch.joints[-1]):
+            found.append(branch.joints.pop())
+    return found
+
+
+def _is_wheel(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, joint: int) -> bool:
+    if model.jnt_type[joint] != mujoco.mjtJoint.mjJNT_HINGE:
+        return False
+    endless = not model.jnt_limited[joint] or float(np.ptp(model.jnt_range[joint])) > 2 * np.pi + 0.1
+    geoms = _colliding(model, tree.below(int(model.jnt_bodyid[joint])))
+    if not endless or not geoms:
+        return False
+    axis, anchor = data.xaxis[joint], data.xanchor[joint]
+    for geom in geoms:
+        centre = data.geom_xpos[geom] + data.geom_xmat[geom].reshape(3, 3) @ model.geom_aabb[geom, :3]
+        off = float(np.linalg.norm(np.cross(axis, centre - anchor)))
+        if off > 0.2 * float(model.geom_rbound[geom]):
+            return False
+    return True
+
+
+def _measure(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, trunk: int, branches: Sequence[Branch]) -> None:
+    """How deep every branch reaches within its ranges, sampled, and where it ends."""
+    generator = np.random.default_rng(0)
+    geoms = [_colliding(model, tree.below(int(model.jnt_bodyid[branch.joints[-1]]))) for branch in branches]
+    for branch, own in zip(branches, geoms, strict=True):
+        anchor = data.xanchor[branch.joints[-1]]
+        branch.tip = np.mean([data.geom_xpos[g] for g in own], axis=0) if own else anchor.copy()
+        points = [*data.xanchor[branch.joints], branch.tip]
+        branch.start = float(points[0][2])
+        branch.length = float(sum(np.linalg.norm(b - a) for a, b in itertools.pairwise(points)))
+        branch.low = min((float(support(model, data, g, _DOWN)[2]) for g in own), default=float(anchor[2]))
+    moved = mujoco.MjData(model)
+    hinges = [j for branch in branches for j in branch.joints if model.jnt_type[j] == mujoco.mjtJoint.mjJNT_HINGE]
+    lower, upper = _ranges(model, hinges)
+    for _ in range(_SAMPLES):
+        moved.qpos[:] = data.qpos
+        moved.qpos[model.jnt_qposadr[hinges]] = generator.uniform(lower, upper)
+        mujoco.mj_kinematics(model, moved)
+        for branch, own in zip(branches, geoms, strict=True):
+            for g in own:
+                branch.low = min(branch.low, float(support(model, moved, g, _DOWN)[2]))
+
+
+def _ranges(model: mujoco.MjModel, joints: Sequence[int]) -> tuple[Array, Array]:
+    limited = np.array([bool(model.jnt_limited[j]) for j in joints], dtype=bool)
+    bounds = np.clip(np.array([model.jnt_range[j] for j in joints]).reshape(-1, 2), -np.pi, np.pi)
+    return np.where(limited, bounds[:, 0], -np.pi), np.where(limited, bounds[:, 1], np.pi)
+
+
+def _pairs(model: mujoco.MjModel, data: mujoco.MjData, branches: Sequence[Branch]) -> dict[int, int]:
+    """Index of a branch -> that of its mirror image across the trunk's sagittal plane."""
+    found: dict[int, int] = {}
+    for i, one in enumerate(branches):
+        for k in range(i + 1, len(branches)):
+            other = branches[k]
+            if i in found or k in found or one.stem != other.stem or len(one.joints) != len(other.joints):
+                continue
+            a, b = data.xanchor[one.joints[0]], data.xanchor[other.joints[0]]
+            apart = float(np.linalg.norm(one.tip - other.tip))
+            tolerance = max(0.02, _SAME_PLACE * apart)
+            image = np.array([1.0, -1.0, 1.0])
+            # where on its axis a joint is anchored does not count: the ends do, and all axes
+            axes = [
+                float(np.linalg.norm(np.cross(image * data.xaxis[p], data.xaxis[q])))
+                for p, q in zip(one.joints, other.joints, strict=True)
+            ]
+            places = [(one.tip, other.tip)]  # files have feet that are no images, on legs that are
+            places.append(tuple(data.xanchor[branch.joints].mean(axis=0) for branch in (one, other)))
+            off = min(float(np.linalg.norm(image * p - q)) for p, q in places)
+            near = off <= 2 * tolerance and a[1] * b[1] <= 0
+            if near and max(axes) < 0.1 and apart > 1e-3:
+                found[i], found[k] = k, i
+    return found
+
+
+def _standing(
+    model: mujoco.MjModel, data: mujoco.MjData, branches: Sequence[Branch], pairs: Mapping[int, int]
+) -> list[Branch]:
+    """The branches that stand: hinges alone, one of which lifts the limb, reaching about as deep as any."""
+    hinge = mujoco.mjtJoint.mjJNT_HINGE
+    able = [
+        i
+        for i, branch in enumerate(branches)
+        if all(model.jnt_type[j] == hinge for j in branch.joints)
+        and 2 <= len(branch.joints) <= 8
+        and "hfe" in limb_roles(model, data, [model.joint(j).name for j in branch.joints], branch.tip)
+    ]
+    paired = [i for i in able if i in pairs]
+    if not paired:  # legs that point every way, as spokes
+        paired = able if len(able) > 2 else []
+    if not paired:
+        return []
+    lowest = min(branches[i].low for i in able)  # one that is deeper, and has no image, is a leg that lacks its other
+    deep = [i for i in paired if branches[i].low <= (_DEEP * lowest if lowest < 0 else lowest + 1e-9)]
+    alike = [
+        i
+        for i in able  # spokes straight ahead and behind have no image, and are as the others
+        if i not in deep and len(branches[i].joints) in {len(branches[k].joints) for k in deep}
+        and branches[i].low <= _DEEP * lowest and len(deep) > 2 and not branches[i].stem
+    ]  # fmt: skip
+    chosen = sorted([*deep, *alike])
+    return [branches[i] for i in chosen if len(chosen) <= 8]
+
+
+def _stray(data: mujoco.MjData, branches: Sequence[Branch], standing: Sequence[Branch]) -> Branch | None:
+    """A limb on one side that reaches as deep as legs, and is no leg; an arm or a tail in the middle may."""
+    if not standing:
+        return None
+    deep = _DEEP * max(branch.low for branch in standing)
+    width = float(np.mean([abs(data.xanchor[branch.joints[0]][1]) for branch in standing]))
+    for branch in branches:
+        leg = any(branch is one for one in standing)
+        if not leg and branch.low <= deep < 0 and abs(data.xanchor[branch.joints[0]][1]) > 0.25 * width > 0:
+            return branch
+    return None
+
+
+def _named_legs(
+    model: mujoco.MjModel, data: mujoco.MjData, trunk: int, standing: list[Branch], where: str
+) -> list[Leg]:
+    centres = np.array([data.xanchor[branch.joints].mean(axis=0) for branch in standing])
+    middle = centres.mean(axis=0)
+    tips = np.array([branch.tip for branch in standing])
+    across, along = np.ptp(centres[:, 1]) + np.ptp(tips[:, 1]), np.ptp(centres[:, 0]) + np.ptp(tips[:, 0])
+    name = model.body(trunk).name
+    if len(standing) == 2 and along > across:
+        raise LevadeError(
+            f"{where}: its two legs are not left and right in the frame of {name} (x forward, y left, z up); it seems that y"
+            " is forward there: turn that frame"
+        )
+    sides = {side: [i for i in range(len(standing)) if (centres[i, 1] >= middle[1]) == (side == "left")]
+             for side in ("left", "right")}  # fmt: skip
+    legs: list[Leg] = []
+    for side, members in sides.items():
+        members.sort(key=lambda i: -(centres[i, 0] + tips[i, 0]))
+        even = len(sides["left"]) == len(sides["right"]) and len(members) in _ENDS
+        for rank, i in enumerate(members):
+            end = _ENDS[len(members)][rank] if even else f"row{rank + 1}"
+            letter = "" if len(members) == 1 and even else _SHORT.get(end, str(rank + 1))
+            joints = tuple(model.joint(j).name for j in standing[i].joints)
+            short = f"{side[0]}{letter}"
+            foot = find_foot(model, standing[i].joints[-1], f"{where}: leg {short}")
+            away = standing[i].tip - data.xanchor[standing[i].joints[0]]
+            pads = _pads(model, data, foot) if abs(away[2]) > np.linalg.norm(away[:2]) else ()
+            legs.append(
+                Leg(short, joints, foot, side, end, limb_roles(model, data, joints, standing[i].tip), pads=pads)
+            )
+    rank = {leg.name: (_order(leg.end), leg.side == "right") for leg in legs}
+    return sorted(legs, key=lambda leg: rank[leg.name])
+
+
+def _order(end: str) -> int:
+    return {"front": 0, "middle": 1, "hind": 2}.get(end, int(end[3:]) if end[3:].isdigit() else 0)
+
+
+def _pads(model: mujoco.MjModel, data: mujoco.MjData, foot: str) -> tuple[str, ...]:
+    """Names of the shapes that stand on the ground with the foot: those of its link that reach as deep, hanging down.
+
+    Empty where the foot alone does.
+    """
+    geom = model.geom(foot).id
+    own = _colliding(model, {int(model.geom_bodyid[geom])})
+    low = {g: float(support(model, data, g, _DOWN)[2]) for g in own}
+    pads = [g for g in own if low[g] <= min(low.values()) + _PAD * thickness(model, geom)]
+    return tuple(model.geom(g).name for g in pads) if len(pads) > 1 and geom in pads else ()
+
+
+def _others(
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    tree: Tree,
+    rest: Sequence[Branch],
+    pairs: Mapping[int, int],
+    standing: Sequence[Branch],
+    wanted: Mapping[str, str],
+) -> list[Leg]:
+    """Arms, where they move, and the waist and the head, where they are asked for."""
+    usual = {"arm": "free" if len(standing) == 2 else "held", "waist": "held", "head": "held"}
+    kinds = {**usual, **wanted}
+    found: list[Leg] = []
+    hinge = mujoco.mjtJoint.mjJNT_HINGE
+    counts: dict[str, int] = {}
+    arms = _arms(model, data, rest)
+    for branch in rest:
+        kind = "arm" if any(branch is arm for arm in arms) else "head"
+        if kinds[kind] != "free" or any(model.jnt_type[j] != hinge for j in branch.joints):
+            continue
+        joints = branch.joints if wanted.get(kind) == "free" else _levers(model, data, tree, branch)
+        geoms = _colliding(model, tree.below(int(model.jnt_bodyid[branch.joints[0]])))
+        if joints and geoms:
+            side = "left" if branch.tip[1] > 0.02 else "right" if branch.tip[1] < -0.02 else "middle"
+            found.append(_limb(model, data, kind, side, joints, branch.tip, geoms, counts))
+    found.sort(key=lambda limb: (limb.kind, limb.end, {"left": 0, "right": 1}.get(limb.side, 2)))
+    stems = sorted({branch.stem for branch in [*rest, *standing] if branch.stem}, key=len)
+    if kinds["waist"] == "free" and stems:
+        joints = [j for j in stems[-1] if model.jnt_type[j] == hinge]
+        geoms = _colliding(model, tree.below(int(model.jnt_bodyid[stems[-1][-1]])))
+        if joints and geoms and not any(branch.stem for branch in standing):
+            found.append(_limb(model, data, "waist", "middle", joints, data.xanchor[joints[-1]], geoms, counts))
+    return found
+
+
+def _limb(
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    kind: str,
+    side: str,
+    joints: Sequence[int],
+    tip: Array,
+    geoms: Sequence[int],
+    counts: dict[str, int],
+) -> Leg:
+    """A limb that does not stand; its foot is the shape that reaches farthest."""
+    short = f"{side[0]}a" if kind == "arm" and side != "middle" else kind
+    counts[short] = counts.get(short, 0) + 1
+    name = short if counts[short] == 1 else f"{short}{counts[short]}"
+    anchor = data.xanchor[joints[0]]
+    end = max(geoms, key=lambda g: reach(model, data, g, anchor))
+    names = tuple(model.joint(j).name for j in joints)
+    place = "middle" if counts[short] == 1 else f"row{counts[short]}"
+    return Leg(name, names, model.geom(end).name, side, place, limb_roles(model, data, names, tip), kind=kind)
+
+
+def _arms(model: mujoco.MjModel, data: mujoco.MjData, rest: Sequence[Branch]) -> list[Branch]:
+    """Limbs of three hinges and more that do not stand: those with an image, or else the longest."""
+    long = [branch for branch in rest if len(branch.joints) >= 3]
+    mirrored = [rest[i] for i in _pairs(model, data, rest)]
+    return [branch for branch in long if any(branch is one for one in mirrored)] or long
+
+
+def _levers(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, branch: Branch) -> list[int]:
+    """The joints of an arm that move its end by much: all but those of the wrist."""
+    moved = mujoco.MjData(model)
+    generator = np.random.default_rng(0)
+    lower, upper = _ranges(model, branch.joints)
+    lever = np.zeros(len(branch.joints))
+    last = branch.joints[-1]
+    geoms = _colliding(model, tree.below(int(model.jnt_bodyid[last])))
+    beyond = max((reach(model, data, g, data.xanchor[last]) for g in geoms), default=0.0)
+    for _ in range(64):
+        moved.qpos[:] = data.qpos
+        moved.qpos[model.jnt_qposadr[branch.joints]] = generator.uniform(lower, upper)
+        mujoco.mj_kinematics(model, moved)
+        mujoco.mj_comPos(model, moved)
+        away = np.mean([moved.geom_xpos[g] for g in geoms] or [moved.xanchor[last]], axis=0) - moved.xanchor[last]
+        end = moved.xanchor[last] + beyond * away / max(float(np.linalg.norm(away)), 1e-9)
+        arms = np.cross(moved.xaxis[branch.joints], end - moved.xanchor[branch.joints])
+        lever = np.maximum(lever, np.linalg.norm(arms, axis=1))
+    links = np.diff(data.xanchor[branch.joints], axis=0)
+    length = beyond + float(np.linalg.norm(links, axis=1).sum())
+    return branch.joints[: int(np.flatnonzero(lever >= _LEVER * length).max(initial=-1)) + 1]
+
+
+def limb_roles(model: mujoco.MjModel, data: mujoco.MjData, joints: Sequence[str], tip: Array) -> tuple[str, ...]:
+    """Role of each joint by what it does at zero angles, in the plane in which the limb points outward.
+
+    "haa" spreads the limb, "hfe" lifts it, "kfe" folds it, "pitch" and "roll" turn what is beyond; "yaw" turns about the
+    vertical, which is called "swing" of a limb that points outward.
+
+    data: kinematics at zero angles, the trunk frame on the world frame. tip: (3,) [m], where the limb ends.
+    """
+    away = tip - data.joint(joints[0]).xanchor
+    flat = np.array([away[0], away[1], 0.0])
+    sprawled = np.linalg.norm(flat) > abs(away[2])
+    outward = flat / max(float(np.linalg.norm(flat)), 1e-9) if sprawled else np.array([1.0, 0.0, 0.0])
+    across = np.cross([0.0, 0.0, 1.0], outward)
+    named: list[str] = []
+    for joint in joints:
+        axis = data.joint(joint).xaxis
+        shares = {"yaw": abs(axis[2]), "pitch": abs(float(axis @ across)), "roll": abs(float(axis @ outward))}
+        kind = max(shares, key=lambda key: shares[key])
+        if kind == "pitch":
+            named.append("hfe" if "hfe" not in named else "kfe" if "kfe" not in named else "pitch")
+        elif kind == "roll":
+            named.append("haa" if "haa" not in named and "kfe" not in named else "roll")
+        else:
+            named.append("swing" if sprawled else "yaw")
+    return tuple(named)
+
+
+def _census(model: mujoco.MjModel, branches: Sequence[Branch]) -> str:
+    if not branches:
+        return "this model has no joints beside its free base"
+    counted = [f"{len(b.joints)} from {model.joint(b.joints[0]).name}" for b in branches]
+    return f"no two limbs of two to eight hinges stand alike left and right of the trunk (limbs: {some(counted, 6)})"

@@ -1,0 +1,371 @@
+"""Neutral postures of robots of any kind, by search: standing still, balanced, soles flat, clear of stops and of each other.
+
+The legs of quadrupeds have a closed form (`levade.robots.standing`). Here CMA-ES looks for the angles that cost least. Left
+and right limbs do the same. Every term is a share of the robot's own measures, so that size does not matter.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from levade.arrays import Array
+from levade.robots.shapes import support
+from levade.robots.standing import Bare
+from levade.robots.understanding import Leg
+
+UPRIGHT_EXTENSION, SPRAWLED_EXTENSION, LEVEL_EXTENSION = 0.94, 0.4, 0.8
+"""Hip above sole as a share of the leg's length: on two legs, with limbs that point outward, and others."""
+CROUCHED = 0.7
+"""Extension of the crouched posture, as a share of that of the neutral one."""
+
+_LEG_TRIES, _ARM_TRIES, _AGAIN, _POPULATION = 200, 100, 80, 12
+"""Trials of each joint that is searched: for the legs, for arms, and for legs that begin near; and of each generation."""
+_ATTEMPTS = 4
+"""Searches, each from the best of those before it, until the robot is balanced."""
+_STOP = 0.06
+"""Of a joint's range, at most 0.1 rad: how far from its ends a posture stays."""
+_DOWN = np.array([0.0, 0.0, -1.0])
+_DIGITS = 4
+
+
+@dataclass(frozen=True)
+class Sole:
+    """What of a leg stands on the ground.
+
+    geoms, body: ids. flat: whether it can stand flat. first, last: the leg's first and last joint. lifting: its joints that
+    lift and fold it.
+    """
+
+    leg: Leg
+    geoms: tuple[int, ...]
+    body: int
+    flat: bool
+    first: int
+    last: int
+    lifting: tuple[int, ...]
+
+
+class PostureSearch:
+    """The search for one robot's postures.
+
+    bare: the robot. torque: (joints,) [Nm], limits. Postures are angles [rad], shape (joints,), in the robot's joint order.
+    """
+
+    def __init__(self, bare: Bare, torque: Array) -> None:
+        self.bare, self.model = bare, bare.model
+        model = self.model
+        self.data = mujoco.MjData(model)
+        self.joints = {name: k for k, name in enumerate(bare.joints)}
+        self.ids = np.array([model.joint(name).id for name in bare.joints])
+        self._qpos, self._dof = model.jnt_qposadr[self.ids], model.jnt_dofadr[self.ids]
+        self.torque = np.where(np.isfinite(torque) & (torque > 0), torque, np.inf)
+        spans = np.clip(np.array([bare.ranges[name] for name in bare.joints], dtype=float), -np.pi, np.pi)
+        self.lower, self.upper = spans[:, 0], spans[:, 1]
+        self.zero = np.clip(np.zeros(len(bare.joints)), self.lower, self.upper)
+        geoms = [g for g in range(model.ngeom) if model.geom_contype[g] or model.geom_conaffinity[g]]
+        self.soles = tuple(self._sole(leg) for leg in bare.standing)
+        feet = {int(model.geom_bodyid[g]) for sole in self.soles for g in sole.geoms}
+        self._shapes = np.array([g for g in geoms if int(model.geom_bodyid[g]) not in feet], dtype=int)
+        self._free = int(model.jnt_dofadr[model.body_jntadr[bare.trunk]])
+        self._put(self.zero)
+        self._links = [data_rotation(self.data, sole.body) for sole in self.soles]
+        self._flat = [_between(np.array([0.0, 0.0, 1.0]), self._normal(sole)) for sole in self.soles]
+        self.lengths = np.array([self._length(sole) for sole in self.soles])
+        self.scale = float(self.lengths.max())
+        self.sprawled = sprawled(bare)
+        toes = [self._centre(sole)[0] - self.data.xanchor[sole.last][0] for sole in self.soles]
+        self._ahead = -1.0 if float(np.mean(toes)) < -0.02 * self.scale else 1.0
+
+    def extension(self) -> float:
+        """Of the neutral posture: hip above sole, as a share of the leg's length."""
+        if self.sprawled:
+            return SPRAWLED_EXTENSION if max(len(sole.lifting) for sole in self.soles) > 1 else 0.65
+        return UPRIGHT_EXTENSION if len(self.soles) == 2 else LEVEL_EXTENSION
+
+    def neutral(self) -> Array:
+        """Arms let down first, then the legs below them."""
+        angles = self.zero
+        arms = [leg for leg in self.bare.legs if not leg.stands]
+        if arms:
+            angles = self._search(angles, arms, lambda posture: self._arm_cost(posture, arms), _ARM_TRIES)
+        return self.standing(angles, self.extension(), _LEG_TRIES)
+
+    def standing(self, angles: Array, extension: float, tries: int = _AGAIN) -> Array:
+        """The legs so long, what does not stand as it is; from angles that are near."""
+        legs = list(self.bare.standing)
+
+        def cost(posture: Array) -> float:
+            return self._leg_cost(posture, extension)
+
+        if self.sprawled and len({len(leg.joints) for leg in legs}) == 1:  # all alike at first
+            angles = self._search(angles, legs, cost, tries, self._turned(legs))
+            self._put(angles)
+            if np.ptp([self._lowest(sole) for sole in self.soles]) < 0.005 * self.scale:
+                return angles
+        best = angles
+        for seed in range(1, _ATTEMPTS + 1):
+            found = self._search(best, legs, cost, tries, seed=seed)
+            best = min(best, found, key=cost) if seed > 1 else found
+            if self._balanced(best):
+                break
+        return best
+
+    def _balanced(self, angles: Array) -> bool:
+        """Whether a search has come to its end: the centre of mass over the middle of the feet, and these level."""
+        self._put(angles)
+        middle = np.mean([self._centre(sole)[:2] for sole in self.soles], axis=0)
+        off = self.data.subtree_com[self.bare.trunk][:2] - middle
+        lows = [self._lowest(sole) for sole in self.soles]
+        return bool(np.linalg.norm(off) < 0.03 * self.scale and np.ptp(lows) < 0.01 * self.scale)
+
+    def faults(self, angles: Array) -> list[str]:
+        """What keeps a posture from being one to stand in."""
+        self._put(angles)
+        lows = np.array([self._lowest(sole) for sole in self.soles])
+        hips = np.array([self.data.xanchor[sole.lifting[0]][2] for sole in self.soles])
+        found = []
+        if np.ptp(lows) > 0.03 * self.scale:
+            found.append(f"its feet are {np.ptp(lows):.2g} m apart in height")
+        if float((hips - lows).min()) < 0.1 * self.scale:
+            found.append("its feet do not come below its hips")
+        return found
+
+    # what is searched
+
+    def _search(
+        self,
+        angles: Array,
+        limbs: Sequence[Leg],
+        cost: Callable[[Array], float],
+        tries: int,
+        alike: tuple[list[int], list[int], Array, list[int]] | None = None,
+        *,
+        seed: int = 1,
+    ) -> Array:
+        """The cheapest angles of some limbs; alike: which joints do the same, by default those of left and right."""
+        import cma
+
+        leaders, followers, signs, images = alike or self._leaders(limbs)
+        lower, upper = self.lower[leaders], self.upper[leaders]
+        scale = np.maximum(np.minimum(upper - lower, 2.0) * 0.25, 1e-3)
+        centre = angles[leaders]
+
+        def posture(u: Array) -> Array:
+            made = angles.copy()
+            made[leaders] = np.clip(centre + u * scale, lower, upper)
+            made[followers] = np.clip(signs * made[images], self.lower[followers], self.upper[followers])
+            return made
+
+        def total(u: Array) -> float:
+            x = centre + u * scale
+            over = (x - np.clip(x, lower, upper)) / scale
+            return cost(posture(u)) + 10.0 * float(over @ over)
+
+        options = {
+            "popsize": _POPULATION,
+            "maxfevals": tries * len(leaders),
+            "verbose": -9,
+            "seed": seed,
+            "tolfun": 1e-6,
+        }
+        es = cma.CMAEvolutionStrategy(np.zeros(len(leaders)), 0.6, options)
+        while not es.stop():
+            asked = es.ask()
+            es.tell(asked, [total(u) for u in asked])
+        return posture(np.asarray(es.result.xbest)).round(_DIGITS)
+
+    def _leaders(self, limbs: Sequence[Leg]) -> tuple[list[int], list[int], Array, list[int]]:
+        """Joints that are searched; those that follow; with which sign; and whom."""
+        self._put(np.zeros(len(self.joints)))
+        axes = self.data.xaxis[self.ids]
+        leaders: list[int] = []
+        followers: list[int] = []
+        images: list[int] = []
+        signs: list[float] = []
+        for limb in limbs:
+            own = [self.joints[joint] for joint in limb.joints]
+            image = next(
+                (one for one in limbs if (one.kind, one.end) == (limb.kind, limb.end) and one.side == "left"), None
+            )
+            if image is None or limb.side != "right" or len(image.joints) != len(limb.joints):
+                leaders += own
+                continue
+            for joint, name in zip(own, image.joints, strict=True):
+                mirrored = np.array([-1.0, 1.0, -1.0]) * axes[self.joints[name]]
+                followers.append(joint)
+                images.append(self.joints[name])
+                signs.append(1.0 if mirrored @ axes[joint] >= 0 else -1.0)
+        return leaders, followers, np.array(signs), images
+
+    def _turned(self, legs: Sequence[Leg]) -> tuple[list[int], list[int], Array, list[int]]:
+        """As `_leaders`, of legs that all do the same, each in the direction in which it points."""
+        self._put(np.zeros(len(self.joints)))
+        axes = []
+        for leg, sole in zip(legs, self.soles, strict=True):
+            own = [self.joints[joint] for joint in leg.joints]
+            away = (self._centre(sole) - self.data.xanchor[sole.first]) * [1.0, 1.0, 0.0]
+            outward = away / max(float(np.linalg.norm(away)), 1e-9)
+            hand = 1.0 if leg.side == legs[0].side else -1.0
+            frame = np.array([outward, hand * np.cross([0.0, 0.0, 1.0], outward), [0.0, 0.0, 1.0]])
+            axes.append(hand * self.data.xaxis[self.ids[own]] @ frame.T)
+        first = [self.joints[joint] for joint in legs[0].joints]
+        followers = [self.joints[joint] for leg in legs[1:] for joint in leg.joints]
+        signs = np.where(np.sum(np.array(axes[1:]) * axes[0], axis=2) < 0, -1.0, 1.0).ravel()
+        return first, followers, signs, first * (len(legs) - 1)
+
+    # what it costs
+
+    def _leg_cost(self, angles: Array, extension: float) -> float:
+        self._put(angles)
+        data = self.data
+        centres = np.array([self._centre(sole) for sole in self.soles])
+        lows = np.array([self._lowest(sole) for sole in self.soles])
+        cost = 3e4 * float(np.var(lows)) / self.scale**2
+        for k, (sole, centre, length) in enumerate(zip(self.soles, centres, self.lengths, strict=True)):
+            hip, knee = data.xanchor[sole.lifting[0]], data.xanchor[sole.lifting[-1]]
+            cost += 40.0 * ((hip[2] - lows[k]) / length - extension) ** 2
+            if self.sprawled:
+                shank = centre - knee
+                cost += 1.5 * float(shank[:2] @ shank[:2]) / max(float(shank @ shank), 1e-9)
+            else:
+                cost += 30.0 * ((centre[1] - data.xanchor[sole.first][1]) / length) ** 2
+                if len(self.soles) > 2:
+                    cost += 10.0 * ((centre[0] - hip[0]) / length) ** 2
+                elif len(sole.lifting) > 1:  # knees of two legs bend forward, where both ways are in range
+                    ahead = (data.xanchor[sole.lifting[1]][0] - 0.5 * (hip[0] + centre[0])) / length * self._ahead
+                    cost += 20.0 * min(0.0, float(ahead)) ** 2
+            if sole.flat:
+                turned = data_rotation(data, sole.body) @ self._links[k].T @ self._flat[k]
+                cost += 60.0 * (1.0 - turned[2, 2]) + 10.0 * (1.0 - turned[0, 0])
+        off = data.subtree_com[self.bare.trunk][:2] - centres[:, :2].mean(axis=0)
+        cost += 0.1 * float(off @ off) / (0.02 * self.scale) ** 2
+        cost += self._clearance_cost(float(lows.min()))
+        return cost + self._comfort(angles) + self._load(centres)
+
+    def _arm_cost(self, angles: Array, arms: Sequence[Leg]) -> float:
+        self._put(angles)
+        cost = 0.0
+        for arm in arms:
+            shoulder = self.data.xanchor[self.ids[self.joints[arm.joints[0]]]]
+            hand = self.data.geom(arm.foot).xpos - shoulder
+            cost += float(hand[2]) / max(float(np.linalg.norm(hand)), 1e-9) + 1.0  # it hangs
+        return 2.0 * cost + self._comfort(angles) + 10.0 * self._overlap_cost()
+
+    def _comfort(self, angles: Array) -> float:
+        """Near zero, or the middle two thirds of the range, and clear of its ends."""
+        width = np.maximum(self.upper - self.lower, 1e-6)
+        ease = np.clip(0.0, self.lower + width / 6, self.upper - width / 6)
+        off = (angles - ease) / np.minimum(width, 3.0)
+        room = np.minimum(_STOP * width, 0.1)
+        short = np.maximum(0.0, room - np.minimum(angles - self.lower, self.upper - angles)) / room
+        return 0.2 * float(off @ off) + 0.5 * float(short @ short)
+
+    def _load(self, centres: Array) -> float:
+        """Torque that carries the robot on feet that push straight up, as shares of the limits."""
+        model, data, nv = self.model, self.data, self.model.nv
+        bias, jacobian = np.zeros(nv), np.zeros((3, nv))
+        mujoco.mj_comVel(model, data)
+        mujoco.mj_rne(model, data, 0, bias)
+        rows = np.empty((len(self.soles), nv))
+        for k, (sole, centre) in enumerate(zip(self.soles, centres, strict=True)):
+            mujoco.mj_jac(model, data, jacobian, None, centre, sole.body)
+            rows[k] = jacobian[2]
+        free = slice(self._free + 2, self._free + 5)
+        force = np.linalg.lstsq(rows[:, free].T, bias[free], rcond=None)[0]
+        shares = (bias - rows.T @ force)[self._dof] / self.torque
+        return 0.1 * float(shares @ shares) + 20.0 * float(np.sum(np.maximum(np.abs(shares) - 0.7, 0.0) ** 2))
+
+    def _clearance_cost(self, low: float) -> float:
+        """Nothing but soles near the ground, and nothing inside another part."""
+        reach = self.data.geom_xpos[self._shapes, 2] - np.asarray(self.model.geom_rbound)[self._shapes] - low
+        cost = 0.0
+        for geom in self._shapes[reach < 0.05 * self.scale]:
+            above = float(support(self.model, self.data, int(geom), _DOWN)[2]) - low
+            cost += 20.0 * min(0.0, above / self.scale - 0.05) ** 2
+        return cost + self._overlap_cost()
+
+    def _overlap_cost(self) -> float:
+        mujoco.mj_collision(self.model, self.data)
+        deep = np.minimum(self.data.contact.dist, 0.0) / self.scale
+        return 300.0 * float(deep @ deep) - 2.0 * float(deep.sum())
+
+    # what they look at
+
+    def _put(self, angles: Array) -> None:
+        data = self.data
+        data.qpos[:] = 0.0
+        data.qpos[self.model.jnt_qposadr[self.model.body_jntadr[self.bare.trunk]] + 3] = 1.0
+        data.qpos[self._qpos] = angles
+        mujoco.mj_kinematics(self.model, data)
+        mujoco.mj_comPos(self.model, data)
+
+    def _sole(self, leg: Leg) -> Sole:
+        model = self.model
+        geoms = tuple(model.geom(name).id for name in leg.soles)
+        round_ = model.geom_type[geoms[0]] in (mujoco.mjtGeom.mjGEOM_SPHERE, mujoco.mjtGeom.mjGEOM_CAPSULE)
+        half = np.sort(model.geom_aabb[geoms[0], 3:])
+        wide = len(geoms) > 1 or (not round_ and half[1] > 2 * half[0])
+        turns = any(role in ("pitch", "roll") for role in leg.roles)  # what can lay it flat
+        flat = bool(wide and turns and len(self.bare.standing) == 2)
+        joints = [model.joint(joint).id for joint in leg.joints]
+        lifting = [j for j, role in zip(joints, leg.roles, strict=True) if role in ("hfe", "kfe", "pitch")]
+        return Sole(leg, geoms, int(model.geom_bodyid[geoms[0]]), flat, joints[0], joints[-1], tuple(lifting or joints))
+
+    def _length(self, sole: Sole) -> float:
+        """[m], along the leg's links from the first joint that lifts it to the sole."""
+        points = [*(self.data.xanchor[j] for j in sole.lifting), self._centre(sole)]
+        return float(sum(np.linalg.norm(b - a) for a, b in itertools.pairwise(points)))
+
+    def _centre(self, sole: Sole) -> Array:
+        """(3,) [m], the middle of the sole's shapes."""
+        places = [self.data.geom_xpos[g] + self.data.geom_xmat[g].reshape(3, 3) @ self.model.geom_aabb[g, :3]
+                  for g in sole.geoms]  # fmt: skip
+        return np.sum(places, axis=0) / len(places)
+
+    def _lowest(self, sole: Sole) -> float:
+        return min(float(support(self.model, self.data, g, _DOWN)[2]) for g in sole.geoms)
+
+    def _normal(self, sole: Sole) -> Array:
+        """(3,), upward normal of the sole, of how thin its shapes are where they are now."""
+        points = np.concatenate([_corners(self.model, self.data, g) for g in sole.geoms])
+        _, spread, axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)
+        normal = axes[2] if spread[2] < 0.5 * spread[1] else np.array([0.0, 0.0, 1.0])
+        normal = normal if normal[2] >= 0 else -normal
+        # zeros that are almost flat are flat: files round
+        return normal if normal[2] < np.cos(np.radians(8)) else np.array([0.0, 0.0, 1.0])
+
+
+def data_rotation(data: mujoco.MjData, body: int) -> Array:
+    """(3, 3), attitude of a body."""
+    return data.xmat[body].reshape(3, 3).copy()
+
+
+def sprawled(bare: Bare) -> bool:
+    """Whether a robot's legs point outward, as an insect's, by their joints: most begin with one about the vertical.
+
+    Two legs never do.
+    """
+    standing = bare.standing
+    swings = [bool(leg.roles) and leg.roles[0] == "swing" for leg in standing]
+    return len(standing) > 2 and sum(swings) > len(standing) / 2
+
+
+def _corners(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> Array:
+    """(8, 3) [m], of the box around a geom."""
+    signs = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
+    local = model.geom_aabb[geom, :3] + signs * model.geom_aabb[geom, 3:]
+    return data.geom_xpos[geom] + local @ data.geom_xmat[geom].reshape(3, 3).T
+
+
+def _between(one: Array, other: Array) -> Array:
+    """(3, 3), the least rotation that takes one unit vector to another."""
+    axis, cosine = np.cross(one, other), float(one @ other)
+    if np.linalg.norm(axis) < 1e-9:
+        return np.eye(3)
+    skew = np.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
+    return np.eye(3) + skew + skew @ skew / (1.0 + cosine)

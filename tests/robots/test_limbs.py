@@ -1,0 +1,234 @@
+"""Limbs of any kind: which branches are legs, arms and waists; postures to stand in on two legs and on six."""
+
+from __future__ import annotations
+
+import itertools
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+
+from levade.errors import LevadeError
+from levade.robots import Robot, dimensions, load_robot
+from levade.robots.limbs import read_limbs
+from levade.robots.settling import settle
+from levade.robots.understanding import find_trunk
+from levade.tasks import load_task
+from levade.tasks.policy import leg_groups
+
+HEAD = '<mujoco><compiler angle="radian" autolimits="true"/><worldbody>'
+
+
+def hinge(name: str, axis: str, lower: float, upper: float, torque: float = 60.0) -> str:
+    return f'<joint name="{name}" axis="{axis}" range="{lower} {upper}" actuatorfrcrange="-{torque} {torque}" armature="0.01"/>'
+
+
+def leg(side: str, y: float) -> str:
+    """Six hinges; the foot is two boxes on one link."""
+    s = 1 if y > 0 else -1
+    spread = sorted((-0.4 * s, 1.2 * s))
+    return f"""
+<body name="{side}1" pos="0 {y} -0.05">{hinge(side + "_yaw", "0 0 1", -0.6, 0.6)}<geom type="sphere" size="0.03" mass="0.8"/>
+<body name="{side}2">{hinge(side + "_roll", "1 0 0", *spread)}<geom type="sphere" size="0.03" mass="0.8"/>
+<body name="{side}3">{hinge(side + "_pitch", "0 1 0", -2.0, 1.0)}
+ <geom type="capsule" fromto="0 0 -0.05 0 0 -0.3" size="0.035" mass="2.5"/>
+<body name="{side}4" pos="0 0 -0.35">{hinge(side + "_knee", "0 1 0", 0.0, 2.3)}
+ <geom type="capsule" fromto="0 0 -0.05 0 0 -0.28" size="0.03" mass="1.5"/>
+<body name="{side}5" pos="0 0 -0.35">{hinge(side + "_foot_pitch", "0 1 0", -0.9, 0.6)}
+ <geom type="sphere" size="0.02" mass="0.2"/>
+<body name="{side}6">{hinge(side + "_foot_roll", "1 0 0", -0.5, 0.5)}
+ <geom name="{side}_toe" type="box" size="0.05 0.04 0.015" pos="0.08 0 -0.05" mass="0.3"/>
+ <geom name="{side}_heel" type="box" size="0.04 0.03 0.015" pos="-0.03 0 -0.05" mass="0.3"/>
+</body></body></body></body></body></body>"""
+
+
+def arm(side: str, y: float) -> str:
+    """Three hinges that move the hand by much, and one that turns it; two fingers."""
+    s = 1 if y > 0 else -1
+    fingers = "".join(
+        f'<body name="{side}_finger{k}" pos="0 {0.02 * k} -0.06">{hinge(f"{side}_finger{k}", "1 0 0", -0.5, 0.5, 1)}'
+        '<geom type="sphere" size="0.01" mass="0.02"/></body>'
+        for k in (-1, 1)
+    )
+    return f"""
+<body name="{side}_a1" pos="0 {y} 0.3">{hinge(side + "_reach", "0 1 0", -2.5, 2.5, 20)}
+ <geom type="sphere" size="0.03" mass="0.3"/>
+<body name="{side}_a2">{hinge(side + "_lift", "1 0 0", *sorted((-0.3 * s, 2.5 * s)), 20)}
+ <geom type="capsule" fromto="0 {0.03 * s} -0.04 0 {0.03 * s} -0.22" size="0.025" mass="0.8"/>
+<body name="{side}_a3" pos="0 {0.03 * s} -0.25">{hinge(side + "_elbow", "0 1 0", -2.2, 0.1, 20)}
+ <geom type="capsule" fromto="0 0 -0.04 0 0 -0.2" size="0.02" mass="0.5"/>
+<body name="{side}_a4" pos="0 0 -0.24">{hinge(side + "_turn", "0 0 1", -1.5, 1.5, 5)}
+ <geom name="{side}_palm" type="sphere" size="0.03" pos="0 0 -0.03" mass="0.15"/>{fingers}
+</body></body></body></body>"""
+
+
+def humanoid() -> str:
+    """A pelvis with two legs, and a waist that carries two arms and a head."""
+    return f"""{HEAD}<body name="pelvis" pos="0 0 1"><freejoint/><geom type="box" size="0.08 0.1 0.05" mass="5"/>
+{leg("one", 0.1)}{leg("two", -0.1)}
+<body name="chest" pos="0 0 0.08">{hinge("twist", "0 0 1", -1, 1)}
+ <geom type="box" size="0.08 0.12 0.15" pos="0 0 0.2" mass="9"/>
+{arm("p", 0.18)}{arm("q", -0.18)}
+<body name="skull" pos="0 0 0.4">{hinge("nod", "0 1 0", -0.5, 0.5, 5)}<geom type="sphere" size="0.08" pos="0 0 0.08" mass="1"/>
+</body></body></body></worldbody></mujoco>"""
+
+
+def insect(legs: int) -> str:
+    """Legs of coxa, femur and tibia, spread evenly on both sides."""
+    rows = np.linspace(0.2, -0.2, legs // 2)
+    parts = []
+    for k, (x, side) in enumerate(itertools.product(rows, (1, -1))):
+        angle = side * (np.pi / 2 - 0.8 * x / 0.2)
+        parts.append(f"""
+<body name="c{k}" pos="{x} {0.1 * side} 0" euler="0 0 {angle}">{hinge(f"coxa{k}", "0 0 1", -0.8, 0.8, 12)}
+ <geom type="capsule" fromto="0 0 0 0.06 0 0" size="0.02" mass="0.15"/>
+<body name="f{k}" pos="0.06 0 0">{hinge(f"femur{k}", "0 1 0", -1.5, 1.0, 12)}
+ <geom type="capsule" fromto="0.03 0 0 0.12 0 0" size="0.015" mass="0.15"/>
+<body name="t{k}" pos="0.12 0 0">{hinge(f"tibia{k}", "0 1 0", 0.3, 2.4, 12)}
+ <geom type="capsule" fromto="0 0 0 0.15 0 0" size="0.012" mass="0.08"/>
+ <geom name="tip{k}" type="sphere" pos="0.16 0 0" size="0.015" mass="0.01"/></body></body></body>""")
+    body = '<body name="base" pos="0 0 0.2"><freejoint/><geom type="box" size="0.22 0.08 0.03" mass="3"/>'
+    return f"{HEAD}{body}{''.join(parts)}</body></worldbody></mujoco>"
+
+
+def limbs_of(text: str, wanted: dict[str, str] | None = None):
+    model = mujoco.MjModel.from_xml_string(text)
+    return read_limbs(model, find_trunk(model, "here"), "here", wanted or {})
+
+
+def load(folder: Path, text: str, more: str = "") -> Robot:
+    (folder / "robot.xml").write_text(text)
+    (folder / "robot.yaml").write_text(f"model: robot.xml\n{more}")
+    return load_robot(folder)
+
+
+@pytest.fixture(scope="module")
+def walker(tmp_path_factory: pytest.TempPathFactory) -> Robot:
+    return load(tmp_path_factory.mktemp("walker"), humanoid())
+
+
+def test_a_humanoid_has_legs_and_arms_and_holds_the_rest() -> None:
+    found = limbs_of(humanoid())
+    assert [(limb.name, limb.kind, limb.side) for limb in found.legs] == [
+        ("l", "leg", "left"),
+        ("r", "leg", "right"),
+        ("la", "arm", "left"),
+        ("ra", "arm", "right"),
+    ]
+    assert found.legs[0].roles == ("yaw", "haa", "hfe", "kfe", "pitch", "roll")
+    assert set(found.legs[0].pads) == {"one_toe", "one_heel"}
+    assert found.legs[2].joints == ("p_reach", "p_lift", "p_elbow")
+    assert {"twist", "nod", "p_turn", "p_finger1"} <= set(found.held)
+
+
+def test_limbs_are_freed_and_held_as_asked_for() -> None:
+    found = limbs_of(humanoid(), {"arm": "held", "waist": "free"})
+    assert [limb.kind for limb in found.legs] == ["leg", "leg", "waist"]
+    assert found.legs[2].joints == ("twist",)
+    assert "p_elbow" in found.held
+
+
+@pytest.mark.parametrize(
+    ("number", "names"),
+    [(4, "lf rf lh rh"), (6, "lf rf lm rm lh rh"), (8, "l1 r1 l2 r2 l3 r3 l4 r4")],
+)
+def test_legs_of_an_insect_are_named_by_place(number: int, names: str) -> None:
+    found = limbs_of(insect(number))
+    assert " ".join(limb.name for limb in found.legs) == names
+    assert {limb.roles for limb in found.legs} == {("swing", "hfe", "kfe")}
+    assert not found.held
+
+
+def test_wheels_are_locked_and_are_the_feet() -> None:
+    text = insect(4)
+    for k in range(4):
+        old = f'<geom name="tip{k}" type="sphere" pos="0.16 0 0" size="0.015" mass="0.01"/>'
+        wheel = f'<body pos="0.16 0 0"><joint name="wheel{k}" axis="0 1 0"/><geom name="tyre{k}" type="cylinder"'
+        text = text.replace(old, f'{wheel} size="0.04 0.01" zaxis="0 1 0" mass="0.1"/></body>')
+    found = limbs_of(text)
+    assert found.wheels == ("wheel0", "wheel1", "wheel2", "wheel3")
+    assert sorted(limb.foot for limb in found.legs) == ["tyre0", "tyre1", "tyre2", "tyre3"]
+
+
+def test_a_robot_on_one_leg_is_refused(tmp_path: Path) -> None:
+    text = humanoid().replace(leg("two", -0.1), "")
+    with pytest.raises(LevadeError, match="levade moves two and more legs"):
+        load(tmp_path, text)
+
+
+def test_two_legs_ahead_of_each_other_are_in_another_frame(tmp_path: Path) -> None:
+    text = (
+        humanoid()
+        .replace('pos="0 0.1 -0.05"', 'pos="0.3 0.01 -0.05"')
+        .replace('pos="0 -0.1 -0.05"', 'pos="-0.3 -0.01 -0.05"')
+    )
+    with pytest.raises(LevadeError, match="levade moves two and more legs"):
+        load(tmp_path, text)
+
+
+def test_a_humanoid_stands_for_three_seconds(walker: Robot) -> None:
+    settled = settle(walker, time=3.0)
+    assert not settled.broken
+    assert settled.tilt < 0.15
+    assert abs(settled.sag) < 0.05 * dimensions(walker).height
+    assert walker.stance == "upright"
+
+
+def test_its_soles_lie_flat_and_it_is_balanced(walker: Robot) -> None:
+    data = walker.data_at(walker.postures["neutral"])
+    for side in ("one", "two"):
+        for part in ("toe", "heel"):
+            assert data.geom(f"{side}_{part}").xmat[8] > np.cos(0.06)
+    mujoco.mj_comPos(walker.model, data)
+    feet = walker.foot_positions(walker.postures["neutral"])
+    com = data.subtree_com[walker.model.body("pelvis").id]
+    assert abs(com[1] - feet[:, 1].mean()) < 0.01
+    assert abs(com[0] - feet[:, 0].mean()) < 0.05
+    ranges = walker.limits.upper - walker.limits.lower
+    room = np.minimum(
+        walker.postures["neutral"] - walker.limits.lower, walker.limits.upper - walker.postures["neutral"]
+    )
+    assert (room > 0.02 * ranges).all()
+    knee = walker.joint_names.index("one_knee")
+    assert walker.postures["neutral"][knee] > 0.1
+
+
+def test_left_and_right_limbs_are_pairs_and_arms_are_none_of_the_legs(walker: Robot) -> None:
+    groups = leg_groups(load_task("squat-jump", robot=walker).policy, walker)
+    assert [len(group.leader) for group in groups] == [6, 3]
+    assert [len(group.followers) for group in groups] == [1, 1]
+    names = walker.joint_names
+    for group in groups:
+        for leader, follower, sign in zip(
+            group.leader, group.followers[0].joints, group.followers[0].signs, strict=True
+        ):
+            same = walker.postures["neutral"][leader] * sign
+            assert same == pytest.approx(walker.postures["neutral"][follower], abs=2e-4), names[leader]
+
+
+def test_tasks_fit_how_a_robot_stands(walker: Robot) -> None:
+    back = load_task("self-righting", robot=walker).start.fall
+    front = load_task("self-righting", robot=walker, changes=["start.fall.lying=front"]).start.fall
+    assert back is not None
+    assert front is not None
+    assert (back.roll, back.pitch) == pytest.approx((0.0, -np.pi / 2))
+    assert (front.roll, front.pitch) == pytest.approx((0.0, np.pi / 2))
+    with pytest.raises(LevadeError, match="handstand: means nothing on robot: it has no hindquarters"):
+        load_task("handstand", robot=walker)
+    with pytest.raises(LevadeError, match="no side 'belly'"):
+        load_task("self-righting", robot=walker, changes=["start.fall.lying=belly"])
+
+
+def test_an_insect_stands_with_its_feet_level(tmp_path: Path) -> None:
+    robot = load(tmp_path, insect(6))
+    depths = robot.foot_depths(robot.postures["neutral"])
+    assert np.ptp(depths) < 2e-3
+    settled = settle(robot)
+    assert settled.tilt < 0.05
+    assert robot.stance == "sprawled"
+    groups = leg_groups(load_task("self-righting", robot=robot).policy, robot)
+    assert [len(group.followers) for group in groups] == [2, 2]
+    # of legs that do the same, the knees of all fold
+    signs = {sign for group in groups for follower in group.followers for sign in follower.signs[1:]}
+    assert signs == {1.0}
