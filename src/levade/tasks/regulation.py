@@ -38,8 +38,8 @@ class Regulation:
             ("hold", 0.001, 100.0, "rad; 0.03 to 0.3 is usual"),
             ("bound", 0.001, 2.0, "rad; 0.3 is usual"),
         ):
-            value = getattr(self, name)
-            if value is None and name == "hold":
+            value: float | None = getattr(self, name)
+            if value is None:  # a hold without feedback
                 continue
             if not (math.isfinite(value) and least <= value <= most):
                 raise LevadeError(f"feedback.{name}: {value} should be {least:g} to {most:g} {unit}")
