@@ -307,7 +307,10 @@ def test_every_unit_has_its_size(unit: str) -> None:
         ({"hold": -1}, "hold: -1.0 s should be 0 or more"),
         ({"policy": {"kernels": 0}}, "policy.kernels: 0 should be 1 to 1000; the paper has 16"),
         ({"policy": {"kernels": -3}}, "policy.kernels: -3 should be"),
-        ({"policy": {"through": ["crouched"]}}, "policy.through: the search begins with initial: hold, which goes through"),
+        (
+            {"policy": {"through": ["crouched"]}},
+            "policy.through: the search begins with initial: hold, which goes through",
+        ),
         ({"feedback": {"hold": 0}}, "feedback.hold: 0"),
         (
             {"policy": {"groups": "pair"}},
