@@ -276,10 +276,11 @@ def found_in_ode(rows: list[dict[str, Any]]) -> str:
 
 def variants() -> str:
     """What each robust variant asks for, from its task."""
-    from levade.tasks import load_task
+    from levade.tasks import builtin_tasks, load_task
 
+    others = (name.removesuffix("-robust") for name in builtin_tasks() if name.endswith("-robust"))
     lines = []
-    for task in dict.fromkeys(task for task, _ in CASES):
+    for task in dict.fromkeys((*(task for task, _ in CASES), *others)):
         robust, nominal = load_task(f"{task}-robust"), load_task(task)
         own = "as its nominal task asks" if robust.success == nominal.success else "by criteria of its own"
         lines.append(f"- `{robust.name}`: {robust.description}; {own}.")

@@ -119,6 +119,7 @@ CASES = (
     Case("self-righting-robust", 300, ("stages.0.trials=36", "robust.starts=2", *SHORT, *FEW), quick=True),
     Case("self-righting-within-limits", 200, ("stages.0.trials=36", *SHORT, *FEW)),
     Case("squat-jump-robust", 200, ("stages.0.trials=36", *SHORT, *FEW)),
+    Case("levade-robust", 200, ("stages.0.trials=36", *SHORT, *FEW)),
     Case("rearing", 400, (*ON, "robust={samples: 3}", "stages.0.trials=48"), label="robust, worse half"),
     Case(
         *("rearing", 400, (*ON, "robust={samples: 4, measure: worst, redraw: generation, racing: {first: 1}}")),

@@ -151,6 +151,17 @@ def test_interpolation_follows_the_line_and_its_weights_stay_near_it():
     assert (overshoot <= way[:, None] / 5).all()
 
 
+def test_interpolation_goes_through_the_postures_at_equal_distances_in_time():
+    policy = recovery()
+    start, over, goal = np.zeros(12), np.linspace(-1, 1, 12), np.full(12, 0.2)
+    position = policy.reference(policy.interpolate(start, goal, through=[over, over])[None]).position[0]
+    np.testing.assert_allclose(position[74], over, atol=0.05)  # half way between the two; corners are rounded
+    np.testing.assert_allclose(position[24], over / 2, atol=0.05)
+    np.testing.assert_allclose(position[-1], goal, atol=0.05)
+    straight = policy.interpolate(start, goal, through=[goal / 2])
+    np.testing.assert_allclose(straight, policy.interpolate(start, goal))
+
+
 def test_refined_weights_reproduce_the_reference():
     coarse, fine = rearing(), rearing(kernels=GaussianKernels(32, 0.005))
     weights = random_weights(coarse)

@@ -191,7 +191,7 @@ def test_an_alias_of_an_optimizer_becomes_its_name() -> None:
 def test_the_checksum_is_of_the_task_and_of_what_else_decides() -> None:
     task = load_task("rearing")
     first = task_to_yaml(task).replace("optimizer: cma-aimed", "optimizer: levade")
-    for later in ("  room: null\n", "  slew: null\n", "  patience: null\n", "hardware: null\n"):
+    for later in ("  room: null\n", "  slew: null\n", "  through: []\n", "  patience: null\n", "hardware: null\n"):
         first = first.replace(later, "")
     assert task_checksum(task) == zlib.crc32(first.encode())  # as in runs and benches from before it had this name
     assert task_checksum(task) == 3607212546  # of the version before the first of these keys
@@ -307,6 +307,11 @@ def test_every_unit_has_its_size(unit: str) -> None:
         ({"hold": -1}, "hold: -1.0 s should be 0 or more"),
         ({"policy": {"kernels": 0}}, "policy.kernels: 0 should be 1 to 1000; the paper has 16"),
         ({"policy": {"kernels": -3}}, "policy.kernels: -3 should be"),
+        (
+            {"policy": {"through": ["crouched"]}},
+            "policy.through: the search begins with initial: hold, which goes through",
+        ),
+        ({"feedback": {"hold": 0}}, "feedback.hold: 0"),
         (
             {"policy": {"groups": "pair"}},
             "policy.groups: should be 'pairs', 'sides', 'all' or 'independent', is 'pair'",
@@ -430,6 +435,14 @@ def test_tasks_that_are_not_there(name: str, message: str) -> None:
         (
             ["policy.initial=interpolate", "policy.goal=stand"],
             r"^policy.goal: .*no posture 'stand'; valid names: crouched, free, h2m, neutral, stretched",
+        ),
+        (
+            ["policy.initial=interpolate", "policy.through=[crouched, {hind: low}]"],
+            r"^policy.through.1: .*no posture 'low'; valid names: crouched",
+        ),
+        (
+            ["policy.initial=interpolate", "policy.through=[{'?h_kfe': 170 deg}]"],
+            r"^policy.through.0: .*lh_kfe.* 2.967",
         ),
         (["policy.variance=-1"], r"^policy.variance: -1.0 is out of range"),
         (["policy.groups=[[lf, rf], [lh, xx]]"], r"^policy.groups: .*no leg 'xx'; valid names: lf, lh, rf, rh"),

@@ -8,6 +8,7 @@ reference stays at its value at T and its velocity is zero.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -235,8 +236,10 @@ class Policy:
         """
         return np.repeat(self.project(self._posture(posture)), self.kernels.kernels)
 
-    def interpolate(self, start: ArrayLike, goal: ArrayLike) -> Array:
+    def interpolate(self, start: ArrayLike, goal: ArrayLike, *, through: Sequence[ArrayLike] = ()) -> Array:
         """Weights of the straight line from one posture to another (the paper's start for posture recovery).
+
+        through: postures on the way, at equal distances in time; with them the line is straight from each to the next.
 
         start, goal: (joints,) [rad], at t = 0 and t = T, taken onto the groups as `hold` does.
         Returns (size,) [rad]: a least-squares fit to the line over the steps that keeps the weights near it too, see
@@ -246,7 +249,12 @@ class Policy:
         """
         first, last = self._posture(start), self._posture(goal)
         share = np.arange(1, self.horizon_steps + 1) / self.horizon_steps
-        return self.fit((first + share[:, None] * (last - first))[None], cutoff=LINE_CUTOFF)[0]
+        if not len(through):
+            return self.fit((first + share[:, None] * (last - first))[None], cutoff=LINE_CUTOFF)[0]
+        postures = np.array([first, *map(self._posture, through), last])
+        at = np.linspace(0.0, 1.0, len(postures))
+        line = np.stack([np.interp(share, at, angles) for angles in postures.T], axis=-1)
+        return self.fit(line[None], cutoff=LINE_CUTOFF)[0]
 
     def fit(self, position: Array, *, cutoff: float = FIT_CUTOFF) -> Array:
         """Weights whose reference is nearest to given joint motions, in the least-squares sense over the steps.

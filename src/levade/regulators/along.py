@@ -25,6 +25,9 @@ _CAP = Scales(attitude=1 / 6, height=math.inf, speed=math.inf, rate=2.0, joint=1
 _LAST = 0.5
 """Largest gain of the correction in force."""
 
+FADING = 0.1
+"""[s] in which corrections fade to 1 / e of themselves, in a hold without feedback."""
+
 _NEAR = 0.2
 """[rad], in attitude: runs that are further off are not learned from."""
 
@@ -57,20 +60,27 @@ class Along:
         a, b, last = linear.a, linear.b, []
         states, joints = b.shape[1:]
         weight = 1.0 / WEIGHED.sized(self.size).column(joints, linear.drives) ** 2
-        moving, held = np.full(joints, design.motion**-2), np.full(joints, design.hold**-2)
+        moving = np.full(joints, design.motion**-2)
+        value = np.zeros((states + joints, states + joints))
+        value[:states, :states] = np.diag(weight)
         if self.holds:
-            gain, value = steady(a[-1], b[-1], 0.1 * weight, held)
-            a, b, last = a[:-1], b[:-1], [gain]
-        else:
-            value = np.zeros((states + joints, states + joints))
-            value[:states, :states] = np.diag(weight)
+            if design.hold is not None:
+                gain, value = steady(a[-1], b[-1], 0.1 * weight, np.full(joints, design.hold**-2))
+                last = [gain]
+            a, b = a[:-1], b[:-1]
         gains, _ = sweep(a, b, 0.1 * weight, moving, value)
         width = 6 + 2 * joints
         whole = np.concatenate([gains, *(one[None] for one in last)])
-        projected = np.array([project(one, what, width) for one, what in zip(whole, self.expected, strict=True)])
+        expected = self.expected[: len(whole)]
+        projected = np.array([project(one, what, width) for one, what in zip(whole, expected, strict=True)])
         cap = 1.0 / _CAP.sized(self.size).column(joints, np.zeros(0))[:width]
         limit = np.concatenate([cap, np.full(joints, _LAST)])
-        return np.clip(projected, -limit, limit)
+        bounded = np.clip(projected, -limit, limit)
+        if not self.holds or design.hold is not None:
+            return bounded
+        fading = np.zeros((1, joints, width + joints))
+        fading[0, :, width:] = math.exp(-self.period / FADING) * np.eye(joints)
+        return np.concatenate([bounded, fading])
 
 
 def linearised(

@@ -11,10 +11,10 @@ class Design:
 
     Attributes:
         motion: Correction that costs 1 up to the horizon [rad].
-        hold: Correction that costs 1 after it [rad].
+        hold: Correction that costs 1 after it [rad]. None for a hold without feedback, in which the last corrections fade.
         bound: Bound on each correction [rad].
     """
 
     motion: float = 0.3
-    hold: float = 0.1
+    hold: float | None = 0.1
     bound: float = 0.3

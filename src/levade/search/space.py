@@ -12,7 +12,7 @@ from levade.optimizers import SearchSpace
 from levade.policies import FreePolicy, JointPolicy, Policy, smoothness_factor
 from levade.robots import Robot
 from levade.tasks import Task
-from levade.tasks.policy import goal_posture
+from levade.tasks.policy import goal_posture, through_postures
 
 ENDING = 0.25
 """Share of the horizon in which an optimizer may finish a motion, without a change to what comes before."""
@@ -48,7 +48,8 @@ def _of_weights(task: Task, robot: Robot, policy: Policy, start: State) -> Searc
     if choice.initial == "hold":
         mean = policy.hold(start.joint_reference[0])
     else:
-        mean = policy.interpolate(start.joint_position[0], goal_posture(choice, robot))
+        through = through_postures(choice, robot)
+        mean = policy.interpolate(start.joint_position[0], goal_posture(choice, robot), through=through)
     if search.smoothness > 0 or search.modes is not None:
         smooth = smoothness_factor(policy.kernels, search.smoothness, policy.independent_joints, modes=search.modes)
     else:

@@ -157,7 +157,7 @@ def _check(simulation: RecordedSimulation, rate: float, bound: float, runs: int)
         raise LevadeError(f"{runs} should be 8 to 100000; 96 is usual", field="runs")
 
 
-def _designs(bound: float, *, hold: bool) -> Iterator[dict[str, float]]:
+def _designs(bound: float, *, hold: bool) -> Iterator[dict[str, float | None]]:
     """Changes of the best so far, one after another."""
     for motion in (0.15, 0.6, 1.2):
         yield {"motion": motion}
@@ -166,7 +166,7 @@ def _designs(bound: float, *, hold: bool) -> Iterator[dict[str, float]]:
         for motion in (0.3, 0.6):
             yield {"motion": motion}
     if hold:
-        for value in (0.03, 0.2):
+        for value in (0.03, 0.2, None):
             yield {"hold": value}
 
 
@@ -177,7 +177,8 @@ def _surely_more(before: NDArray[np.bool_], after: NDArray[np.bool_]) -> bool:
 
 
 def _text(design: Design) -> str:
-    return f"corrections of {design.motion:g} rad, {design.hold:g} in the hold, {design.bound:g} at most"
+    hold = "none" if design.hold is None else f"{design.hold:g}"
+    return f"corrections of {design.motion:g} rad, {hold} in the hold, {design.bound:g} at most"
 
 
 def _score(found: Trials) -> tuple[float, float]:

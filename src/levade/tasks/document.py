@@ -70,8 +70,8 @@ _ORDER = (
     *("name", "description", "robot", "scene", "physics", "start", "horizon", "hold"),
     *("policy", "costs", "stages", "success", "search", "robust", "feedback", "hardware"),
 )
-_LATER = (("hardware",), ("policy", "room"), ("policy", "slew"), ("search", "patience"))
-"""Keys that were not there when runs with a checksum were first made, and are null by default."""
+_LATER = (("hardware",), ("policy", "room"), ("policy", "slew"), ("policy", "through"), ("search", "patience"))
+"""Keys that were not there when runs with a checksum were first made, and are null or empty by default."""
 _SEQUENCE = "tag:yaml.org,2002:seq"
 
 
@@ -370,7 +370,7 @@ def task_checksum(task: Task, *more: object) -> int:
         table = content
         for key in tables:
             table = table[key]
-        if table[name] is None:
+        if table[name] is None or table[name] == []:
             del table[name]
     first = {name: alias for alias, name in ALIASES.items()}
     name = content["search"]["optimizer"]

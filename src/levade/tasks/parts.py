@@ -101,10 +101,11 @@ class PolicyChoice:
     groups: which legs share a policy, mirrored: "pairs" (front and hind, as the paper's rearing), "sides" (left and
         right), "all" (one for all legs), "independent" (one each, as the paper's recovery), or lists of leg names.
     initial: the first mean of the search: "hold" what the joints were told last, or "interpolate" in a straight line from
-        the joint angles at the start to the posture ``goal``.
+        the joint angles at the start to the posture ``goal``, or from posture to posture of ``through`` on the way there.
     goal: a posture, as in `levade.engines.Settled`; or "free": the search finds it, within the joints' ranges. Legs, ends and
         sides may be free (``{hind: free}``), and joints, within the two angles of a range (``{"*_kfe": [-2.0, -1.0]}``); the
         rest of the posture is the neutral one. A free one needs ``settle``.
+    through: postures that ``interpolate`` goes through, at equal distances in time between the start and the goal.
     depart, settle: shares of the horizon in which every reference leaves what the joints were told last, and goes over to
         the goal; 0 leaves the ends to the weights. See `levade.policies.Ends`.
     room: how far references stay from the ends of the joints' ranges [rad], at rest where they would come nearer, as with a
@@ -119,6 +120,7 @@ class PolicyChoice:
     groups: Literal["pairs", "sides", "all", "independent"] | tuple[tuple[str, ...], ...] = "independent"
     initial: Literal["hold", "interpolate"] = "hold"
     goal: str | Mapping[str, float | str | tuple[float, float]] = "neutral"
+    through: tuple[str | Mapping[str, float | str], ...] = ()
     depart: float = 0.0
     settle: float = 0.0
     room: float | None = None

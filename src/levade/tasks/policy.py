@@ -68,6 +68,19 @@ def goal_posture(choice: PolicyChoice, robot: Robot) -> Array:
         return robot.posture(goal)
 
 
+def through_postures(choice: PolicyChoice, robot: Robot) -> list[Array]:
+    """The postures that the policy's first references go through [rad], shape (joints,) each.
+
+    Raises:
+        LevadeError: If a posture does not exist, or is out of a joint's range.
+    """
+    found = []
+    for i, posture in enumerate(choice.through):
+        with located(f"policy.through.{i}: "):
+            found.append(robot.posture(posture))
+    return found
+
+
 def _free_ranges(choice: PolicyChoice, robot: Robot) -> tuple[Array, Array]:
     """Bounds of the final angle of each joint [rad], shape (joints,) each; NaN for joints that are not free.
 

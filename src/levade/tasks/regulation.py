@@ -16,7 +16,8 @@ class Regulation:
     docs/feedback.md. On the nominal model it does nothing: each candidate is held to what it does there.
 
     rate: measurements a second [Hz]; the nearest that steps allow.
-    motion, hold: correction that costs 1 up to the horizon, and after it [rad]: more lets it do more.
+    motion, hold: correction that costs 1 up to the horizon, and after it [rad]: more lets it do more. A hold of None is without
+        feedback: its last corrections fade. That is for postures that stand by themselves, on several contacts.
     bound: bound on each correction [rad].
     every: generations after which the gains are made again, along the best motion. Gains stay only if that motion holds no less
         with them than before; the first ones, than without.
@@ -25,7 +26,7 @@ class Regulation:
 
     rate: float = 250.0
     motion: float = 0.6
-    hold: float = 0.1
+    hold: float | None = 0.1
     bound: float = 0.3
     every: int = 10
     runs: int = 32
@@ -37,7 +38,9 @@ class Regulation:
             ("hold", 0.001, 100.0, "rad; 0.03 to 0.3 is usual"),
             ("bound", 0.001, 2.0, "rad; 0.3 is usual"),
         ):
-            value = getattr(self, name)
+            value: float | None = getattr(self, name)
+            if value is None:  # a hold without feedback
+                continue
             if not (math.isfinite(value) and least <= value <= most):
                 raise LevadeError(f"feedback.{name}: {value} should be {least:g} to {most:g} {unit}")
         if self.every < 1:

@@ -89,6 +89,11 @@ def to_si(
                     name: to_si(bound, where=f"{inside}.{name}", measures="a duration", robot=robot)
                     for name, bound in value.items()
                 }
+            elif key == "through" and isinstance(value, (list, tuple)):
+                table[key] = [
+                    to_si({"posture": posture}, where=f"{inside}.{i}", robot=robot)["posture"]
+                    for i, posture in enumerate(value)
+                ]
             elif key in ("posture", "goal") and isinstance(value, Mapping) and "weight" not in value:
                 table[key] = {
                     joint: to_si(angle, where=f"{inside}.{joint}", measures="an angle")

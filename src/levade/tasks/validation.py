@@ -51,6 +51,11 @@ def check_policy(policy: PolicyChoice) -> None:
         raise LevadeError(
             "policy.goal: it is free, but no reference settles there; give policy.settle a share of the horizon, such as 0.3"
         )
+    if policy.through and policy.initial != "interpolate":
+        raise LevadeError(
+            f"policy.through: the search begins with initial: {policy.initial}, which goes through no posture; say"
+            " initial: interpolate"
+        )
     if not 1 <= policy.kernels <= 1000:
         raise LevadeError(f"policy.kernels: {policy.kernels} should be 1 to 1000; the paper has 16")
     if policy.room is not None and not (math.isfinite(policy.room) and policy.room >= 0):
