@@ -65,6 +65,24 @@ class Fall:
 
 
 @dataclass(frozen=True)
+class Fold:
+    """What a robot does first once it has fallen: its joints go to a posture, smoothly, and rest there.
+
+    posture: as in `Settled`; or "tucked", with the legs drawn in (`levade.robots.tucking`): however it fell, it then lies in one
+        of a few ways.
+    time: [s], of going there. rest: [s], until the motion starts.
+    """
+
+    posture: str | Mapping[str, float | str] = "tucked"
+    time: float = 1.0
+    rest: float = 0.5
+
+    def __post_init__(self) -> None:
+        for name in ("time", "rest"):
+            _check_time(f"start.fallen.fold.{name}", getattr(self, name))
+
+
+@dataclass(frozen=True)
 class Fallen:
     """Lying however it fell: one of a family of falls, from any attitude and with any posture.
 
@@ -73,6 +91,7 @@ class Fallen:
     gain: the joints hold the angles that they were released with, with this many times their gains.
     time: [s] from release to the start of the motion.
     seed, index: which fall of which family. A fall does not depend on how many of its family are asked for.
+    fold: what the joints do then, before the motion starts; None if nothing.
 
     The attitude is uniform over all rotations. Each joint's angle is uniform over its range, a whole turn if it has none, and
     all are drawn again where parts of the robot overlap each other or an obstacle.
@@ -85,6 +104,7 @@ class Fallen:
     time: float = 1.5
     seed: int = 0
     index: int = 0
+    fold: Fold | None = None
 
     def __post_init__(self) -> None:
         _check_time("start.fallen.time", self.time)

@@ -41,7 +41,7 @@ class Answer:
         probability: How likely it works.
         others: The other motions and how likely each works, the likeliest first.
         path: File of the motion, or of the one that it is the image of.
-        joint_position: Where the joints are [rad], shape (joints,).
+        joint_position: Where the reference begins [rad], shape (joints,): where the joints are, or were commanded to fold to.
         mirror: What it is the image in; None if it is the motion itself.
     """
 
@@ -59,7 +59,7 @@ class Answer:
 
     @cached_property
     def reference(self) -> JointReference:
-        """What to tell the joints: the motion, but from where they are now."""
+        """What to tell the joints: the motion, from where they are now."""
         motion = self.motion
         policy = motion.policy
         if policy is None:
@@ -83,11 +83,13 @@ class Library:
         directory: Where it is.
         records: The falls, in order.
         knowledge: What they say.
+        fold: Where the robot's joints go first, before it asks [rad], shape (joints,); None if it asks as it fell.
     """
 
     directory: Path
     records: tuple[Record, ...]
     knowledge: Knowledge
+    fold: Array | None = None
 
     @classmethod
     def load(cls, directory: str | Path) -> Library:
@@ -101,15 +103,18 @@ class Library:
         if not place.is_file():
             raise LevadeError(f"{directory}: holds no motion library; build one, or give its directory")
         records = tuple(Record.load(path) for path in sorted((directory / FALLS).glob("*.json")))
-        mirror = Mirror.from_json(read_yaml(place).get("mirror"), where=str(place))
+        content = read_yaml(place)
+        mirror = Mirror.from_json(content.get("mirror"), where=str(place))
         knowledge = Knowledge.of(records, mirror)
-        return cls(directory, records, knowledge.merged(read_success(directory, knowledge)))
+        fold = _read_fold(content.get("fold"), where=str(place))
+        return cls(directory, records, knowledge.merged(read_success(directory, knowledge)), fold)
 
     def ask(self, up: Any, joint_position: Any) -> Answer:
         """Which motion to play.
 
         Args:
-            up: Which way is up in trunk axes, of any length, shape (3,): an accelerometer's reading at rest.
+            up: Which way is up in trunk axes, of any length, shape (3,): an accelerometer's reading at rest, once the robot has
+                folded up if the library has a `fold`.
             joint_position: Angles [rad] in the robot's joint order, shape (joints,).
 
         Raises:
@@ -121,7 +126,8 @@ class Library:
         up, joints = self._checked(up, joint_position)
         (number, probability), *others = self.knowledge.ranked(up, joints)
         mirror = self.knowledge.mirror if number < 0 else None
-        return Answer(number, probability, tuple(others), motion_path(self.directory, number), joints, mirror)
+        begins = joints if self.fold is None else self.fold
+        return Answer(number, probability, tuple(others), motion_path(self.directory, number), begins, mirror)
 
     def _checked(self, up: Any, joint_position: Any) -> tuple[Array, Array]:
         up, joints = np.asarray(up, dtype=float), np.asarray(joint_position, dtype=float)
@@ -138,6 +144,19 @@ class Library:
         if not self.records:
             return 0.0
         return float((self.knowledge.success == 1.0).any(axis=1).mean())
+
+
+def _read_fold(content: Any, *, where: str) -> Array | None:
+    """Where the joints go first, of a library's file. Raises LevadeError unless it is a list of numbers, or nothing."""
+    if content is None:
+        return None
+    try:
+        fold = np.array(content, dtype=float)
+    except (ValueError, TypeError):
+        fold = np.full(1, np.nan)
+    if fold.ndim != 1 or not np.isfinite(fold).all():
+        raise LevadeError(f"{where}: fold: is no list of joint angles; the file is damaged")
+    return fold
 
 
 def read_success(directory: Path, knowledge: Knowledge) -> dict[str, Array]:

@@ -17,8 +17,8 @@ from levade.checks.statistics import wilson
 from levade.engines import MujocoEngine, Perturbation
 from levade.errors import LevadeError
 from levade.library.asking import Answer, Library
-from levade.library.building import read_library
 from levade.library.falls import FACES, Falls, Play, Plays, face, tried, tried_on_others
+from levade.library.storing import read_library
 from levade.robots import Robot
 from levade.search.evaluation import Mask
 from levade.search.objective import Objective, Rollouts
@@ -222,7 +222,9 @@ class _Trial:
         for j in np.flatnonzero(~diverged):
             qpos, qvel, act = (out[name][j, -1] for name in ("qpos", "qvel", "act"))
             told = joined.reference.position[j, -1]
-            left = self._falls.from_state(engine.layout.state(qpos, qvel, act, joint_reference=told))
+            left = self._falls.from_state(
+                self._falls.folded(engine.layout.state(qpos, qvel, act, joint_reference=told))
+            )
             answer = self._asked(*self._falls.sensed(left.state))
             recovered += bool(tried([left], [[self._plays[answer.number]]])[0].success[0])
         return recovered

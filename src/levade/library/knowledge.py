@@ -93,6 +93,17 @@ class Knowledge:
         joints = np.sqrt(((self.joint_position - joint_position) ** 2).mean(axis=1))
         return np.hypot(angle, _JOINTS * joints)
 
+    def apart(self, up: Array, joint_position: Array) -> float:
+        """How far a state is from the nearest fall, or image of one, that a motion was found for [rad]; infinite of none."""
+        own = np.isin(self.falls, self.motions)
+        if not own.any():
+            return np.inf
+        distance = self.distances(up, joint_position)[own]
+        if self.mirror is not None:
+            image = self.distances(self.mirror.up(up), self.mirror.posture(joint_position))[own]
+            distance = np.minimum(distance, image)
+        return float(distance.min())
+
     def probabilities(self, up: Array, joint_position: Array) -> Array:
         """How likely each motion works from a state, on the model or on a robot near it, shape (m,)."""
         if not len(self.motions):
