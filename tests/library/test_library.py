@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import itertools
 import json
+import multiprocessing
 import shutil
+import time
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -20,7 +22,9 @@ from levade.library.building import rounds
 from levade.library.falls import face
 from levade.library.figure import projected
 from levade.library.knowledge import Knowledge
+from levade.library.merging import merge
 from levade.library.mirror import Mirror
+from levade.library.storing import Shard
 from levade.motions import Motion
 from levade.robots import load_robot
 from levade.search import make_objective
@@ -137,6 +141,70 @@ def test_a_record_that_is_lost_is_made_again(library: Library, tmp_path: Path) -
     (tmp_path / "again" / "falls" / "000005.json").unlink()
     build(rolling(), starts=STARTS, directory=tmp_path / "again")
     assert contents(tmp_path / "again") == contents(library.directory)
+
+
+@pytest.mark.slow
+def test_in_two_processes_it_has_the_same_bytes(library: Library, tmp_path: Path) -> None:
+    seen: list[int] = []
+    build(
+        rolling(), starts=STARTS, directory=tmp_path, processes=2, observe=lambda progress: seen.append(progress.done)
+    )
+    assert sorted(seen) == list(range(1, STARTS + 1))  # one at a time, whoever did it
+    assert contents(tmp_path) == contents(library.directory)
+
+
+def _build_rolling(directory: Path, processes: int) -> None:
+    build(rolling(), starts=STARTS, directory=directory, processes=processes)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("processes", "kills"), [(1, 3), (2, 1)])
+def test_killed_at_any_time_it_goes_on_to_the_same_bytes(
+    library: Library, tmp_path: Path, processes: int, kills: int
+) -> None:
+    """kill -9, of the one that others work for, too, once some more falls are done."""
+    context, generator = multiprocessing.get_context("spawn"), np.random.default_rng(processes)
+    for kill in range(kills):
+        process = context.Process(target=_build_rolling, args=(tmp_path, processes))
+        process.start()
+        while process.is_alive() and len(list(tmp_path.glob("falls/*.json"))) <= kill:
+            time.sleep(0.01)
+        time.sleep(generator.uniform(0.0, 0.1))
+        process.kill()
+        process.join()
+    for path in tmp_path.glob("falls/*.json"):  # whole, whenever it was
+        assert path.read_bytes() == (library.directory / "falls" / path.name).read_bytes()
+    _build_rolling(tmp_path, 1)
+    assert contents(tmp_path) == contents(library.directory)
+
+
+def test_shards_become_a_library(tmp_path: Path) -> None:
+    """Each shard has its own falls, as they are in the whole; merged, nothing is left to do but to try every pair."""
+    parts = [tmp_path / str(i) for i in range(2)]
+    for i, part in enumerate(parts):
+        built = build(rolling(), starts=5, directory=part, shard=Shard(i, 2))
+        assert [record.fall for record in built.records] == list(range(i, 5, 2))
+    whole = tmp_path / "whole"
+    assert merge(parts[:1], whole).falls == 3
+    merged = merge(parts, whole)
+    assert (merged.falls, merged.starts) == (5, 5)
+    falls = {path.name: path.read_bytes() for part in parts for path in (part / "falls").iterdir()}
+    library = build(rolling(), starts=5, directory=whole)
+    assert {path.name: path.read_bytes() for path in (whole / "falls").iterdir()} == falls
+    assert not np.isnan(library.knowledge.success + library.knowledge.perturbed).any()
+    for shards, said in (
+        ([parts[0], parts[0]], "is shard 0/2, as .*0 is; give each shard once"),
+        ([parts[0], whole], "is shard 0/1, and .*0 one of 2"),
+        ([], "no shards to merge"),
+    ):
+        with pytest.raises(LevadeError, match=said):
+            merge(shards, tmp_path / "other")
+    with pytest.raises(LevadeError, match="holds shard 0/2 of a library; merge shards first"):
+        build(rolling(), starts=5, directory=parts[0])
+    with pytest.raises(LevadeError, match="2/2 is no shard; 0/2 to 1/2 are"):
+        Shard(2, 2)
+    with pytest.raises(LevadeError, match="1 falls have no shard 1/2"):
+        build(rolling(), starts=1, directory=tmp_path / "other", shard=Shard(1, 2))
 
 
 def test_another_task_or_seed_is_refused(library: Library) -> None:

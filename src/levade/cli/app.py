@@ -490,6 +490,10 @@ def _build_library(
         list[str] | None, typer.Option("--set", metavar="PATH=VALUE", help="Change a value of the task. Repeatable.")
     ] = None,
     threads: Annotated[int, typer.Option(min=0, help="Engine threads; 0 for one per core.")] = 0,
+    jobs: Annotated[int, typer.Option(min=1, help="Processes side by side, of one thread each.")] = 1,
+    shard: Annotated[
+        str | None, typer.Option(metavar="I/N", help="Only every N-th fall, from I (0 to N - 1) on: see merge.")
+    ] = None,
     as_json: Json = False,
 ) -> int:
     """Find a motion for each of many falls. Called again, goes on where it stopped.
@@ -506,8 +510,40 @@ def _build_library(
         out=out,
         changes=changes or [],
         threads=threads,
+        jobs=jobs,
+        shard=shard,
         as_json=as_json,
     )
+
+
+@_library.command("merge")
+def _merge_library(
+    shards: Annotated[list[Path], typer.Argument(metavar="SHARD...", help="Directories of shards of one library.")],
+    out: Annotated[Path, typer.Option(help="Directory of the library.")],
+    as_json: Json = False,
+) -> int:
+    """Join shards that were built on machines of their own. Build the library once more then.
+
+    Exit status: 0 all is joined, 2 the input is wrong.
+    """
+    from levade.cli.librarian import merge_libraries
+
+    return merge_libraries(shards, out=out, as_json=as_json)
+
+
+@_library.command("export")
+def _export_library(
+    library: Annotated[Path, typer.Argument(metavar="DIR", help="A library.")],
+    out: Annotated[Path | None, typer.Option(help="Directory; by default DIR-robot.")] = None,
+    rate: Annotated[float | None, typer.Option(help="Of the rows [Hz]; by default the simulation's.")] = None,
+    kp: Annotated[float | None, typer.Option(help="Gain of the robot's drives [Nm/rad].")] = None,
+    kd: Annotated[float | None, typer.Option(help="Gain of the robot's drives [Nm s/rad].")] = None,
+    as_json: Json = False,
+) -> int:
+    """Write a library for a robot: a folder that asks, plays, looks and asks again, with numpy alone."""
+    from levade.cli.librarian import export_the_library
+
+    return export_the_library(library, out=out, rate=rate, kp=kp, kd=kd, as_json=as_json)
 
 
 @_library.command("show")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shlex
 import time
 from collections.abc import Mapping
 from pathlib import Path
@@ -20,9 +21,12 @@ from levade.document import read_yaml
 from levade.errors import LevadeError, did_you_mean
 from levade.feedback import up_in_trunk
 from levade.library import Answer, Library, LibraryCheck, Progress, build, check_library
+from levade.library.exporting import export_library
 from levade.library.falls import FACES, face
 from levade.library.figure import draw
+from levade.library.merging import merge
 from levade.library.records import motion_path
+from levade.library.storing import WHOLE, Shard
 from levade.tasks import load_task
 from levade.writing import write_text
 
@@ -43,9 +47,12 @@ def build_library(
     out: Path | None,
     changes: list[str],
     threads: int,
+    jobs: int,
+    shard: str | None,
     as_json: bool,
 ) -> int:
     """Exit status 0 if every fall is done, else 1."""
+    part = WHOLE if shard is None else _shard(shard)
     loaded = load_task(task, robot=robot, changes=changes)
     directory = out or Path(f"{loaded.name}-library")
     console = make_console(stderr=as_json)
@@ -65,6 +72,8 @@ def build_library(
             starts=starts,
             seed=seed,
             threads=threads,
+            processes=jobs,
+            shard=part,
             directory=directory,
             observe=observe,
             stopping=stopping,
@@ -80,6 +89,66 @@ def build_library(
         else:
             console.print(f"On falls that it has never seen: levade library check {place}")
     return 1 if stopped else 0
+
+
+def _shard(text: str) -> Shard:
+    parts = text.split("/")
+    if len(parts) != 2 or not all(part.isdecimal() for part in parts):
+        raise LevadeError(f"--shard {text}: should be I/N, such as 0/4: the first of four shards")
+    return Shard(*map(int, parts))
+
+
+def merge_libraries(shards: list[Path], *, out: Path, as_json: bool) -> int:
+    """Exit status 0."""
+    merged = merge(shards, out)
+    if as_json:
+        print(
+            json.dumps({"library": str(out), "falls": merged.falls, "starts": merged.starts, "motions": merged.motions})
+        )
+        return 0
+    console, place = make_console(), escape(str(out))
+    console.print(f"{merged.falls} of {merged.starts} falls and {merged.motions} motions are in {place}.")
+    console.print(
+        "Build it again to try every motion from every fall: the command of its shards, without --shard, with"
+        f" --starts {merged.starts} --out {place}"
+    )
+    return 0
+
+
+def export_the_library(
+    directory: Path,
+    *,
+    out: Path | None,
+    rate: float | None,
+    kp: float | None,
+    kd: float | None,
+    as_json: bool,
+) -> int:
+    """Exit status 0."""
+    place = out or directory.with_name(f"{directory.resolve().name}-robot")
+    console = make_console(stderr=as_json)
+    options = {"--rate": rate, "--kp": kp, "--kd": kd}
+    words = [word for name, value in options.items() if value is not None for word in (name, f"{value:g}")]
+    exported = export_library(
+        Library.load(directory),
+        place,
+        rate=rate,
+        kp=kp,
+        kd=kd,
+        command=shlex.join(["levade", "library", "export", str(directory), *words]),
+        observe=lambda done, n: console.print(f"  {done} of {n} motions", style="dim"),
+    )
+    if as_json:
+        motions = {str(number): str(path) for number, path in exported.motions.items()}
+        print(json.dumps({"directory": str(place), "motions": motions, "failed": list(exported.failed)}))
+        return 0
+    for number in exported.failed:
+        console.print(
+            f"[yellow]{_named(exported.motions[number], number)} does not work where it was simulated from.[/]"
+        )
+    console.print(f"{len(exported.motions)} motions are in {escape(str(place))}; it needs Python and numpy alone:")
+    console.print(f"  python {escape(str(place / 'ask.py'))} --robot my_robot:MyRobot")
+    return 0
 
 
 def show_library(directory: Path, *, figures: Path | None, format: str, as_json: bool) -> int:

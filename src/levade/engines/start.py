@@ -68,8 +68,8 @@ class Fall:
 class Fold:
     """What a robot does first once it has fallen: its joints go to a posture, smoothly, and rest there.
 
-    posture: as in `Settled`; or "tucked", with the legs drawn in (`levade.robots.tucking`): however it fell, it then lies in one
-        of a few ways.
+    posture: as in `Settled`; or "tucked", with the legs drawn in (`levade.robots.tucking`): it then lies in one of a few
+        ways, however it fell.
     time: [s], of going there. rest: [s], until the motion starts.
     """
 

@@ -2,8 +2,8 @@
 
     merge([Path("shard-0"), Path("shard-1")], Path("falls"))
 
-A shard knows nothing of the others, so that its motions differ from those of a library that was built whole. To build the merged
-library is to try every motion from every fall.
+A shard knows nothing of the others, so that its motions differ from those of a library that was built whole. Building the
+merged library tries every motion from every fall.
 """
 
 from __future__ import annotations
