@@ -3,8 +3,8 @@
     python benchmarks/library_drive.py LIBRARY --starts 50 --delay 0.004
 
 The library is exported, and its own script does the rest, at full speed: fold, ask, play, look, ask again. The robot is MuJoCo
-with the library's drives, from falls of another seed, as they lie before they fold up. What it is sent arrives late, and what it
-senses is late, by the delay each.
+with the library's drives, from falls of another seed, as they lie before they fold up. What it is sent arrives late by the
+delay, and so does what it senses.
 """
 
 from __future__ import annotations
