@@ -19,11 +19,12 @@ from levade.engines import Perturbation
 from levade.errors import LevadeError
 from levade.library import Falls, Library, Method, Record, build, check_library
 from levade.library.building import rounds
-from levade.library.falls import face
+from levade.library.falls import Plays, face
 from levade.library.figure import projected
 from levade.library.knowledge import Knowledge
 from levade.library.merging import merge
 from levade.library.mirror import Mirror
+from levade.library.refining import refine, refined
 from levade.library.storing import Shard
 from levade.motions import Motion
 from levade.robots import load_robot
@@ -250,6 +251,32 @@ def test_it_is_checked_on_falls_that_it_has_not_seen(library: Library) -> None:
     assert json.loads(json.dumps(found.to_json()))["nominal"]["first"]["share"] == found.first.share
     with pytest.raises(LevadeError, match="0 is the seed of the library's own falls"):
         check_library(library, starts=n, seed=0)
+
+
+def test_a_refined_answer_works_where_it_says_so(library: Library) -> None:
+    """Simulated by hand. Of five likeliest motions one that works is taken; else a search goes on, until there is no time."""
+    falls, plays = Falls(rolling(), seed=3), Plays(library.directory, library.knowledge.mirror)
+    for i in range(4):
+        objective = falls.objective(i)
+        answer = library.ask(*falls.sensed(objective.state))
+        numbers = [answer.number, *(number for number, _ in answer.others)]
+        better = refined(falls, plays, objective, numbers, seconds=60.0)
+        trajectories = objective.engine.rollout(objective.state, better.reference)
+        judged = objective.judge(trajectories, objective.task.hold_steps)
+        assert bool(judged.success[0]) == better.works
+        known = [objective.evaluate(plays[one].decisions(objective.policy)).success[0] for one in numbers[:5]]
+        assert better.works >= any(known)
+        assert better.searched or better.trials <= len(known) + 24 + 8
+        quick = refined(falls, plays, objective, numbers, seconds=1e-9)
+        assert (quick.works, quick.searched) == (any(known), False)
+
+
+def test_a_robot_lies_where_it_is_put_down_to_be_refined(library: Library) -> None:
+    """Which way is up for it is what was asked with, until it comes to rest."""
+    better = refine(library, [0.0, 0.1, -0.99], np.full(12, 0.1), seconds=1e-9)
+    assert better.trials in (5, 13)
+    with pytest.raises(LevadeError, match="0 s leave no time to refine"):
+        refine(library, [0.0, 0.1, -0.99], np.zeros(12), seconds=0)
 
 
 def test_a_robot_that_does_not_differ_is_the_model(library: Library) -> None:

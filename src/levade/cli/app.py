@@ -566,12 +566,18 @@ def _ask_library(
     library: Annotated[Path, typer.Argument(metavar="DIR", help="A library.")],
     state: Annotated[Path, typer.Option(help="JSON or YAML: attitude (w-x-y-z) or up (in trunk axes), and joints.")],
     reference: Annotated[Path | None, typer.Option(help="Write what to tell the joints, as CSV.")] = None,
+    refine: Annotated[
+        str | None, typer.Option(metavar="TIME", help="Try the answer in simulation, and search on: 1s.")
+    ] = None,
     as_json: Json = False,
 ) -> int:
-    """Say which motion most likely works from where the robot lies. No simulator is asked."""
+    """Say which motion most likely works from where the robot lies. No simulator is asked, except to refine.
+
+    Exit status: 0 there is an answer, 1 refined it does not work, 2 the input is wrong.
+    """
     from levade.cli.librarian import ask_library
 
-    return ask_library(library, state=state, reference=reference, as_json=as_json)
+    return ask_library(library, state=state, reference=reference, refine=refine, as_json=as_json)
 
 
 @_library.command("check")
@@ -579,6 +585,9 @@ def _check_library(
     library: Annotated[Path, typer.Argument(metavar="DIR", help="A library.")],
     starts: Annotated[int, typer.Option(help="Falls to try.")] = 200,
     seed: Annotated[int, typer.Option(min=0, help="Of these falls: another than the library's.")] = 1,
+    refine: Annotated[
+        str | None, typer.Option(metavar="TIME", help="Refine answers that do not work, for as long: 1s.")
+    ] = None,
     threads: Annotated[int, typer.Option(min=0, help="Engine threads; 0 for one per core.")] = 0,
     as_json: Json = False,
 ) -> int:
@@ -588,7 +597,7 @@ def _check_library(
     """
     from levade.cli.librarian import check_the_library
 
-    return check_the_library(library, starts=starts, seed=seed, threads=threads, as_json=as_json)
+    return check_the_library(library, starts=starts, seed=seed, refine=refine, threads=threads, as_json=as_json)
 
 
 _tasks = typer.Typer(help="List the built-in tasks; print one, or the form of them all.", rich_markup_mode=None)

@@ -6,7 +6,7 @@ import json
 import os
 import shlex
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -20,14 +20,17 @@ from levade.cli.tables import make_console
 from levade.document import read_yaml
 from levade.errors import LevadeError, did_you_mean
 from levade.feedback import up_in_trunk
-from levade.library import Answer, Library, LibraryCheck, Progress, build, check_library
+from levade.library import Library, LibraryCheck, Progress, build, check_library
 from levade.library.exporting import export_library
 from levade.library.falls import FACES, face
 from levade.library.figure import draw
 from levade.library.merging import merge
 from levade.library.records import motion_path
+from levade.library.refining import refine as refined_answer
 from levade.library.storing import WHOLE, Shard
 from levade.tasks import load_task
+from levade.tasks.units import to_si
+from levade.trajectory import JointReference
 from levade.writing import write_text
 
 _WORDS = {
@@ -198,12 +201,14 @@ def _tell_library(console: Console, library: Library) -> None:
     console.print(f"The best few of them: {enough}.")
 
 
-def check_the_library(directory: Path, *, starts: int, seed: int, threads: int, as_json: bool) -> int:
+def check_the_library(
+    directory: Path, *, starts: int, seed: int, refine: str | None, threads: int, as_json: bool
+) -> int:
     """Exit status 0 if all was tried, 1 if interrupted."""
-    library = Library.load(directory)
+    library, time_left = Library.load(directory), None if refine is None else _seconds(refine)
     console = make_console(stderr=as_json)
     with stop_between("part") as stopping:
-        found = check_library(library, starts=starts, seed=seed, threads=threads, stopping=stopping)
+        found = check_library(library, starts=starts, seed=seed, threads=threads, refine=time_left, stopping=stopping)
     if as_json:
         print(json.dumps(found.to_json()))
     else:
@@ -220,6 +225,7 @@ def _told(found: LibraryCheck) -> list[tuple[str, str]]:
         ("the first answer works", str(found.first)),
         *lying,
         *after,
+        *([("the first answer, refined in simulation", str(found.refined))] if found.refined else []),
         ("within two attempts, the second from where it lies", str(found.twice)),
         ("the first answer, on robots that differ", str(found.perturbed)),
         ("what the answers themselves say", f"{found.expected:.1%}"),
@@ -227,14 +233,28 @@ def _told(found: LibraryCheck) -> list[tuple[str, str]]:
     ]
 
 
-def ask_library(directory: Path, *, state: Path, reference: Path | None, as_json: bool) -> int:
-    """Exit status 0: there always is an answer."""
+def _seconds(text: str) -> float:
+    """A duration, such as 1s, 500 ms or 1.5."""
+    value = to_si(text, where="--refine", measures="a duration")
+    try:
+        seconds = float(value)
+    except (TypeError, ValueError):
+        seconds = 0.0
+    if not 0 < seconds < 1e6:
+        raise LevadeError(f"--refine {text}: should be a time, such as 1s")
+    return seconds
+
+
+def ask_library(directory: Path, *, state: Path, reference: Path | None, refine: str | None, as_json: bool) -> int:
+    """Exit status 0; 1 if the answer was refined, and does not work on the model even so."""
     library = Library.load(directory)
     first = library.ask([0.0, 0.0, 1.0], np.zeros(library.knowledge.joint_position.shape[1]))
     names = first.motion.joint_names
-    answer = library.ask(*_read_state(state, names))
+    question = _read_state(state, names)
+    answer = library.ask(*question)
+    better = None if refine is None else refined_answer(library, *question, seconds=_seconds(refine))
     if reference is not None:
-        _write_reference(answer, reference)
+        _write_reference(answer.reference if better is None else better.reference, names, reference)
     if as_json:
         content = {
             "motion": str(answer.path),
@@ -245,14 +265,26 @@ def ask_library(directory: Path, *, state: Path, reference: Path | None, as_json
                 for number, probability in answer.others
             ],
         }
+        if better is not None:
+            content["refined"] = {
+                "motion": str(motion_path(directory, better.number)),
+                "mirrored": better.number < 0,
+                **{name: getattr(better, name) for name in ("works", "share", "searched", "trials", "seconds")},
+            }
         print(json.dumps(content))
-        return 0
+        return 0 if better is None or better.works else 1
     console = make_console()
     console.print(f"{_named(answer.path, answer.number)}: works with a probability of {answer.probability:.1%}")
     for number, probability in answer.others[:3]:
         place = _named(Path(motion_path(directory, number).name), number)
         console.print(f"  next: {place}, {probability:.1%}", style="dim")
-    return 0
+    if better is None:
+        return 0
+    place = _named(Path(motion_path(directory, better.number).name), better.number)
+    what = f"a search from {place}" if better.searched else place
+    works = f"works on the model, and on {better.share:.0%} of robots that differ" if better.works else "does not work"
+    console.print(f"In simulation, {what} {works} ({better.trials} trials, {better.seconds:.1f} s).")
+    return 0 if better.works else 1
 
 
 def _named(path: Path, number: int) -> str:
@@ -297,14 +329,13 @@ def _numbers(values: Any, n: int, where: str) -> Array:
     return np.array(values, dtype=float)
 
 
-def _write_reference(answer: Answer, path: Path) -> None:
+def _write_reference(reference: JointReference, names: Sequence[str], path: Path) -> None:
     """A table of time [s] and joint references [rad]: the motion, from where the joints are."""
     if not path.parent.is_dir() or not os.access(path.parent, os.W_OK):
         raise LevadeError(f"--reference {path}: its directory cannot be written; give another")
-    reference = answer.reference
     position = reference.position[0]
     times = (np.arange(len(position)) + 1) * reference.timestep
-    lines = [",".join(["time", *answer.motion.joint_names])]
+    lines = [",".join(["time", *names])]
     lines += [",".join(map(repr, [float(t), *map(float, row)])) for t, row in zip(times, position, strict=True)]
     try:
         write_text(path, "\n".join(lines) + "\n")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 
@@ -134,6 +135,14 @@ class Play:
         return image
 
 
+class Playable(Protocol):
+    """What can be played from a fall: a motion, or weights."""
+
+    def decisions(self, policy: JointPolicy) -> Array:
+        """Its weights for a policy, shape (1, d)."""
+        ...
+
+
 class Plays:
     """What there is to play in a library, by number (`levade.library.records`); each motion is read once."""
 
@@ -149,7 +158,7 @@ class Plays:
 
 
 def tried_on_others(
-    objective: Objective, plays: Mapping[int, Play], perturbation: Perturbation, *, seed: tuple[int, ...]
+    objective: Objective, plays: Mapping[int, Playable], perturbation: Perturbation, *, seed: tuple[int, ...]
 ) -> Mask:
     """Play motions from one fall, each on another robot that differs from the model.
 
@@ -178,7 +187,7 @@ def tried_on_others(
     return works
 
 
-def tried(objectives: Sequence[Objective], plays: Sequence[Sequence[Play]]) -> list[Evaluation]:
+def tried(objectives: Sequence[Objective], plays: Sequence[Sequence[Playable]]) -> list[Evaluation]:
     """Play motions from falls, in common batches: for each objective its own, on the nominal model."""
     asked = []
     for objective, own in zip(objectives, plays, strict=True):
