@@ -31,6 +31,7 @@ import math
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass, fields
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -47,7 +48,7 @@ legs are, and its joints are elsewhere in a moment."""
 NEAREST, LEAST_REACH = 8, 0.1
 """Falls whose distance is how far a fall reaches, and the least of it [rad]."""
 
-HEARD = 256
+HEARD = 128
 """Falls, and images of falls, that have a say: the nearest ones. An answer then takes as long for thousands of falls."""
 
 PRIOR = 0.5
@@ -98,13 +99,17 @@ class Model:
         n = len(self.up)
         own, other = order < n, order >= n
         for_it, all_of_it = say[own] @ self.worked[order[own]], say[own] @ self.tried[order[own]]
-        share = (self.worked.sum(axis=0) + 1.0) / (self.tried.sum(axis=0) + 2.0)
         if len(self.image):  # a motion works from a fall as its image does from the fall's image
             rows = order[other] - n
             for_it = for_it + (say[other] @ self.worked[rows])[self.image]
             all_of_it = all_of_it + (say[other] @ self.tried[rows])[self.image]
-            share = (share + share[self.image]) / 2
-        return (for_it + PRIOR * share) / (all_of_it + PRIOR)
+        return (for_it + PRIOR * self._share) / (all_of_it + PRIOR)
+
+    @cached_property
+    def _share(self) -> Array:
+        """From how many of all falls each motion works, or its image does from theirs, (m,)."""
+        share = (self.worked.sum(axis=0) + 1.0) / (self.tried.sum(axis=0) + 2.0)
+        return (share + share[self.image]) / 2 if len(self.image) else share
 
     def ranked(self, up: Array, joint_position: Array) -> list[tuple[int, float]]:
         """Motions and how likely each works from a state, the likeliest first."""

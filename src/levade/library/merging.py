@@ -61,7 +61,9 @@ def merge(shards: Sequence[Path], directory: Path, *, robot: Robot | None = None
             raise LevadeError(
                 f"{place}: is of another task, robot or seed than {shards[0]}; merge shards of one library"
             )
-        if of == WHOLE or of.shards != n:
+        if of == WHOLE:
+            raise LevadeError(f"{place}: is a whole library, no shard; merge shards")
+        if of.shards != n:
             raise LevadeError(f"{place}: is shard {of}, and {shards[0]} one of {n}; merge shards of one library")
         if of.number in seen:
             raise LevadeError(f"{place}: is shard {of}, as {seen[of.number]} is; give each shard once")
