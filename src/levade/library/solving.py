@@ -38,10 +38,10 @@ _TRIED = 24
 _NEAR = 240
 """Trials of a search around the best of them."""
 
-_ROBOTS, _SURE, _TOLD = 4, 0.75, 2
+_ROBOTS, _SURE, _TOLD = 6, 0.8, 2
 """Robots that differ, on which so many of the likeliest motions that work are tried; and the share that makes one sure."""
 
-_ELSEWHERE = 0.2
+_ELSEWHERE = 0.1
 """From a fall that has a motion of its own [rad], beyond which another motion may be worth more there."""
 
 _APART = 1000
