@@ -531,6 +531,17 @@ def _merge_library(
     return merge_libraries(shards, out=out, as_json=as_json)
 
 
+@_library.command("learn")
+def _learn_library(
+    library: Annotated[Path, typer.Argument(metavar="DIR", help="A library that is built.")],
+    as_json: Json = False,
+) -> int:
+    """Learn which motion works from where, in several ways, and answer by the best: how often are first answers right?"""
+    from levade.cli.librarian import learn_library
+
+    return learn_library(library, as_json=as_json)
+
+
 @_library.command("export")
 def _export_library(
     library: Annotated[Path, typer.Argument(metavar="DIR", help="A library.")],

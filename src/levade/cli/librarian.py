@@ -24,6 +24,7 @@ from levade.library import Library, LibraryCheck, Progress, build, check_library
 from levade.library.exporting import export_library
 from levade.library.falls import FACES, face
 from levade.library.figure import draw
+from levade.library.learning import learn, save
 from levade.library.merging import merge
 from levade.library.records import motion_path
 from levade.library.refining import refine as refined_answer
@@ -115,6 +116,24 @@ def merge_libraries(shards: list[Path], *, out: Path, as_json: bool) -> int:
         "Build it again to try every motion from every fall: the command of its shards, without --shard, with"
         f" --starts {merged.starts} --out {place}"
     )
+    return 0
+
+
+def learn_library(directory: Path, *, as_json: bool) -> int:
+    """Exit status 0."""
+    found = learn(Library.load(directory))
+    save(found, directory)
+    if as_json:
+        scores = {kind: vars(score) for kind, score in found.scores.items()}
+        print(json.dumps({"library": str(directory), "scores": scores, "chosen": found.chosen}))
+        return 0
+    console = make_console()
+    for kind, score in found.scores.items():
+        console.print(
+            f"{kind:<18} first answers on falls left out work in {score.first:.1%} ({score.said:.1%} by what they say);"
+            f" Brier score {score.brier:.4f}"
+        )
+    console.print(f"{escape(str(directory))} answers by: {found.chosen}.")
     return 0
 
 

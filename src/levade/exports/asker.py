@@ -113,9 +113,69 @@ class Model:
 
     def ranked(self, up: Array, joint_position: Array) -> list[tuple[int, float]]:
         """Motions and how likely each works from a state, the likeliest first."""
-        probability = self.probabilities(up, joint_position)
-        order = np.argsort(-probability, kind="stable")
-        return [(int(self.motions[j]), float(probability[j])) for j in order]
+        return ranked(self.motions, self.probabilities(up, joint_position))
+
+
+def features(up: Array, joint_position: Array) -> Array:
+    """What is learned from, (..., 3 + joints): the distance between two states is about that of `Model.distances`."""
+    return np.concatenate([up, joint_position * (JOINTS / math.sqrt(joint_position.shape[-1]))], axis=-1)
+
+
+@dataclass(frozen=True, eq=False)
+class Learned:
+    """A model that was learned from which motion works from which fall: `levade.library.learning`.
+
+    kind: "gaussian-process", "trees" or "networks". motions: their numbers, (m,). arrays: what it is made of.
+    slope, offset: of a probability's log odds, so that it is how often a motion works.
+    """
+
+    kind: str
+    motions: Array
+    arrays: dict[str, Array]
+    slope: float = 1.0
+    offset: float = 0.0
+
+    def probabilities(self, up: Array, joint_position: Array) -> Array:
+        """How likely each motion works from a state, (m,)."""
+        raw = np.clip(_RAW[self.kind](self.arrays, features(up, joint_position)), 0.005, 0.995)
+        return 1.0 / (1.0 + np.exp(-(self.slope * np.log(raw / (1.0 - raw)) + self.offset)))
+
+    def ranked(self, up: Array, joint_position: Array) -> list[tuple[int, float]]:
+        """Motions and how likely each works from a state, the likeliest first."""
+        return ranked(self.motions, self.probabilities(up, joint_position))
+
+
+def ranked(motions: Array, probability: Array) -> list[tuple[int, float]]:
+    """Motions, (m,), and how likely each works, the likeliest first."""
+    order = np.argsort(-probability, kind="stable")
+    return [(int(motions[j]), float(probability[j])) for j in order]
+
+
+def _gaussian_process(of: dict[str, Array], x: Array) -> Array:
+    """Posterior mean. states: (k, f). weights: (k, m). mean: (m,). length, amplitude: (1,)."""
+    squared = ((of["states"] - x) ** 2).sum(axis=1)
+    return of["mean"] + of["amplitude"] * np.exp(-0.5 * squared / of["length"] ** 2) @ of["weights"]
+
+
+def _trees(of: dict[str, Array], x: Array) -> Array:
+    """Sum of boosted trees, each of one motion. feature, threshold, left, right, value: (trees, nodes). motion: (trees,).
+
+    first: (m,), what they start from. A leaf is its own child.
+    """
+    tree, node = np.arange(len(of["motion"])), np.zeros(len(of["motion"]), dtype=int)
+    for _ in range(int(of["depth"][0])):
+        goes = x[of["feature"][tree, node]] <= of["threshold"][tree, node]
+        node = np.where(goes, of["left"][tree, node], of["right"][tree, node])
+    return of["first"] + np.bincount(of["motion"], of["value"][tree, node], minlength=len(of["first"]))
+
+
+def _networks(of: dict[str, Array], x: Array) -> Array:
+    """Mean of networks with one hidden layer. into: (e, f, h). bias: (e, h). out: (e, h, m). last: (e, m)."""
+    hidden = np.tanh(np.einsum("f,efh->eh", x, of["into"]) + of["bias"])
+    return (np.einsum("eh,ehm->em", hidden, of["out"]) + of["last"]).mean(axis=0)
+
+
+_RAW = {"gaussian-process": _gaussian_process, "trees": _trees, "networks": _networks}
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,7 +187,7 @@ class Library:
     """
 
     joints: list[str]
-    model: Model
+    model: Model | Learned
     fold: player.Motion
     fold_time: float
     motions: dict[int, player.Motion]
@@ -146,8 +206,7 @@ class Library:
             content = (folder / "model.npz").read_bytes()
             if about["checksum"] != checksum(about, content):
                 raise ValueError("library.json, or model.npz, was changed since it was exported (checksum)")
-            with np.load(io.BytesIO(content), allow_pickle=False) as file:
-                model = Model(**{one.name: file[one.name] for one in fields(Model)})
+            model = unpacked(content)
             motions = {
                 int(number): player.Motion.load(folder / where / "motion.csv")
                 for number, where in about["motions"].items()
@@ -178,6 +237,18 @@ class Library:
         if joints.shape != (len(self.joints),) or not np.isfinite(joints).all():
             raise ValueError(f"joints: should be the angles of {len(self.joints)} joints [rad]")
         return self.model.ranked(up / np.linalg.norm(up), joints)
+
+
+def unpacked(content: bytes) -> Model | Learned:
+    """The model of a model.npz: by what is nearby, or a learned one."""
+    with np.load(io.BytesIO(content), allow_pickle=False) as file:
+        if "kind" not in file:
+            return Model(**{one.name: file[one.name] for one in fields(Model)})
+        of = {name: file[name] for name in file}
+    kind, motions, slope, offset = (of.pop(name) for name in ("kind", "motions", "slope", "offset"))
+    if str(kind) not in _RAW:
+        raise ValueError(f"{kind} is no kind of model; one of {', '.join(_RAW)}")
+    return Learned(str(kind), motions, of, float(slope), float(offset))
 
 
 def checksum(about: dict[str, Any], model: bytes) -> str:

@@ -28,6 +28,7 @@ from levade.exports.asker import Model, checksum
 from levade.exports.directory import filling
 from levade.library.asking import Library
 from levade.library.falls import Falls, Plays
+from levade.library.learning import packed as learned_bytes
 from levade.library.records import fall_of
 from levade.library.storing import read_library
 from levade.motions import Motion
@@ -102,7 +103,7 @@ def export_library(
             (partial / folder / "player.py").unlink()
             folders[number] = folder
             observe(len(folders), len(knowledge.motions))
-        model = packed(knowledge.model)
+        model = packed(knowledge.model) if library.learned is None else learned_bytes(library.learned)
         (partial / "model.npz").write_bytes(model)
         about: dict[str, Any] = {
             "joints": list(falls.simulation.robot.joint_names),
