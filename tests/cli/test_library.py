@@ -196,3 +196,10 @@ def test_what_does_not_fold_is_not_exported(built: Path, run: Run, tmp_path: Pat
     assert (status, err.count("\n")) == (2, 1)
     assert "its falls do not fold up first" in err
     assert not (tmp_path / "robot").exists()
+
+
+def test_too_few_falls_to_learn_from_are_one_line(built: Path, run: Run) -> None:
+    pytest.importorskip("sklearn", reason="learning needs scikit-learn: pip install levade[learn]")
+    status, _, err = run("library", "learn", str(built))
+    assert (status, err.count("\n")) == (2, 1)
+    assert "4 falls are too few to learn from; build 10 or more" in err
