@@ -13,7 +13,7 @@ from levade.engines.engine import Engine
 from levade.engines.mujoco import MujocoEngine
 from levade.engines.start import Fold
 from levade.engines.state import State
-from levade.errors import LevadeError, located
+from levade.errors import LevadeError, did_you_mean, located
 from levade.robots import Robot
 from levade.robots.tucking import tucked
 from levade.trajectory import JointReference
@@ -24,6 +24,9 @@ def fold_posture(robot: Robot, fold: Fold) -> Array:
     with located("start.fallen.fold.posture: "):
         if fold.posture == "tucked" and "tucked" not in robot.postures:
             return tucked(robot)
+        if isinstance(fold.posture, str) and fold.posture not in robot.postures:
+            names = {"tucked", *robot.postures}
+            raise LevadeError(f"robot {robot.name}: no posture {fold.posture!r}; {did_you_mean(fold.posture, names)}")
         return robot.posture(fold.posture)
 
 
