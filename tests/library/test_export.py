@@ -164,12 +164,13 @@ def test_a_robot_that_folds_lies_with_its_legs_drawn_in() -> None:
     falls = Falls(load_task("self-righting", robot="go1"), seed=4, threads=1)
     assert falls.task.start.fallen is not None
     assert falls.task.start.fallen.fold == Fold()
+    assert falls.fold is not None
     for state in (falls.objective(i).state for i in range(2)):
         np.testing.assert_array_equal(state.joint_reference[0], falls.fold)
         assert np.median(np.abs(state.joint_position - falls.fold)) < 0.1
     limits = falls.simulation.robot.limits
     knees = np.arange(2, 12, 3)
-    assert np.all(falls.fold[knees] < limits.lower[knees] + 0.15)  # type: ignore[index]
+    assert np.all(falls.fold[knees] < limits.lower[knees] + 0.15)
 
 
 def test_only_what_folds_is_exported(tmp_path: Path) -> None:

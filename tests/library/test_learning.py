@@ -36,7 +36,7 @@ def known(falls: int = 60, seed: int = 0) -> Knowledge:
     up /= np.linalg.norm(up, axis=1, keepdims=True)
     works = np.stack([up[:, 1] > 0.2, up[:, 2] < 0, up[:, 1] < -0.2, up[:, 2] < 0], axis=1).astype(float)
     joints = draw.uniform(-1, 1, (falls, 2))
-    return Knowledge(np.arange(falls), up, joints, np.array([0, 3, -1, -4]), works, works.copy(), MIRROR)
+    return Knowledge(np.arange(falls, dtype=float), up, joints, np.array([0, 3, -1, -4]), works, works.copy(), MIRROR)
 
 
 def library(directory: Path, knowledge: Knowledge) -> Library:
