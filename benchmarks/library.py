@@ -96,15 +96,36 @@ def main() -> None:
             file.write(json.dumps(row) + "\n")
 
 
+class Spent:
+    """What a build took, also if it was interrupted and went on: noted in a file beside it."""
+
+    def __init__(self, place: Path) -> None:
+        self._place = place
+        before = json.loads(place.read_text()) if place.exists() else {"seconds": 0.0, "cpu": 0.0}
+        self._began = time.perf_counter() - before["seconds"], time.process_time() - before["cpu"]
+
+    def note(self) -> tuple[float, float]:
+        """Wall-clock time and processor time so far [s]."""
+        seconds, cpu = time.perf_counter() - self._began[0], time.process_time() - self._began[1]
+        self._place.write_text(json.dumps({"seconds": seconds, "cpu": cpu}))
+        return seconds, cpu
+
+
 def row_of(task: str, robot: str, place: Path, options: argparse.Namespace) -> dict[str, Any]:
     """A library, and what it is worth."""
-    began, cpu = time.perf_counter(), time.process_time()
+    spent = Spent(place.with_suffix(".spent.json"))
     library = build(
-        load_task(task, robot=robot), starts=options.starts, seed=0, threads=options.threads, directory=place
+        load_task(task, robot=robot),
+        starts=options.starts,
+        seed=0,
+        threads=options.threads,
+        directory=place,
+        observe=lambda progress: spent.note(),
     )
+    seconds, cpu = spent.note()
     row: dict[str, Any] = {"task": task, "robot": robot, "starts": options.starts, "note": options.note}
     row["folds"] = library.fold is not None
-    row |= {"seconds": time.perf_counter() - began, "cpu": time.process_time() - cpu}
+    row |= {"seconds": seconds, "cpu": cpu}
     row |= facts(library)
     began = time.perf_counter()
     found = check_library(library, starts=options.check, seed=1, threads=options.threads)
