@@ -161,13 +161,11 @@ def export_the_library(
         observe=lambda done, n: console.print(f"  {done} of {n} motions", style="dim"),
     )
     if as_json:
-        motions = {str(number): str(path) for number, path in exported.motions.items()}
-        print(json.dumps({"directory": str(place), "motions": motions, "failed": list(exported.failed)}))
+        motions = {str(number): list(map(str, paths)) for number, paths in exported.motions.items()}
+        print(json.dumps({"directory": str(place), "motions": motions, "failed": list(map(str, exported.failed))}))
         return 0
-    for number in exported.failed:
-        console.print(
-            f"[yellow]{_named(exported.motions[number], number)} does not work where it was simulated from.[/]"
-        )
+    for path in exported.failed:
+        console.print(f"[yellow]{escape(str(path))}: the motion does not work from there.[/]")
     console.print(f"{len(exported.motions)} motions are in {escape(str(place))}; it needs Python and numpy alone:")
     console.print(f"  python {escape(str(place / 'ask.py'))} --robot my_robot:MyRobot")
     return 0

@@ -12,7 +12,8 @@ state.json has what a robot senses when it lies still, with its joints where the
 
 1. The joints go to the fold's posture within its time, and rest there.
 2. The library is asked with the trunk's attitude and the joints.
-3. Its likeliest motion is played, with the start checks, limits and stops of player.py.
+3. Its likeliest motion is played, with the start checks, limits and stops of player.py. What it is compared with is the
+   simulation from the way to lie that is nearest.
 4. The robot stands if its trunk is level and its joints are where the motion ends.
 
 A robot that does not stand, or does so much otherwise than the simulation that player.py stops, is asked about again, after the
@@ -183,14 +184,14 @@ class Library:
     """An exported library. Raises ValueError if it is not one.
 
     joints: their names. model: what it answers by. fold: the posture that the joints go to first, as a motion that rests there.
-    fold_time: [s], of going there. motions: number -> motion.
+    fold_time: [s], of going there. motions: number -> the motion, once for each way to lie that it was simulated from.
     """
 
     joints: list[str]
     model: Model | Learned
     fold: player.Motion
     fold_time: float
-    motions: dict[int, player.Motion]
+    motions: dict[int, list[player.Motion]]
 
     @classmethod
     def load(cls, folder: str | Path) -> Library:
@@ -208,15 +209,15 @@ class Library:
                 raise ValueError("library.json, or model.npz, was changed since it was exported (checksum)")
             model = unpacked(content)
             motions = {
-                int(number): player.Motion.load(folder / where / "motion.csv")
-                for number, where in about["motions"].items()
+                int(number): [player.Motion.load(folder / place / "motion.csv") for place in places]
+                for number, places in about["motions"].items()
             }
             posture, joints = np.array(about["fold"]["position"], dtype=float), list(about["joints"])
             if set(motions) != {int(number) for number in model.motions} or not motions:
                 raise ValueError("its motions are not those of its model")
-            if any(motion.joints != joints for motion in motions.values()):
+            if any(not own or any(one.joints != joints for one in own) for own in motions.values()):
                 raise ValueError("its motions have other joints")
-            fold = resting(next(iter(motions.values())), posture, float(about["fold"]["rest"]))
+            fold = resting(next(iter(motions.values()))[0], posture, float(about["fold"]["rest"]))
             return cls(joints, model, fold, float(about["fold"]["time"]), motions)
         except (OSError, ValueError):
             raise
@@ -237,6 +238,11 @@ class Library:
         if joints.shape != (len(self.joints),) or not np.isfinite(joints).all():
             raise ValueError(f"joints: should be the angles of {len(self.joints)} joints [rad]")
         return self.model.ranked(up / np.linalg.norm(up), joints)
+
+
+def nearest(motions: list[player.Motion], up: Array) -> player.Motion:
+    """The one that was simulated from the attitude nearest to this one. up: in trunk axes, (3,)."""
+    return max(motions, key=lambda motion: float(motion.up[0] @ up))
 
 
 def unpacked(content: bytes) -> Model | Learned:
@@ -341,7 +347,7 @@ def get_up(
     if not callable(getattr(robot, "read_trunk", None)):
         raise player.Stopped("the robot has no read_trunk; a library is asked with the trunk's attitude")
     done: list[Attempt] = []
-    if any(stands(motion, robot) for motion in library.motions.values()):
+    if any(stands(motion, robot) for own in library.motions.values() for motion in own):
         return done
     limits = {"speed_tolerance": speed_tolerance, "clamp": clamp}
     while len(done) < attempts and not (done and done[-1].stands):
@@ -357,8 +363,9 @@ def get_up(
                 wait=wait(),
                 **limits,
             )
-            motion, probability = library.ask(*sense(robot, len(library.joints)))[0]
-            played = library.motions[motion]
+            up, joints = sense(robot, len(library.joints))
+            motion, probability = library.ask(up, joints)[0]
+            played = nearest(library.motions[motion], up)
             player.play(
                 played,
                 robot,

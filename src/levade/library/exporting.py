@@ -5,9 +5,11 @@
 FOLDER/ask.py                       asks and plays (`levade.exports.asker`)
 FOLDER/player.py                    plays one motion (`levade.exports.player`)
 FOLDER/library.json, model.npz      joints, the fold, where motions are; what it answers by
-FOLDER/motions/000012/motion.csv    a motion of the library, as `levade export` writes it; its image is in 000012-mirrored
+FOLDER/motions/000012/from-000034   a motion of the library from a fall, as `levade export` writes it
 
-A mirrored motion is simulated from where the image of its fall lies.
+A motion that gets up from many falls does otherwise from each of them. What a player compares the robot with has to be the
+simulation from where the robot lies, so that a motion is there once for each way to lie that it is the first answer to. Images
+of motions are in 000012-mirrored; they are simulated from where images of falls lie.
 """
 
 from __future__ import annotations
@@ -21,6 +23,8 @@ from typing import Any
 
 import numpy as np
 
+from levade.arrays import Array
+from levade.engines import State
 from levade.errors import LevadeError
 from levade.exports import export
 from levade.exports.as_csv import write_json, write_player, write_script
@@ -28,8 +32,9 @@ from levade.exports.asker import Model, checksum
 from levade.exports.directory import filling
 from levade.library.asking import Library
 from levade.library.falls import Falls, Plays
+from levade.library.knowledge import Knowledge
 from levade.library.learning import packed as learned_bytes
-from levade.library.records import fall_of
+from levade.library.records import fall_of, image_of
 from levade.library.storing import read_library
 from levade.motions import Motion
 from levade.robots import Robot
@@ -38,6 +43,9 @@ from levade.search.objective import Objective
 from levade.search.outcome import Solution, Stopped, Trial
 from levade.search.recording import record
 
+_APART = 0.3
+"""Between ways to lie [rad], beyond which a motion is simulated from both."""
+
 
 @dataclass(frozen=True)
 class ExportedLibrary:
@@ -45,13 +53,13 @@ class ExportedLibrary:
 
     Attributes:
         directory: Where.
-        motions: Number of each motion -> its folder.
-        failed: Numbers of mirrored motions that do not work where they are simulated from; the model knows how often they do.
+        motions: Number of each motion -> its folders, one for each way to lie that it was simulated from.
+        failed: Those of them in which it does not work; the model knows how often it does.
     """
 
     directory: Path
-    motions: dict[int, Path]
-    failed: tuple[int, ...]
+    motions: dict[int, tuple[Path, ...]]
+    failed: tuple[Path, ...]
 
 
 def export_library(
@@ -92,23 +100,31 @@ def export_library(
     falls = Falls(task, robot=robot, seed=seed, threads=1)
     fold = task.start.fallen and task.start.fallen.fold
     assert fold is not None
-    plays, folders, failed = Plays(library.directory, knowledge.mirror), {}, []
+    plays = Plays(library.directory, knowledge.mirror)
+    folders: dict[int, list[str]] = {}
+    failed: list[str] = []
+    ways, written = _ways(library), 0
     with filling(directory) as partial:
-        for number in map(int, knowledge.motions):
-            folder = f"motions/{fall_of(number):06}{'-mirrored' if number < 0 else ''}"
-            motion = plays[number].motion if number >= 0 else _image(falls, plays, number)
-            if not motion.result.success:
-                failed.append(number)
-            export(motion, "csv", partial / folder, rate=rate, reference="commanded", kp=kp, kd=kd, command=command)
-            (partial / folder / "player.py").unlink()
-            folders[number] = folder
-            observe(len(folders), len(knowledge.motions))
+        for number, lying in ways.items():
+            motion = f"motions/{fall_of(number):06}{'-mirrored' * (number < 0)}"
+            for fall, image in lying:
+                folder = f"{motion}/from-{fall:06}{'-mirrored' * image}"
+                simulated = _simulated(falls, plays, number, fall, image=image)
+                if not simulated.result.success:
+                    failed.append(folder)
+                export(
+                    simulated, "csv", partial / folder, rate=rate, reference="commanded", kp=kp, kd=kd, command=command
+                )
+                (partial / folder / "player.py").unlink()
+                folders.setdefault(number, []).append(folder)
+                written += 1
+                observe(written, sum(map(len, ways.values())))
         model = packed(knowledge.model) if library.learned is None else learned_bytes(library.learned)
         (partial / "model.npz").write_bytes(model)
         about: dict[str, Any] = {
             "joints": list(falls.simulation.robot.joint_names),
             "fold": {"position": library.fold.tolist(), "time": fold.time, "rest": fold.rest},
-            "motions": {str(number): folder for number, folder in folders.items()},
+            "motions": {str(number): places for number, places in folders.items()},
             "library": {
                 "task": task.name,
                 "robot": falls.simulation.robot.name,
@@ -120,7 +136,8 @@ def export_library(
         write_json(partial / "library.json", {**about, "checksum": checksum(about, model)}, indent=2)
         write_player(partial)
         write_script("asker.py", partial / "ask.py")
-    return ExportedLibrary(directory, {number: directory / folder for number, folder in folders.items()}, tuple(failed))
+    places = {number: tuple(directory / folder for folder in own) for number, own in folders.items()}
+    return ExportedLibrary(directory, places, tuple(directory / folder for folder in failed))
 
 
 def packed(model: Model) -> bytes:
@@ -134,19 +151,51 @@ def packed(model: Model) -> bytes:
     return content.getvalue()
 
 
-def _image(falls: Falls, plays: Plays, number: int) -> Motion:
-    """A mirrored motion, simulated from where the image of its fall lies once it has folded up."""
-    play, mirror, layout = plays[number], falls.mirror, falls.simulation.engine.layout
+def _ways(library: Library) -> dict[int, list[tuple[int, bool]]]:
+    """Ways to lie that each motion is simulated from: falls, or images of falls, each with whether it is the image.
+
+    Its own fall, and each fall from which it works and is the first answer, unless the robot lies nearly so in one of them.
+    """
+    known, mirror = library.knowledge, library.knowledge.mirror
+    row = {int(fall): i for i, fall in enumerate(known.falls)}
+    column = {int(number): j for j, number in enumerate(known.motions)}
+    ways = {number: [(fall_of(number), number < 0)] for number in column}
+    ups = {number: [_up(known, row[fall], image=image)] for number, ((fall, image),) in ways.items()}
+    for fall, i in row.items():
+        number = library.model.ranked(known.up[i], known.joint_position[i])[0][0]
+        if known.success[i, column[number]] != 1.0:
+            continue
+        for image in (False, True) if mirror else (False,):
+            played, up = image_of(number) if image else number, _up(known, i, image=image)
+            if max(float(other @ up) for other in ups[played]) < np.cos(_APART):
+                ways[played].append((fall, image))
+                ups[played].append(up)
+    return ways
+
+
+def _up(known: Knowledge, row: int, *, image: bool) -> Array:
+    """Which way is up in a fall, or in its image."""
+    return known.mirror.up(known.up[row]) if image and known.mirror is not None else known.up[row]
+
+
+def _simulated(falls: Falls, plays: Plays, number: int, fall: int, *, image: bool) -> Motion:
+    """A motion from where a fall left the robot; or from where the image of the fall lies, once it has folded up."""
+    lying, play = falls.objective(fall), plays[number]
+    objective = falls.from_state(_mirrored(falls, lying.state)) if image else lying
+    return record(objective, _as_found(objective, play.decisions(objective.policy)), seed=play.motion.provenance.seed)
+
+
+def _mirrored(falls: Falls, lying: State) -> State:
+    """Where the image of a state lies, at rest."""
+    mirror, layout = falls.mirror, falls.simulation.engine.layout
     assert mirror is not None
-    lying = falls.objective(fall_of(number)).state
     qpos = lying.qpos[0].copy()
     qpos[layout.trunk_position] *= np.array([1.0, -1.0, 1.0])
     qpos[layout.trunk_quaternion] *= np.array([1.0, -1.0, 1.0, -1.0])
     qpos[layout.joint_qpos] = mirror.posture(lying.joint_position[0])
     told = mirror.posture(lying.joint_reference[0])
-    state = layout.state(qpos, np.zeros_like(lying.qvel[0]), np.zeros_like(lying.act[0]), joint_reference=told)
-    objective = falls.from_state(falls.folded(state))
-    return record(objective, _as_found(objective, play.decisions(objective.policy)), seed=play.motion.provenance.seed)
+    still = np.zeros_like(lying.qvel[0]), np.zeros_like(lying.act[0])
+    return falls.folded(layout.state(qpos, *still, joint_reference=told))
 
 
 def _as_found(objective: Objective, weights: np.ndarray) -> Solution:
