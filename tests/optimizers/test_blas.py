@@ -7,7 +7,7 @@ from levade.optimizers.blas import single_threaded
 
 def _threads() -> set[int]:
     """Of numpy's libraries: scipy brings its own, if another test has loaded scikit-learn."""
-    own = [one for one in threadpool_info() if one["user_api"] == "blas" and "scipy" not in one["filepath"]]
+    own = [one for one in threadpool_info() if one["user_api"] == "blas" and "scipy.libs" not in one["filepath"]]
     return {library["num_threads"] for library in own}
 
 
