@@ -240,9 +240,18 @@ class Library:
         return self.model.ranked(up / np.linalg.norm(up), joints)
 
 
-def nearest(motions: list[player.Motion], up: Array) -> player.Motion:
-    """The one that was simulated from the attitude nearest to this one. up: in trunk axes, (3,)."""
-    return max(motions, key=lambda motion: float(motion.up[0] @ up))
+def nearest(motions: list[player.Motion], up: Array, joint_position: Array) -> player.Motion:
+    """The one that was simulated from the state nearest to this one.
+
+    up: in trunk axes, (3,). joint_position: (joints,) [rad].
+    """
+    return min(motions, key=lambda one: apart(one.up[0], one.start_position, up, joint_position))
+
+
+def apart(up: Array, joint_position: Array, other_up: Array, other_position: Array) -> float:
+    """How far two ways to lie are apart [rad]: by the angle between ways up, or by the joint that differs most."""
+    angle = math.acos(min(1.0, max(-1.0, float(up @ other_up))))
+    return max(angle, float(np.abs(joint_position - other_position).max()))
 
 
 def unpacked(content: bytes) -> Model | Learned:
@@ -313,7 +322,7 @@ def get_up(
     robot: Any,
     *,
     attempts: int = 3,
-    fold_tolerance: float = 1.0,
+    fold_tolerance: float = 2.0 * math.pi,
     tolerance: float = 1.0,
     speed_tolerance: float = 20.0,
     tilt_tolerance: float = 2.0,
@@ -327,8 +336,8 @@ def get_up(
         library: What to ask.
         robot: What is to get up: with ``read``, ``write`` and ``read_trunk``, see player.py.
         attempts: How often at most.
-        fold_tolerance: How far joints may be from the fold's posture once they rest there [rad]. On their way they may be
-            anywhere: legs lie under the robot.
+        fold_tolerance: How far joints may be from the fold's posture once they rest there [rad]. By default they may be
+            anywhere, as on their way: legs lie under the robot. What is played then has to begin near where they are.
         tolerance: How far the joints may be from the simulation in a motion [rad].
         speed_tolerance: How much faster joints and trunk may move than they ever do in the simulation [rad/s].
         tilt_tolerance: Largest angle between the trunk's attitude and that in the simulation [rad].
@@ -365,12 +374,12 @@ def get_up(
             )
             up, joints = sense(robot, len(library.joints))
             motion, probability = library.ask(up, joints)[0]
-            played = nearest(library.motions[motion], up)
+            played = nearest(library.motions[motion], up, joints)
             player.play(
                 played,
                 robot,
                 ramp=0.1,
-                start_tolerance=fold_tolerance,
+                start_tolerance=tolerance,
                 tolerance=tolerance,
                 tilt_tolerance=tilt_tolerance,
                 wait=wait(),

@@ -28,7 +28,7 @@ from levade.engines import State
 from levade.errors import LevadeError
 from levade.exports import export
 from levade.exports.as_csv import write_json, write_player, write_script
-from levade.exports.asker import Model, checksum
+from levade.exports.asker import Model, apart, checksum
 from levade.exports.directory import filling
 from levade.library.asking import Library
 from levade.library.falls import Falls, Plays
@@ -160,22 +160,23 @@ def _ways(library: Library) -> dict[int, list[tuple[int, bool]]]:
     row = {int(fall): i for i, fall in enumerate(known.falls)}
     column = {int(number): j for j, number in enumerate(known.motions)}
     ways = {number: [(fall_of(number), number < 0)] for number in column}
-    ups = {number: [_up(known, row[fall], image=image)] for number, ((fall, image),) in ways.items()}
+    states = {number: [_lying(known, row[fall], image=image)] for number, ((fall, image),) in ways.items()}
     for fall, i in row.items():
         number = library.model.ranked(known.up[i], known.joint_position[i])[0][0]
         if known.success[i, column[number]] != 1.0:
             continue
         for image in (False, True) if mirror else (False,):
-            played, up = image_of(number) if image else number, _up(known, i, image=image)
-            if max(float(other @ up) for other in ups[played]) < np.cos(_APART):
+            played, lying = image_of(number) if image else number, _lying(known, i, image=image)
+            if min(apart(*other, *lying) for other in states[played]) > _APART:
                 ways[played].append((fall, image))
-                ups[played].append(up)
+                states[played].append(lying)
     return ways
 
 
-def _up(known: Knowledge, row: int, *, image: bool) -> Array:
-    """Which way is up in a fall, or in its image."""
-    return known.mirror.up(known.up[row]) if image and known.mirror is not None else known.up[row]
+def _lying(known: Knowledge, row: int, *, image: bool) -> tuple[Array, Array]:
+    """Which way is up in a fall, or in its image, and where the joints are."""
+    up, joints = known.up[row], known.joint_position[row]
+    return (known.mirror.up(up), known.mirror.posture(joints)) if image and known.mirror is not None else (up, joints)
 
 
 def _simulated(falls: Falls, plays: Plays, number: int, fall: int, *, image: bool) -> Motion:
