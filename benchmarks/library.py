@@ -1,29 +1,67 @@
 """What a motion library is worth: a robot that fell in any way, and gets up or does not.
 
     python benchmarks/library.py run --robots go1 hyq2max --starts 300 --check 1000
+    python benchmarks/library.py answers        # time of an answer, in a fresh process that has numpy alone
     python benchmarks/library.py write          # docs/falls.md, from benchmarks/falls.md.in and the results
 
-A library of seed 0 is built and checked on falls of seed 1. A row is written as soon as it is there, to results/library.jsonl.
+A library of seed 0 is built and checked on falls of seed 1, and its export is driven from falls of seed 2
+(`benchmarks/library_drive.py`). A row is written as soon as it is there, to results/library.jsonl.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import subprocess
+import sys
 import tempfile
 import time
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from library_drive import drive
 
+from levade.exports.as_csv import write_player, write_script
 from levade.library import Library, Method, Record, Share, build, check_library
 from levade.tasks import load_task
 
 HERE = Path(__file__).resolve().parent
 RESULTS = HERE / "results" / "library.jsonl"
 TEMPLATE = HERE / "falls.md.in"
+ANSWERS = HERE / "results" / "library_answers.json"
 PAGE = HERE.parent / "docs" / "falls.md"
+DELAY = 0.004
+"""[s], of what the robot is sent, and of what it senses."""
+
+SIZES = ((30, 300), (300, 3000), (3000, 3000))
+"""Motions and falls."""
+
+ASKING = """
+import json, sys, time
+sys.modules["levade"] = None
+import numpy as np
+from ask import Model
+
+m, n = map(int, sys.argv[1:])
+draw = np.random.default_rng(0)
+up = draw.standard_normal((n, 3))
+up /= np.linalg.norm(up, axis=1, keepdims=True)
+tried = np.full((n, m), 2.0)
+model = Model(
+    up, draw.standard_normal((n, 12)), tried, draw.integers(0, 3, (n, m)).astype(float),
+    np.arange(m), np.arange(m)[::-1], np.arange(12), np.ones(12),
+)
+took = []
+for one in up[:300]:
+    began = time.perf_counter()
+    model.ranked(one, np.zeros(12))
+    took.append(1e3 * (time.perf_counter() - began))
+median, p99 = np.percentile(took, [50, 99])
+print(json.dumps({"median": float(median), "p99": float(p99)}))
+"""
+"""A process that has numpy, the exported script and nothing else; with a mirror, as it is the slower case."""
+
 PARTS = (0, 10, 30, 100, 300)
 """Falls are told in parts that begin here: later ones should cost less."""
 
@@ -39,10 +77,16 @@ def main() -> None:
     running.add_argument("--threads", type=int, default=0)
     running.add_argument("--directory", type=Path, help="keep the libraries here, and go on with them")
     running.add_argument("--out", type=Path, default=RESULTS)
+    running.add_argument("--drive", type=int, default=100, help="falls that the export is driven from")
+    running.add_argument("--note", default="", help="what the page says of the machine: 'busy'")
+    commands.add_parser("answers")
     commands.add_parser("write")
     options = parser.parse_args()
     if options.command == "write":
         PAGE.write_text(page(), encoding="utf-8")
+        return
+    if options.command == "answers":
+        ANSWERS.write_text(json.dumps(answers()) + "\n")
         return
     for robot in options.robots:
         with tempfile.TemporaryDirectory() as folder:
@@ -52,18 +96,61 @@ def main() -> None:
             file.write(json.dumps(row) + "\n")
 
 
+class Spent:
+    """What a build took, also if it was interrupted and went on: noted in a file beside it."""
+
+    def __init__(self, place: Path) -> None:
+        self._place = place
+        before = json.loads(place.read_text()) if place.exists() else {"seconds": 0.0, "cpu": 0.0}
+        self._began = time.perf_counter() - before["seconds"], time.process_time() - before["cpu"]
+
+    def note(self) -> tuple[float, float]:
+        """Wall-clock time and processor time so far [s]."""
+        seconds, cpu = time.perf_counter() - self._began[0], time.process_time() - self._began[1]
+        self._place.write_text(json.dumps({"seconds": seconds, "cpu": cpu}))
+        return seconds, cpu
+
+
 def row_of(task: str, robot: str, place: Path, options: argparse.Namespace) -> dict[str, Any]:
     """A library, and what it is worth."""
-    began, cpu = time.perf_counter(), time.process_time()
+    spent = Spent(place.with_suffix(".spent.json"))
     library = build(
-        load_task(task, robot=robot), starts=options.starts, seed=0, threads=options.threads, directory=place
+        load_task(task, robot=robot),
+        starts=options.starts,
+        seed=0,
+        threads=options.threads,
+        directory=place,
+        observe=lambda progress: spent.note(),
     )
-    row: dict[str, Any] = {"task": task, "robot": robot, "starts": options.starts}
-    row |= {"seconds": time.perf_counter() - began, "cpu": time.process_time() - cpu}
+    seconds, cpu = spent.note()
+    row: dict[str, Any] = {"task": task, "robot": robot, "starts": options.starts, "note": options.note}
+    row["folds"] = library.fold is not None
+    row |= {"seconds": seconds, "cpu": cpu}
     row |= facts(library)
     began = time.perf_counter()
     found = check_library(library, starts=options.check, seed=1, threads=options.threads)
-    return {**row, "check": found.to_json(), "check_seconds": time.perf_counter() - began}
+    row |= {"check": found.to_json(), "check_seconds": time.perf_counter() - began}
+    if options.drive and library.fold is not None:
+        row["driven"] = drive(library, options.drive, seed=2, delay=DELAY)
+    return row
+
+
+def answers() -> list[dict[str, float]]:
+    """How long an answer takes at a size, median and 99th percentile [ms], each in a fresh process."""
+    rows = []
+    with tempfile.TemporaryDirectory() as folder:
+        write_player(Path(folder))
+        write_script("asker.py", Path(folder) / "ask.py")
+        for motions, falls in SIZES:
+            done = subprocess.run(
+                [sys.executable, "-c", ASKING, str(motions), str(falls)],
+                cwd=folder,
+                capture_output=True,
+                text=True,
+                check=True,
+            )
+            rows.append({"motions": motions, "falls": falls, **json.loads(done.stdout)})
+    return rows
 
 
 def facts(library: Library) -> dict[str, Any]:
@@ -93,14 +180,45 @@ def rows_in(file: Path) -> list[dict[str, Any]]:
     """The latest row of each robot and size."""
     lines = file.read_text().splitlines() if file.exists() else []
     rows = [json.loads(line) for line in lines]
-    return list({(row["task"], row["robot"], row["starts"]): row for row in rows}.values())
+    return list({(row["task"], row["robot"], row["starts"], row.get("folds", False)): row for row in rows}.values())
 
 
 def page() -> str:
     """The text of docs/falls.md."""
     rows = rows_in(RESULTS)
     text = TEMPLATE.read_text(encoding="utf-8")
-    return text.replace("{builds}", builds(rows)).replace("{checks}", checks(rows)).replace("{costs}", costs(rows))
+    parts = {"builds": builds, "checks": checks, "costs": costs, "drives": drives}
+    for name, part in parts.items():
+        text = text.replace(f"{{{name}}}", part(rows))
+    return text.replace("{answers}", times(json.loads(ANSWERS.read_text())))
+
+
+def family(row: dict[str, Any]) -> str:
+    """Robot, and whether it draws its legs in first."""
+    return row["robot"] + ("" if row.get("folds") else ", as it fell")
+
+
+def drives(rows: list[dict[str, Any]]) -> str:
+    """Markdown: how often the exported loop gets a simulated robot up."""
+    lines = [
+        "| robot | falls | delay [ms] | 1st attempt | 2nd | 3rd | not, or refused |",
+        "|---|--:|--:|--:|--:|--:|--:|",
+    ]
+    for row in rows:
+        if one := row.get("driven"):
+            tries = [one["attempts"][k] for k in ("1", "2", "3")]
+            left = one["starts"] - sum(tries)
+            lines.append(
+                f"| {family(row)} | {one['starts']} | {1e3 * one['delay']:g} | {tries[0]} | {tries[1]} | {tries[2]} | {left} |"
+            )
+    return "\n".join(lines)
+
+
+def times(rows: list[dict[str, float]]) -> str:
+    """Markdown: time of an answer."""
+    lines = ["| motions | falls | median [ms] | 99th percentile [ms] |", "|--:|--:|--:|--:|"]
+    lines += [f"| {row['motions']} | {row['falls']} | {row['median']:.2f} | {row['p99']:.2f} |" for row in rows]
+    return "\n".join(lines)
 
 
 def builds(rows: list[dict[str, Any]]) -> str:
@@ -113,8 +231,8 @@ def builds(rows: list[dict[str, Any]]) -> str:
         of = row["methods"]
         counts = " | ".join(str(of[name]) for name in ("known", "near", "cold", "none"))
         cover = ", ".join(f"{row['cover'][k - 1] / row['starts']:.1%}" for k in (1, 2, 3, 5) if k <= len(row["cover"]))
-        took = f"{row['trials']} | {row['seconds']:.0f} | {row['cpu']:.0f}"
-        lines.append(f"| {row['robot']} | {row['starts']} | {counts} | {took} | {cover} |")
+        took = f"{row['trials']} | {row['seconds']:.0f}{', ' * bool(row.get('note'))}{row.get('note', '')} | {row['cpu']:.0f}"
+        lines.append(f"| {family(row)} | {row['starts']} | {counts} | {took} | {cover} |")
     return "\n".join(lines)
 
 
@@ -131,7 +249,7 @@ def checks(rows: list[dict[str, Any]]) -> str:
         shares = " | ".join(str(Share(one["successes"], one["runs"])) for one in told)
         ms = found["answer_ms"]
         lines.append(
-            f"| {row['robot']} | {row['starts']} | {found['starts']} | {shares} | {found['expected']:.1%} |"
+            f"| {family(row)} | {row['starts']} | {found['starts']} | {shares} | {found['expected']:.1%} |"
             f" {ms['median']:.2f}, {ms['p99']:.2f} |"
         )
     return "\n".join(lines)
@@ -144,7 +262,7 @@ def costs(rows: list[dict[str, Any]]) -> str:
     for row in rows:
         each = row["trials_per_fall"]
         numbers = [f"{each[str(first)]:.0f}" if str(first) in each else "" for first in parts]
-        lines.append(f"| {row['robot']} | {' | '.join(numbers)} |")
+        lines.append(f"| {family(row)} | {' | '.join(numbers)} |")
     return "\n".join(lines)
 
 

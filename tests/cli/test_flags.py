@@ -61,7 +61,16 @@ def test_every_field_of_the_library_is_an_option() -> None:
     fields = set()
     for path in SOURCE.rglob("*.py"):
         fields |= set(re.findall(r'LevadeError\([^#]*?field="(\w+)"', path.read_text(encoding="utf-8")))
-    names = [["solve"], ["show"], ["bench"], ["check"], ["stabilise"], ["export"], ["library", "build"]]
+    names = [
+        ["solve"],
+        ["show"],
+        ["bench"],
+        ["check"],
+        ["stabilise"],
+        ["export"],
+        ["library", "build"],
+        ["library", "check"],
+    ]
     assert len(fields) >= 6
     for field in fields:
         assert any(in_flags(LevadeError("", field=field), app, name).startswith("--") for name in names), field

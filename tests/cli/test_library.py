@@ -16,6 +16,8 @@ from levade.library import Library
 SMALL = ("horizon=0.3", "hold=0.1", "search.polish=0", "search.population=4", "search.trials=24")
 EASY = "success={over: {quantity: tilt, maximum: 1.9, at: end}}"
 
+FAMILY = "start={fallen: {height: 0.5, time: 0.4}}"
+
 Run = Callable[..., tuple[int, str, str]]
 
 
@@ -35,9 +37,7 @@ def run(capsys: pytest.CaptureFixture[str]) -> Run:
 @pytest.fixture(scope="module")
 def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
     place = tmp_path_factory.mktemp("built") / "falls"
-    changes = [
-        word for change in (*SMALL, EASY, "start={fallen: {height: 0.5, time: 0.4}}") for word in ("--set", change)
-    ]
+    changes = [word for change in (*SMALL, EASY, FAMILY) for word in ("--set", change)]
     with pytest.raises(SystemExit) as ended:
         main(["library", "build", "self-righting", "--starts", "4", "--out", str(place), *changes, "--json"])
     assert ended.value.code == 0
@@ -147,3 +147,59 @@ def test_another_task_is_not_built_into_it(built: Path, run: Run) -> None:
     assert status == 2
     assert "holds the library of another task, robot or seed" in err
     assert "--out DIR" in err
+
+
+def test_shards_are_built_and_merged(built: Path, run: Run, tmp_path: Path) -> None:
+    changes = [word for change in (*SMALL, EASY, FAMILY) for word in ("--set", change)]
+    for i in range(2):
+        build = (
+            "library",
+            "build",
+            "self-righting",
+            "--starts",
+            "2",
+            "--shard",
+            f"{i}/2",
+            "--out",
+            str(tmp_path / str(i)),
+        )
+        assert run(*build, *changes, "--json")[0] == 0
+    status, out, _ = run("library", "merge", str(tmp_path / "0"), str(tmp_path / "1"), "--out", str(tmp_path / "all"))
+    assert status == 0
+    assert "2 of 2 falls" in out
+    status, out, _ = run("library", "build", "self-righting", "--starts", "2", "--out", str(tmp_path / "all"), *changes)
+    assert (status, "of 2 falls" in out) == (0, True)
+    status, _, err = run("library", "merge", str(built), "--out", str(tmp_path / "other"))
+    assert (status, err.count("\n")) == (2, 1)
+    assert "is a whole library, no shard" in err
+    for shard, said in (("0:2", "--shard 0:2: should be I/N"), ("2/2", "--shard: 2/2 is no shard")):
+        status, _, err = run("library", "build", "self-righting", "--shard", shard, "--out", str(tmp_path / "x"))
+        assert (status, err.count("\n")) == (2, 1)
+        assert said in err
+
+
+def test_an_answer_is_refined(built: Path, run: Run, tmp_path: Path) -> None:
+    asked = state(tmp_path / "state.json", up=[0, 0, -1], joints=[0.1] * 12)
+    status, out, _ = run("library", "ask", str(built), "--state", asked, "--refine", "1 ms", "--json")
+    answer = json.loads(out)["refined"]
+    assert status == (0 if answer["works"] else 1)
+    assert Path(answer["motion"]).is_file()
+    status, out, _ = run("library", "ask", str(built), "--state", asked, "--refine", "1 ms")
+    assert "In simulation" in out
+    status, _, err = run("library", "check", str(built), "--refine", "soon")
+    assert (status, err.count("\n")) == (2, 1)
+    assert "--refine soon: should be a time, such as 1s" in err
+
+
+def test_what_does_not_fold_is_not_exported(built: Path, run: Run, tmp_path: Path) -> None:
+    status, _, err = run("library", "export", str(built), "--out", str(tmp_path / "robot"))
+    assert (status, err.count("\n")) == (2, 1)
+    assert "its falls do not fold up first" in err
+    assert not (tmp_path / "robot").exists()
+
+
+def test_too_few_falls_to_learn_from_are_one_line(built: Path, run: Run) -> None:
+    pytest.importorskip("sklearn", reason="learning needs scikit-learn: pip install levade[learn]")
+    status, _, err = run("library", "learn", str(built))
+    assert (status, err.count("\n")) == (2, 1)
+    assert "4 falls are too few to learn from; build 10 or more" in err

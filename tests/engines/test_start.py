@@ -9,10 +9,11 @@ import mujoco
 import numpy as np
 import pytest
 
-from levade.engines import Engine, Fall, Fallen, Physics, Settled, make_engine, start_state
+from levade.engines import Engine, Fall, Fallen, Fold, Physics, Settled, make_engine, start_state
 from levade.engines.start import Start
 from levade.errors import LevadeError
 from levade.robots import Robot, load_robot
+from levade.robots.tucking import tucked
 from levade.rotations import roll_pitch_yaw, rotate
 from levade.scenes import Box, Scene
 from levade.tasks import builtin_tasks, load_task
@@ -182,6 +183,31 @@ def test_a_fall_of_a_family_is_the_same_alone_and_comes_to_rest(robot: Robot, en
 DIFFERENT: list[dict[str, int]] = [{"index": 7}, {"index": 8}, {"seed": 4}, {"seed": 7, "index": 3}]
 
 
+def test_a_robot_that_folds_up_ends_as_its_drives_were_led(robot: Robot, engine: Engine) -> None:
+    """Against MuJoCo stepped by hand along a smooth step to the posture, and then at rest there."""
+    fall, fold = Fallen(0.6, seed=3, index=7, time=0.3), Fold("crouched", time=0.1, rest=0.05)
+    before, after = (start_state(engine, robot, Scene(), replace(fall, fold=one)) for one in (None, fold))
+    goal, told, timestep = robot.posture("crouched"), before.joint_reference[0], engine.physics.timestep
+    data, layout = mujoco.MjData(engine.model), engine.layout
+    data.qpos[:], data.qvel[:], data.act[:] = before.qpos[0], before.qvel[0], before.act[0]
+    for s in np.minimum(np.arange(1, round(0.15 / timestep) + 1) * timestep / 0.1, 1.0):
+        data.ctrl[layout.ctrl_position] = told + s**2 * (3 - 2 * s) * (goal - told)
+        data.ctrl[layout.ctrl_velocity] = 6 * s * (1 - s) / 0.1 * (goal - told)
+        mujoco.mj_step(engine.model, data)
+    np.testing.assert_allclose(after.qpos[0], data.qpos, atol=1e-6)
+    np.testing.assert_array_equal(after.joint_reference[0], goal)
+
+
+@pytest.mark.parametrize("name", ["go1", "hyq2max"])
+def test_tucked_is_a_deep_crouch_with_the_feet_under_the_hips(name: str) -> None:
+    robot = load_robot(name)
+    posture, crouched = tucked(robot), robot.posture("crouched")
+    assert (posture >= robot.limits.lower).all()
+    assert (posture <= robot.limits.upper).all()
+    assert (robot.foot_depths(posture) < robot.foot_depths(crouched) - 0.02).all()
+    assert np.abs(robot.foot_positions(posture)[:, 0] - robot.foot_positions(crouched)[:, 0]).max() < 0.01
+
+
 def test_a_robot_that_fits_nowhere_is_said(robot: Robot) -> None:
     scene = Scene(boxes=(Box((0.0, 0.0, 1.0), (0.5, 0.5, 0.5)),))
     with pytest.raises(LevadeError, match=r"start\.fallen: .*box0.* overlap by .* in the last of 1000 postures"):
@@ -215,6 +241,8 @@ def test_a_mast_is_put_down_on_its_tip_and_rolls_over() -> None:
         (lambda: Fallen(1.0, gain=-1.0), r"start.fallen.gain: -1.0 should be 0 or more"),
         (lambda: Fallen(float("inf")), r"start.fallen.height: inf is not a number"),
         (lambda: Fall(1.0, spread=float("nan")), r"start.fall.spread: nan should be 0 or more"),
+        (lambda: Fallen(1.0, fold=Fold(time=-1.0)), r"start.fallen.fold.time: -1.0 s is not a duration"),
+        (lambda: Fallen(1.0, fold=Fold("tuked")), r"start.fallen.fold.posture: .*no posture 'tuked'; did you mean"),
     ],
 )
 def test_wrong_starts(robot: Robot, engine: Engine, start: object, message: str) -> None:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import itertools
 import json
+import multiprocessing
 import shutil
+import time
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -17,10 +19,13 @@ from levade.engines import Perturbation
 from levade.errors import LevadeError
 from levade.library import Falls, Library, Method, Record, build, check_library
 from levade.library.building import rounds
-from levade.library.falls import face
+from levade.library.falls import Plays, face
 from levade.library.figure import projected
 from levade.library.knowledge import Knowledge
+from levade.library.merging import merge
 from levade.library.mirror import Mirror
+from levade.library.refining import refine, refined
+from levade.library.storing import Shard
 from levade.motions import Motion
 from levade.robots import load_robot
 from levade.search import make_objective
@@ -139,6 +144,62 @@ def test_a_record_that_is_lost_is_made_again(library: Library, tmp_path: Path) -
     assert contents(tmp_path / "again") == contents(library.directory)
 
 
+def _build_rolling(directory: Path, processes: int) -> None:
+    build(rolling(), starts=STARTS, directory=directory, processes=processes)
+
+
+@pytest.mark.slow
+def test_killed_at_any_time_it_goes_on_in_two_processes_to_the_same_bytes(library: Library, tmp_path: Path) -> None:
+    """kill -9, of the one that others work for, too, once some more falls are done."""
+    context, generator = multiprocessing.get_context("spawn"), np.random.default_rng(0)
+    for processes, falls in ((1, 1), (2, 3)):
+        process = context.Process(target=_build_rolling, args=(tmp_path, processes))
+        process.start()
+        while process.is_alive() and len(list(tmp_path.glob("falls/*.json"))) < falls:
+            time.sleep(0.01)
+        time.sleep(generator.uniform(0.0, 0.05))
+        process.kill()
+        process.join()
+        for path in tmp_path.glob("falls/*.json"):  # whole, whenever it was
+            assert path.read_bytes() == (library.directory / "falls" / path.name).read_bytes()
+    assert not (tmp_path / "success.npz").exists()
+    seen: list[int] = []
+    build(
+        rolling(), starts=STARTS, directory=tmp_path, processes=2, observe=lambda progress: seen.append(progress.done)
+    )
+    assert seen == list(range(STARTS - len(seen) + 1, STARTS + 1))  # one at a time, whoever did it
+    assert contents(tmp_path) == contents(library.directory)
+
+
+def test_shards_become_a_library(tmp_path: Path) -> None:
+    """Each shard has its own falls, as they are in the whole; merged, nothing is left to do but to try every pair."""
+    parts = [tmp_path / str(i) for i in range(2)]
+    for i, part in enumerate(parts):
+        built = build(rolling(), starts=5, directory=part, shard=Shard(i, 2))
+        assert [record.fall for record in built.records] == list(range(i, 5, 2))
+    whole = tmp_path / "whole"
+    assert merge(parts[:1], whole).falls == 3
+    merged = merge(parts, whole)
+    assert (merged.falls, merged.starts) == (5, 5)
+    falls = {path.name: path.read_bytes() for part in parts for path in (part / "falls").iterdir()}
+    library = build(rolling(), starts=5, directory=whole)
+    assert {path.name: path.read_bytes() for path in (whole / "falls").iterdir()} == falls
+    assert not np.isnan(library.knowledge.success + library.knowledge.perturbed).any()
+    for shards, said in (
+        ([parts[0], parts[0]], "is shard 0/2, as .*0 is; give each shard once"),
+        ([parts[0], whole], "whole: is a whole library, no shard"),
+        ([], "no shards to merge"),
+    ):
+        with pytest.raises(LevadeError, match=said):
+            merge(shards, tmp_path / "other")
+    with pytest.raises(LevadeError, match="holds shard 0/2 of a library; merge shards first"):
+        build(rolling(), starts=5, directory=parts[0])
+    with pytest.raises(LevadeError, match="2/2 is no shard; 0/2 to 1/2 are"):
+        Shard(2, 2)
+    with pytest.raises(LevadeError, match="1 falls have no shard 1/2"):
+        build(rolling(), starts=1, directory=tmp_path / "other", shard=Shard(1, 2))
+
+
 def test_another_task_or_seed_is_refused(library: Library) -> None:
     for task, seed in ((rolling(), 1), (replace(rolling(), hold=0.2), 0)):
         with pytest.raises(LevadeError, match="holds the library of another task, robot or seed"):
@@ -182,6 +243,32 @@ def test_it_is_checked_on_falls_that_it_has_not_seen(library: Library) -> None:
     assert json.loads(json.dumps(found.to_json()))["nominal"]["first"]["share"] == found.first.share
     with pytest.raises(LevadeError, match="0 is the seed of the library's own falls"):
         check_library(library, starts=n, seed=0)
+
+
+def test_a_refined_answer_works_where_it_says_so(library: Library) -> None:
+    """Simulated by hand. Of five likeliest motions one that works is taken; else a search goes on, until there is no time."""
+    falls, plays = Falls(rolling(), seed=3), Plays(library.directory, library.knowledge.mirror)
+    for i in range(4):
+        objective = falls.objective(i)
+        answer = library.ask(*falls.sensed(objective.state))
+        numbers = [answer.number, *(number for number, _ in answer.others)]
+        better = refined(falls, plays, objective, numbers, seconds=60.0)
+        trajectories = objective.engine.rollout(objective.state, better.reference)
+        judged = objective.judge(trajectories, objective.task.hold_steps)
+        assert bool(judged.success[0]) == better.works
+        known = [objective.evaluate(plays[one].decisions(objective.policy)).success[0] for one in numbers[:5]]
+        assert better.works >= any(known)
+        assert better.searched or better.trials <= len(known) + 24 + 8
+        quick = refined(falls, plays, objective, numbers, seconds=1e-9)
+        assert (quick.works, quick.searched) == (any(known), False)
+
+
+def test_a_robot_lies_where_it_is_put_down_to_be_refined(library: Library) -> None:
+    """Which way is up for it is what was asked with, until it comes to rest."""
+    better = refine(library, [0.0, 0.1, -0.99], np.full(12, 0.1), seconds=1e-9)
+    assert better.trials in (5, 13)
+    with pytest.raises(LevadeError, match="0 s leave no time to refine"):
+        refine(library, [0.0, 0.1, -0.99], np.zeros(12), seconds=0)
 
 
 def test_a_robot_that_does_not_differ_is_the_model(library: Library) -> None:

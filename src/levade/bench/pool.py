@@ -1,7 +1,12 @@
-"""Processes that run cases side by side, one thread each; a case's result does not depend on how many there are.
+"""Processes that do pieces of work side by side, one thread each; what comes of a piece does not depend on how many there are.
 
-A process is told the next case when it has sent the last result. Signals that ask to end are for the parent, even where all
-get them, as from the keyboard: it kills the processes, and loses no more than the cases that they were at.
+    with Pool(run_case, 2) as pool:
+        for case, result in pool.each(cases):
+            ...
+
+A process is told the next piece when it has sent the last result. Signals that ask to end are for the parent, even where all
+get them, as from the keyboard: it kills the processes, and loses no more than the pieces that they were at. Processes whose
+parent was killed end with the piece that they are at.
 """
 
 from __future__ import annotations
@@ -15,12 +20,16 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
-from typing import Any
+from types import TracebackType
+from typing import Any, Generic, TypeVar
 
 from levade.bench.case import run_case
 from levade.bench.plan import Case
 from levade.bench.results import Result
 from levade.errors import LevadeError
+
+Piece = TypeVar("Piece")
+Outcome = TypeVar("Outcome")
 
 _ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
 _FOR_THE_PARENT = (signal.SIGINT, signal.SIGTERM)
@@ -29,42 +38,74 @@ _FOR_THE_PARENT = (signal.SIGINT, signal.SIGTERM)
 def run_cases(
     cases: Sequence[Case], *, processes: int, waiting: Callable[[], object] | None = None
 ) -> Iterator[tuple[Case, Result]]:
-    """Yield each case and its result, as they come.
+    """Yield each case and its result, as they come: see `Pool.each`."""
+    with Pool(run_case, min(processes, len(cases))) as pool:
+        yield from pool.each(cases, waiting=waiting)
 
-    The processes end when the iteration does, however it ends.
+
+class Pool(Generic[Piece, Outcome]):
+    """Processes that wait for work until the block that they are made for ends, however it does.
 
     Args:
-        cases: Cases to run.
-        processes: Cases at a time.
-        waiting: Called about once a second while there is no result.
-
-    Raises:
-        LevadeError: If a case does not fit together or a process dies.
+        run: Does a piece of work; as pieces and what comes of them, it goes to the processes by pickle.
+        processes: How many.
     """
-    left = list(reversed(cases))
-    workers: list[_Worker] = []
-    try:
-        with _one_thread(), _undisturbed():
-            workers += [_Worker() for _ in range(min(processes, len(cases)))]
-        for worker in workers:
-            worker.give(left.pop())
-        while busy := {worker.connection: worker for worker in workers if worker.case is not None}:
+
+    def __init__(self, run: Callable[[Piece], Outcome], processes: int) -> None:
+        self._run, self._processes = run, processes
+        self._workers: list[_Worker] = []
+
+    def __enter__(self) -> Pool[Piece, Outcome]:
+        try:
+            with _one_thread(), _undisturbed():
+                for _ in range(self._processes):
+                    self._workers.append(_Worker())
+            for worker in self._workers:
+                worker.connection.send(self._run)
+        except BaseException:
+            self._end()
+            raise
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._end()
+
+    def each(
+        self, pieces: Sequence[Piece], *, waiting: Callable[[], object] | None = None
+    ) -> Iterator[tuple[Piece, Outcome]]:
+        """Each piece and what came of it, as they come.
+
+        Args:
+            pieces: What to do; each says in a message which it is.
+            waiting: Called about once a second while there is none.
+
+        Raises:
+            LevadeError: If a piece raises one, or a process dies.
+        """
+        left = list(reversed(pieces))
+        for worker in self._workers:
+            if left:
+                worker.give(left.pop())
+        while busy := {worker.connection: worker for worker in self._workers if worker.piece is not None}:
             ready = wait(list(busy), timeout=1.0)
             if not ready and waiting is not None:
                 waiting()
             for connection in ready:
                 worker = busy[connection]  # type: ignore[index]
-                case, result = worker.take()
+                piece, outcome = worker.take()
                 if left:
                     worker.give(left.pop())
-                yield case, result
-    finally:
-        for worker in workers:
-            worker.end()
+                yield piece, outcome
+
+    def _end(self) -> None:
+        while self._workers:
+            self._workers.pop().end()
 
 
 class _Worker:
-    """A process, and the case that it is at."""
+    """A process, and the piece of work that it is at."""
 
     def __init__(self) -> None:
         # a fresh interpreter: forking one whose libraries have threads is not safe
@@ -73,33 +114,33 @@ class _Worker:
         self.process: BaseProcess = context.Process(target=_serve, args=(theirs,), daemon=True)
         self.process.start()
         theirs.close()
-        self.case: Case | None = None
+        self.piece: Any = None
 
-    def give(self, case: Case) -> None:
-        self.case = case
-        self.connection.send(case)
+    def give(self, piece: Any) -> None:
+        self.piece = piece
+        self.connection.send(piece)
 
-    def take(self) -> tuple[Case, Result]:
+    def take(self) -> tuple[Any, Any]:
         """What it has sent.
 
         Raises:
             LevadeError: If that is an error, or nothing because it died.
         """
-        case, self.case = self.case, None
-        assert case is not None
+        piece, self.piece = self.piece, None
+        assert piece is not None
         try:
             answer: Any = self.connection.recv()
         except (EOFError, OSError):
             self.process.join()
             raise LevadeError(
-                f"{case}: the process that ran it died (exit code {self.process.exitcode}); what is done is kept: call"
+                f"{piece}: the process that ran it died (exit code {self.process.exitcode}); what is done is kept: call"
                 " again to go on, with fewer processes if memory was short"
             ) from None
         if isinstance(answer, LevadeError):
-            raise LevadeError(f"{case}: {answer}")
+            raise LevadeError(f"{piece}: {answer}")
         if isinstance(answer, BaseException):
             raise answer
-        return case, answer
+        return piece, answer
 
     def end(self) -> None:
         self.connection.close()
@@ -108,20 +149,24 @@ class _Worker:
 
 
 def _serve(connection: Connection) -> None:
-    """A process: results for cases, until nobody asks any more."""
+    """A process: first what to run, then pieces of work, until nobody asks any more."""
     for number in _FOR_THE_PARENT:
         signal.signal(number, signal.SIG_IGN)
+    run: Callable[[Any], Any] | None = None
     while True:
         try:
-            case: Case = connection.recv()
+            piece = connection.recv()
         except (EOFError, OSError):
             return
+        if run is None:
+            run = piece
+            continue
         try:
-            answer: Result | Exception = run_case(case)
+            answer: Any = run(piece)
         except LevadeError as error:
             answer = error
         except Exception:
-            answer = RuntimeError(f"{case}\n{traceback.format_exc()}")  # whatever it was may not survive the journey
+            answer = RuntimeError(f"{piece}\n{traceback.format_exc()}")  # whatever it was may not survive the journey
         try:
             connection.send(answer)
         except OSError:

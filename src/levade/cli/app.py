@@ -600,6 +600,10 @@ def _build_library(
         list[str] | None, typer.Option("--set", metavar="PATH=VALUE", help="Change a value of the task. Repeatable.")
     ] = None,
     threads: Annotated[int, typer.Option(min=0, help="Engine threads; 0 for one per core.")] = 0,
+    jobs: Annotated[int, typer.Option(min=1, help="Processes side by side, of one thread each.")] = 1,
+    shard: Annotated[
+        str | None, typer.Option(metavar="I/N", help="Only every N-th fall, from I (0 to N - 1) on: see merge.")
+    ] = None,
     as_json: Json = False,
 ) -> int:
     """Find a motion for each of many falls. Called again, goes on where it stopped.
@@ -616,8 +620,51 @@ def _build_library(
         out=out,
         changes=changes or [],
         threads=threads,
+        jobs=jobs,
+        shard=shard,
         as_json=as_json,
     )
+
+
+@_library.command("merge")
+def _merge_library(
+    shards: Annotated[list[Path], typer.Argument(metavar="SHARD...", help="Directories of shards of one library.")],
+    out: Annotated[Path, typer.Option(help="Directory of the library.")],
+    as_json: Json = False,
+) -> int:
+    """Join shards that were built on machines of their own. Build the library once more then.
+
+    Exit status: 0 all is joined, 2 the input is wrong.
+    """
+    from levade.cli.librarian import merge_libraries
+
+    return merge_libraries(shards, out=out, as_json=as_json)
+
+
+@_library.command("learn")
+def _learn_library(
+    library: Annotated[Path, typer.Argument(metavar="DIR", help="A library that is built.")],
+    as_json: Json = False,
+) -> int:
+    """Learn which motion works from where, in several ways, and answer by the best: how often are first answers right?"""
+    from levade.cli.librarian import learn_library
+
+    return learn_library(library, as_json=as_json)
+
+
+@_library.command("export")
+def _export_library(
+    library: Annotated[Path, typer.Argument(metavar="DIR", help="A library.")],
+    out: Annotated[Path | None, typer.Option(help="Directory; by default DIR-robot.")] = None,
+    rate: Annotated[float | None, typer.Option(help="Of the rows [Hz]; by default the simulation's.")] = None,
+    kp: Annotated[float | None, typer.Option(help="Gain of the robot's drives [Nm/rad].")] = None,
+    kd: Annotated[float | None, typer.Option(help="Gain of the robot's drives [Nm s/rad].")] = None,
+    as_json: Json = False,
+) -> int:
+    """Write a library for a robot: a folder that asks, plays, looks and asks again, with numpy alone."""
+    from levade.cli.librarian import export_the_library
+
+    return export_the_library(library, out=out, rate=rate, kp=kp, kd=kd, as_json=as_json)
 
 
 @_library.command("show")
@@ -640,12 +687,18 @@ def _ask_library(
     library: Annotated[Path, typer.Argument(metavar="DIR", help="A library.")],
     state: Annotated[Path, typer.Option(help="JSON or YAML: attitude (w-x-y-z) or up (in trunk axes), and joints.")],
     reference: Annotated[Path | None, typer.Option(help="Write what to tell the joints, as CSV.")] = None,
+    refine: Annotated[
+        str | None, typer.Option(metavar="TIME", help="Try the answer in simulation, and search on: 1s.")
+    ] = None,
     as_json: Json = False,
 ) -> int:
-    """Say which motion most likely works from where the robot lies. No simulator is asked."""
+    """Say which motion most likely works from where the robot lies. No simulator is asked, except to refine.
+
+    Exit status: 0 there is an answer, 1 refined it does not work, 2 the input is wrong.
+    """
     from levade.cli.librarian import ask_library
 
-    return ask_library(library, state=state, reference=reference, as_json=as_json)
+    return ask_library(library, state=state, reference=reference, refine=refine, as_json=as_json)
 
 
 @_library.command("check")
@@ -653,6 +706,9 @@ def _check_library(
     library: Annotated[Path, typer.Argument(metavar="DIR", help="A library.")],
     starts: Annotated[int, typer.Option(help="Falls to try.")] = 200,
     seed: Annotated[int, typer.Option(min=0, help="Of these falls: another than the library's.")] = 1,
+    refine: Annotated[
+        str | None, typer.Option(metavar="TIME", help="Refine answers that do not work, for as long: 1s.")
+    ] = None,
     threads: Annotated[int, typer.Option(min=0, help="Engine threads; 0 for one per core.")] = 0,
     as_json: Json = False,
 ) -> int:
@@ -662,7 +718,7 @@ def _check_library(
     """
     from levade.cli.librarian import check_the_library
 
-    return check_the_library(library, starts=starts, seed=seed, threads=threads, as_json=as_json)
+    return check_the_library(library, starts=starts, seed=seed, refine=refine, threads=threads, as_json=as_json)
 
 
 _tasks = typer.Typer(help="List the built-in tasks; print one, or the schema of task files.", rich_markup_mode=None)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import os
+import shlex
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,11 +20,18 @@ from levade.cli.tables import make_console
 from levade.document import read_yaml
 from levade.errors import LevadeError, did_you_mean
 from levade.feedback import up_in_trunk
-from levade.library import Answer, Library, LibraryCheck, Progress, build, check_library
+from levade.library import Library, LibraryCheck, Progress, build, check_library
+from levade.library.exporting import export_library
 from levade.library.falls import FACES, face
 from levade.library.figure import draw
+from levade.library.learning import learn, save
+from levade.library.merging import merge
 from levade.library.records import motion_path
+from levade.library.refining import refine as refined_answer
+from levade.library.storing import WHOLE, Shard
 from levade.tasks import load_task
+from levade.tasks.units import to_si
+from levade.trajectory import JointReference
 from levade.writing import write_text
 
 _WORDS = {
@@ -43,9 +51,12 @@ def build_library(
     out: Path | None,
     changes: list[str],
     threads: int,
+    jobs: int,
+    shard: str | None,
     as_json: bool,
 ) -> int:
     """Exit status 0 if every fall is done, else 1."""
+    part = WHOLE if shard is None else _shard(shard)
     loaded = load_task(task, robot=robot, changes=changes)
     directory = out or Path(f"{loaded.name}-library")
     console = make_console(stderr=as_json)
@@ -65,6 +76,8 @@ def build_library(
             starts=starts,
             seed=seed,
             threads=threads,
+            processes=jobs,
+            shard=part,
             directory=directory,
             observe=observe,
             stopping=stopping,
@@ -80,6 +93,82 @@ def build_library(
         else:
             console.print(f"On falls that it has never seen: levade library check {place}")
     return 1 if stopped else 0
+
+
+def _shard(text: str) -> Shard:
+    parts = text.split("/")
+    if len(parts) != 2 or not all(part.isdecimal() for part in parts):
+        raise LevadeError(f"--shard {text}: should be I/N, such as 0/4: the first of four shards")
+    return Shard(*map(int, parts))
+
+
+def merge_libraries(shards: list[Path], *, out: Path, as_json: bool) -> int:
+    """Exit status 0."""
+    merged = merge(shards, out)
+    if as_json:
+        print(
+            json.dumps({"library": str(out), "falls": merged.falls, "starts": merged.starts, "motions": merged.motions})
+        )
+        return 0
+    console, place = make_console(), escape(str(out))
+    console.print(f"{merged.falls} of {merged.starts} falls and {merged.motions} motions are in {place}.")
+    console.print(
+        "Build it again to try every motion from every fall: the command of its shards, without --shard, with"
+        f" --starts {merged.starts} --out {place}"
+    )
+    return 0
+
+
+def learn_library(directory: Path, *, as_json: bool) -> int:
+    """Exit status 0."""
+    found = learn(Library.load(directory))
+    save(found, directory)
+    if as_json:
+        scores = {kind: vars(score) for kind, score in found.scores.items()}
+        print(json.dumps({"library": str(directory), "scores": scores, "chosen": found.chosen}))
+        return 0
+    console = make_console()
+    for kind, score in found.scores.items():
+        console.print(
+            f"{kind:<18} first answers on falls left out work in {score.first:.1%} ({score.said:.1%} by what they say);"
+            f" Brier score {score.brier:.4f}"
+        )
+    console.print(f"{escape(str(directory))} answers by: {found.chosen}.")
+    return 0
+
+
+def export_the_library(
+    directory: Path,
+    *,
+    out: Path | None,
+    rate: float | None,
+    kp: float | None,
+    kd: float | None,
+    as_json: bool,
+) -> int:
+    """Exit status 0."""
+    place = out or directory.with_name(f"{directory.resolve().name}-robot")
+    console = make_console(stderr=as_json)
+    options = {"--rate": rate, "--kp": kp, "--kd": kd}
+    words = [word for name, value in options.items() if value is not None for word in (name, f"{value:g}")]
+    exported = export_library(
+        Library.load(directory),
+        place,
+        rate=rate,
+        kp=kp,
+        kd=kd,
+        command=shlex.join(["levade", "library", "export", str(directory), *words]),
+        observe=lambda done, n: console.print(f"  {done} of {n} motions", style="dim"),
+    )
+    if as_json:
+        motions = {str(number): list(map(str, paths)) for number, paths in exported.motions.items()}
+        print(json.dumps({"directory": str(place), "motions": motions, "failed": list(map(str, exported.failed))}))
+        return 0
+    for path in exported.failed:
+        console.print(f"[yellow]{escape(str(path))}: the motion does not work from there.[/]")
+    console.print(f"{len(exported.motions)} motions are in {escape(str(place))}; it needs Python and numpy alone:")
+    console.print(f"  python {escape(str(place / 'ask.py'))} --robot my_robot:MyRobot")
+    return 0
 
 
 def show_library(directory: Path, *, figures: Path | None, format: str, as_json: bool) -> int:
@@ -129,12 +218,14 @@ def _tell_library(console: Console, library: Library) -> None:
     console.print(f"The best few of them: {enough}.")
 
 
-def check_the_library(directory: Path, *, starts: int, seed: int, threads: int, as_json: bool) -> int:
+def check_the_library(
+    directory: Path, *, starts: int, seed: int, refine: str | None, threads: int, as_json: bool
+) -> int:
     """Exit status 0 if all was tried, 1 if interrupted."""
-    library = Library.load(directory)
+    library, time_left = Library.load(directory), None if refine is None else _seconds(refine)
     console = make_console(stderr=as_json)
     with stop_between("part") as stopping:
-        found = check_library(library, starts=starts, seed=seed, threads=threads, stopping=stopping)
+        found = check_library(library, starts=starts, seed=seed, threads=threads, refine=time_left, stopping=stopping)
     if as_json:
         print(json.dumps(found.to_json()))
     else:
@@ -151,6 +242,7 @@ def _told(found: LibraryCheck) -> list[tuple[str, str]]:
         ("the first answer works", str(found.first)),
         *lying,
         *after,
+        *([("the first answer, refined in simulation", str(found.refined))] if found.refined else []),
         ("within two attempts, the second from where it lies", str(found.twice)),
         ("the first answer, on robots that differ", str(found.perturbed)),
         ("what the answers themselves say", f"{found.expected:.1%}"),
@@ -158,14 +250,28 @@ def _told(found: LibraryCheck) -> list[tuple[str, str]]:
     ]
 
 
-def ask_library(directory: Path, *, state: Path, reference: Path | None, as_json: bool) -> int:
-    """Exit status 0: there always is an answer."""
+def _seconds(text: str) -> float:
+    """A duration, such as 1s, 500 ms or 1.5."""
+    value = to_si(text, where="--refine", measures="a duration")
+    try:
+        seconds = float(value)
+    except (TypeError, ValueError):
+        seconds = 0.0
+    if not 0 < seconds < 1e6:
+        raise LevadeError(f"--refine {text}: should be a time, such as 1s")
+    return seconds
+
+
+def ask_library(directory: Path, *, state: Path, reference: Path | None, refine: str | None, as_json: bool) -> int:
+    """Exit status 0; 1 if the answer was refined, and does not work on the model even so."""
     library = Library.load(directory)
     first = library.ask([0.0, 0.0, 1.0], np.zeros(library.knowledge.joint_position.shape[1]))
     names = first.motion.joint_names
-    answer = library.ask(*_read_state(state, names))
+    question = _read_state(state, names)
+    answer = library.ask(*question)
+    better = None if refine is None else refined_answer(library, *question, seconds=_seconds(refine))
     if reference is not None:
-        _write_reference(answer, reference)
+        _write_reference(answer.reference if better is None else better.reference, names, reference)
     if as_json:
         content = {
             "motion": str(answer.path),
@@ -176,14 +282,26 @@ def ask_library(directory: Path, *, state: Path, reference: Path | None, as_json
                 for number, probability in answer.others
             ],
         }
+        if better is not None:
+            content["refined"] = {
+                "motion": str(motion_path(directory, better.number)),
+                "mirrored": better.number < 0,
+                **{name: getattr(better, name) for name in ("works", "share", "searched", "trials", "seconds")},
+            }
         print(json.dumps(content))
-        return 0
+        return 0 if better is None or better.works else 1
     console = make_console()
     console.print(f"{_named(answer.path, answer.number)}: works with a probability of {answer.probability:.1%}")
     for number, probability in answer.others[:3]:
         place = _named(Path(motion_path(directory, number).name), number)
         console.print(f"  next: {place}, {probability:.1%}", style="dim")
-    return 0
+    if better is None:
+        return 0
+    place = _named(Path(motion_path(directory, better.number).name), better.number)
+    what = f"a search from {place}" if better.searched else place
+    works = f"works on the model, and on {better.share:.0%} of robots that differ" if better.works else "does not work"
+    console.print(f"In simulation, {what} {works} ({better.trials} trials, {better.seconds:.1f} s).")
+    return 0 if better.works else 1
 
 
 def _named(path: Path, number: int) -> str:
@@ -228,14 +346,13 @@ def _numbers(values: Any, n: int, where: str) -> Array:
     return np.array(values, dtype=float)
 
 
-def _write_reference(answer: Answer, path: Path) -> None:
+def _write_reference(reference: JointReference, names: Sequence[str], path: Path) -> None:
     """A table of time [s] and joint references [rad]: the motion, from where the joints are."""
     if not path.parent.is_dir() or not os.access(path.parent, os.W_OK):
         raise LevadeError(f"--reference {path}: its directory cannot be written; give another")
-    reference = answer.reference
     position = reference.position[0]
     times = (np.arange(len(position)) + 1) * reference.timestep
-    lines = [",".join(["time", *answer.motion.joint_names])]
+    lines = [",".join(["time", *names])]
     lines += [",".join(map(repr, [float(t), *map(float, row)])) for t, row in zip(times, position, strict=True)]
     try:
         write_text(path, "\n".join(lines) + "\n")

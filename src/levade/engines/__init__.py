@@ -13,7 +13,7 @@ from levade.engines.mujoco import MujocoEngine
 from levade.engines.perturbation import Perturbation, Sample
 from levade.engines.physics import Ode, Physics
 from levade.engines.placing import make_engine, model_xml, start_state
-from levade.engines.start import Fall, Fallen, GivenState, Settled, Start
+from levade.engines.start import Fall, Fallen, Fold, GivenState, Settled, Start
 from levade.engines.state import State
 from levade.engines.table import ENGINES, EngineKind, engine_kind
 
@@ -25,6 +25,7 @@ __all__ = [
     "EngineKind",
     "Fall",
     "Fallen",
+    "Fold",
     "GivenState",
     "Layout",
     "Models",

@@ -71,6 +71,24 @@ class Fall:
 
 
 @dataclass(frozen=True)
+class Fold:
+    """What a robot does first once it has fallen: its joints go to a posture, smoothly, and rest there.
+
+    posture: as in `Settled`; or "tucked", with the legs drawn in (`levade.robots.tucking`): it then lies in one of a few
+        ways, however it fell.
+    time: [s], of going there. rest: [s], until the motion starts.
+    """
+
+    posture: str | Mapping[str, float | str] = "tucked"
+    time: float = 1.0
+    rest: float = 0.5
+
+    def __post_init__(self) -> None:
+        for name in ("time", "rest"):
+            _check_time(f"start.fallen.fold.{name}", getattr(self, name))
+
+
+@dataclass(frozen=True)
 class Fallen:
     """Lying however it fell: one of a family of falls, from any attitude and with any posture.
 
@@ -86,6 +104,7 @@ class Fallen:
         time: [s] from release to the start of the motion.
         seed: Which fall of which family. A fall does not depend on how many of its family are asked for.
         index: Which fall of which family. A fall does not depend on how many of its family are asked for.
+        fold: What the joints do then, before the motion starts; None if nothing.
     """
 
     height: float
@@ -95,6 +114,7 @@ class Fallen:
     time: float = 1.5
     seed: int = 0
     index: int = 0
+    fold: Fold | None = None
 
     def __post_init__(self) -> None:
         _check_time("start.fallen.time", self.time)

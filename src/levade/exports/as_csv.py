@@ -75,8 +75,13 @@ def write_feedback(path: Path, feedback: Feedback) -> None:
 
 def write_player(directory: Path) -> None:
     """player.py, as it is here."""
-    source = resources.files("levade.exports").joinpath("player.py").read_text(encoding="utf-8")
-    (directory / "player.py").write_text(source, encoding="utf-8")
+    write_script("player.py", directory / "player.py")
+
+
+def write_script(name: str, place: Path) -> None:
+    """A script of this room that runs on its own; where it imports the player, that one is beside it."""
+    source = resources.files("levade.exports").joinpath(name).read_text(encoding="utf-8")
+    place.write_text(source.replace("from levade.exports import player\n", "import player\n"), encoding="utf-8")
 
 
 def write_json(path: Path, content: object, *, indent: int | None = None) -> None:

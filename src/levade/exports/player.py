@@ -91,6 +91,10 @@ class Stopped(Exception):
     """The motion was not played to its end; why."""
 
 
+class Astray(Stopped):
+    """The robot does otherwise than the simulation did: it may be asked about again where it is now."""
+
+
 @dataclass(frozen=True, eq=False)
 class Feedback:
     """A stabiliser: ``gain[j]`` times the deviation from ``reference[j]`` at tick j, in force from the next tick on.
@@ -136,10 +140,10 @@ class Feedback:
 
 def sensed(quaternion: Array, rate: Array, position: Array, velocity: Array) -> Array:
     """What a stabiliser looks at, (6 + 2 joints,)."""
-    return np.concatenate([_up(*quaternion), rate, position, velocity])
+    return np.concatenate([up_of(*quaternion), rate, position, velocity])
 
 
-def _up(w: Any, x: Any, y: Any, z: Any) -> list[Any]:
+def up_of(w: Any, x: Any, y: Any, z: Any) -> list[Any]:
     """Opposite of gravity in trunk axes, of an attitude from trunk to world."""
     return [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]
 
@@ -270,7 +274,7 @@ class Motion:
             **commands,
             expected=over("state/{}/position"),
             expected_velocity=over("state/{}/velocity"),
-            up=np.stack(_up(w, x, y, z), axis=-1),
+            up=np.stack(up_of(w, x, y, z), axis=-1),
             turning=np.linalg.norm(turning, axis=0),
             kp=_numbers("kp", meta["kp"]),
             kd=_numbers("kd", meta["kd"]),
@@ -541,7 +545,7 @@ def _smooth(s: float) -> float:
     return s * s * (3.0 - 2.0 * s)
 
 
-def _pair(what: str, values: Any, sizes: tuple[int, int]) -> tuple[Array, Array]:
+def pair(what: str, values: Any, sizes: tuple[int, int]) -> tuple[Array, Array]:
     """Two readings as arrays of their own. Raises Stopped unless they are finite and of these sizes."""
     try:
         one, other = (np.array(part, dtype=float) for part in values)
@@ -575,12 +579,12 @@ class _Joints:
         Raises Stopped for a reading that is not to be trusted, or is further off than the tolerance.
         """
         joints = len(self.motion.joints)
-        position, velocity = _pair("position and velocity", self._robot.read(), (joints, joints))
+        position, velocity = pair("position and velocity", self._robot.read(), (joints, joints))
         off = _check(self.motion, position, expected, tolerance, when)
         wild = np.abs(velocity) > self._fastest
         if wild.any():
             joint = int(np.argmax(wild))
-            raise Stopped(
+            raise Astray(
                 f"{self.motion.joints[joint]} moves at {velocity[joint]:.4g} rad/s, should be at most"
                 f" {self._fastest[joint]:.4g} {when}"
             )
@@ -615,20 +619,20 @@ class _Trunk:
 
     def read(self, row: int, when: str) -> tuple[Array, Array]:
         """Attitude, a unit quaternion (4,), and rate (3,) [rad/s]. Raises Stopped if it is not as in the simulation."""
-        quaternion, rate = _pair("the trunk's attitude and the trunk's rate", self._robot.read_trunk(), (4, 3))
+        quaternion, rate = pair("the trunk's attitude and the trunk's rate", self._robot.read_trunk(), (4, 3))
         length = math.hypot(*quaternion)
         if not abs(length - 1.0) < 0.01:
             raise Stopped(f"the robot's trunk reads {quaternion.tolist()}; should be a unit quaternion")
         quaternion = quaternion / length
-        cosine = float(np.dot(_up(*quaternion), self._motion.up[row]))
+        cosine = float(np.dot(up_of(*quaternion), self._motion.up[row]))
         tilt = math.acos(min(1.0, max(-1.0, cosine)))
         if not tilt <= self._most:
-            raise Stopped(
+            raise Astray(
                 f"the trunk is tilted by {tilt:.3f} rad from the simulation, should be by at most {self._most:g} {when}"
             )
         speed = math.hypot(*rate)
         if not speed <= self._fastest:
-            raise Stopped(f"the trunk turns at {speed:.4g} rad/s, should be at most {self._fastest:.4g} {when}")
+            raise Astray(f"the trunk turns at {speed:.4g} rad/s, should be at most {self._fastest:.4g} {when}")
         return quaternion, rate
 
 
@@ -660,7 +664,7 @@ def _check(motion: Motion, position: Array, expected: Array, tolerance: float | 
     allowed = np.broadcast_to(tolerance, off.shape)
     joint = int(np.argmax(off - allowed))
     if not off[joint] <= allowed[joint]:
-        raise Stopped(
+        raise Astray(
             f"{motion.joints[joint]} is at {position[joint]:.3f} rad, should be at {expected[joint]:.3f} within"
             f" {allowed[joint]:g}"
             f" {when}"
@@ -751,7 +755,7 @@ def main(arguments: list[str] | None = None) -> int:
         parser.error("--ramp, --hold and tolerances should be numbers, 0 or more")
     try:
         motion = Motion.load(options.motion)
-        robot: Any = StandIn(motion, options.ramp) if options.dry_run else _load_robot(options.robot)
+        robot: Any = StandIn(motion, options.ramp) if options.dry_run else load_robot(options.robot)
         check_robot(motion, robot, feedback=not (options.dry_run or options.no_feedback))
     except (OSError, ValueError, Stopped) as error:
         print(f"player: {error}", file=sys.stderr)
@@ -788,13 +792,13 @@ def main(arguments: list[str] | None = None) -> int:
             wait=(lambda instant: 0.0) if options.dry_run else None,
         )
     except (Exception, KeyboardInterrupt) as stopped:
-        print(f"player: stopped: {'; '.join([_why(stopped), *getattr(stopped, '__notes__', [])])}", file=sys.stderr)
+        print(f"player: stopped: {'; '.join([why(stopped), *getattr(stopped, '__notes__', [])])}", file=sys.stderr)
         return 1
     print(f"played to the end; largest tracking error {worst:.4f} rad")
     return 0
 
 
-def _why(stopped: BaseException) -> str:
+def why(stopped: BaseException) -> str:
     """What ended a motion, on one line."""
     if isinstance(stopped, KeyboardInterrupt):
         return "interrupted"
@@ -807,7 +811,7 @@ def _why(stopped: BaseException) -> str:
     return f"{type(stopped).__name__}: {_line(stopped)}{where}"
 
 
-def _heed_signals() -> None:
+def heed_signals() -> None:
     """Let kill and a lost terminal end the program as Ctrl-C does, with drives that damp; but not if they are to be ignored."""
 
     def interrupted(number: int, frame: object) -> None:
@@ -819,7 +823,7 @@ def _heed_signals() -> None:
             signal.signal(number, interrupted)
 
 
-def _load_robot(name: str) -> Any:
+def load_robot(name: str) -> Any:
     module, _, kind = name.partition(":")
     if not kind:
         raise ValueError(f"--robot {name}: should be MODULE:CLASS, such as my_robot:MyRobot")
@@ -835,5 +839,5 @@ def _load_robot(name: str) -> Any:
 
 
 if __name__ == "__main__":
-    _heed_signals()
+    heed_signals()
     sys.exit(main())

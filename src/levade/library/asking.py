@@ -19,6 +19,7 @@ import numpy as np
 from levade.arrays import Array
 from levade.document import read_yaml
 from levade.errors import LevadeError
+from levade.exports.asker import Learned, Model, unpacked
 from levade.library.knowledge import Knowledge
 from levade.library.mirror import Mirror
 from levade.library.records import FALLS, Record, motion_path
@@ -27,6 +28,9 @@ from levade.trajectory import JointReference
 
 LIBRARY = "library.yaml"
 """Seed and number of falls, and the robot's mirror."""
+
+LEARNED = "learned.npz"
+"""What was learned from the falls, if anything."""
 
 SUCCESS = "success.npz"
 """Which motion works from which fall, once a build has come to its end."""
@@ -41,7 +45,7 @@ class Answer:
         probability: How likely it works.
         others: The other motions and how likely each works, the likeliest first.
         path: File of the motion, or of the one that it is the image of.
-        joint_position: Where the joints are [rad], shape (joints,).
+        joint_position: Where the reference begins [rad], shape (joints,): where the joints are, or were commanded to fold to.
         mirror: What it is the image in; None if it is the motion itself.
     """
 
@@ -59,7 +63,7 @@ class Answer:
 
     @cached_property
     def reference(self) -> JointReference:
-        """What to tell the joints: the motion, but from where they are now."""
+        """What to tell the joints: the motion, from where they are now."""
         motion = self.motion
         policy = motion.policy
         if policy is None:
@@ -83,11 +87,15 @@ class Library:
         directory: Where it is.
         records: The falls, in order.
         knowledge: What they say.
+        fold: Where the robot's joints go first, before it asks [rad], shape (joints,); None if it asks as it fell.
+        learned: What it answers by, if it was learned from these very falls and motions; else it is what is nearby.
     """
 
     directory: Path
     records: tuple[Record, ...]
     knowledge: Knowledge
+    fold: Array | None = None
+    learned: Learned | None = None
 
     @classmethod
     def load(cls, directory: str | Path) -> Library:
@@ -101,15 +109,19 @@ class Library:
         if not place.is_file():
             raise LevadeError(f"{directory}: holds no motion library; build one, or give its directory")
         records = tuple(Record.load(path) for path in sorted((directory / FALLS).glob("*.json")))
-        mirror = Mirror.from_json(read_yaml(place).get("mirror"), where=str(place))
+        content = read_yaml(place)
+        mirror = Mirror.from_json(content.get("mirror"), where=str(place))
         knowledge = Knowledge.of(records, mirror)
-        return cls(directory, records, knowledge.merged(read_success(directory, knowledge)))
+        fold = _read_fold(content.get("fold"), where=str(place))
+        learned = _read_learned(directory / LEARNED, knowledge)
+        return cls(directory, records, knowledge.merged(read_success(directory, knowledge)), fold, learned)
 
     def ask(self, up: Any, joint_position: Any) -> Answer:
         """Which motion to play.
 
         Args:
-            up: Which way is up in trunk axes, of any length, shape (3,): an accelerometer's reading at rest.
+            up: Which way is up in trunk axes, of any length, shape (3,): an accelerometer's reading at rest, once the robot has
+                folded up if the library has a `fold`.
             joint_position: Angles [rad] in the robot's joint order, shape (joints,).
 
         Raises:
@@ -119,9 +131,15 @@ class Library:
             falls = len(self.records)
             raise LevadeError(f"{self.directory}: no motion was found for any of its {falls} falls; build it further")
         up, joints = self._checked(up, joint_position)
-        (number, probability), *others = self.knowledge.ranked(up, joints)
+        (number, probability), *others = self.model.ranked(up, joints)
         mirror = self.knowledge.mirror if number < 0 else None
-        return Answer(number, probability, tuple(others), motion_path(self.directory, number), joints, mirror)
+        begins = joints if self.fold is None else self.fold
+        return Answer(number, probability, tuple(others), motion_path(self.directory, number), begins, mirror)
+
+    @property
+    def model(self) -> Model | Learned:
+        """What it answers by."""
+        return self.learned or self.knowledge.model
 
     def _checked(self, up: Any, joint_position: Any) -> tuple[Array, Array]:
         up, joints = np.asarray(up, dtype=float), np.asarray(joint_position, dtype=float)
@@ -138,6 +156,37 @@ class Library:
         if not self.records:
             return 0.0
         return float((self.knowledge.success == 1.0).any(axis=1).mean())
+
+
+def _read_fold(content: Any, *, where: str) -> Array | None:
+    """Where the joints go first, of a library's file. Raises LevadeError unless it is a list of numbers, or nothing."""
+    if content is None:
+        return None
+    try:
+        fold = np.array(content, dtype=float)
+    except (ValueError, TypeError):
+        fold = np.full(1, np.nan)
+    if fold.ndim != 1 or not np.isfinite(fold).all():
+        raise LevadeError(f"{where}: fold: is no list of joint angles; the file is damaged")
+    return fold
+
+
+def _read_learned(place: Path, knowledge: Knowledge) -> Learned | None:
+    """What was learned from these falls and motions; None if nothing was, or from others, which a build has added to.
+
+    Raises:
+        LevadeError: If the file is damaged.
+    """
+    if not place.is_file():
+        return None
+    try:
+        model = unpacked(place.read_bytes())
+        assert isinstance(model, Learned)
+        falls = model.arrays.pop("falls")
+    except (OSError, ValueError, KeyError, AssertionError, zipfile.BadZipFile):
+        raise LevadeError(f"{place}: is damaged; remove it, or learn again") from None
+    same = np.array_equal(falls, knowledge.falls) and np.array_equal(model.motions, knowledge.motions)
+    return model if same else None
 
 
 def read_success(directory: Path, knowledge: Knowledge) -> dict[str, Array]:

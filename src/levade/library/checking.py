@@ -17,8 +17,9 @@ from levade.checks.statistics import wilson
 from levade.engines import MujocoEngine, Perturbation
 from levade.errors import LevadeError
 from levade.library.asking import Answer, Library
-from levade.library.building import read_library
 from levade.library.falls import FACES, Falls, Play, Plays, face, tried, tried_on_others
+from levade.library.refining import refined
+from levade.library.storing import read_library
 from levade.robots import Robot
 from levade.search.evaluation import Mask
 from levade.search.objective import Objective, Rollouts
@@ -69,6 +70,7 @@ class LibraryCheck:
         seed: Their seed.
         first: The first answer works, on the nominal model.
         after: Number k -> one of the k likeliest motions works.
+        refined: The first answer works on the model once it is refined. None if it was not.
         twice: The first answer works, or another answer does from where the first one left the robot.
         lying: What the robot lies on (`levade.library.falls.FACES`) -> the first answer works from there.
         perturbed: The first answer works on a robot that differs from the model, another one for each fall.
@@ -83,6 +85,7 @@ class LibraryCheck:
     seed: int
     first: Share
     after: Mapping[int, Share]
+    refined: Share | None
     twice: Share
     lying: Mapping[str, Share]
     perturbed: Share
@@ -95,10 +98,18 @@ class LibraryCheck:
         """Plain numbers."""
         after = {str(k): share.to_json() for k, share in self.after.items()}
         lying = {name: share.to_json() for name, share in self.lying.items()}
+        refined = {} if self.refined is None else {"refined": self.refined.to_json()}
+        nominal = {
+            "first": self.first.to_json(),
+            "after": after,
+            **refined,
+            "twice": self.twice.to_json(),
+            "lying": lying,
+        }
         return {
             "starts": self.starts,
             "seed": self.seed,
-            "nominal": {"first": self.first.to_json(), "after": after, "twice": self.twice.to_json(), "lying": lying},
+            "nominal": nominal,
             "perturbed": {"first": self.perturbed.to_json()},
             "expected": self.expected,
             "answer_ms": {"median": self.answer_ms[0], "p99": self.answer_ms[1]},
@@ -115,6 +126,7 @@ def check_library(
     seed: int,
     threads: int = 0,
     perturbation: Perturbation | None = None,
+    refine: float | None = None,
     stopping: Callable[[], bool] = lambda: False,
 ) -> LibraryCheck:
     """Try a library on falls of another seed than its own.
@@ -126,6 +138,8 @@ def check_library(
         seed: Their seed.
         threads: Engine threads; 0 for one per core.
         perturbation: How robots differ from the model. Defaults to what `levade check` takes.
+        refine: For how long an answer that does not work is refined in simulation [s] (`levade.library.refining`), which
+            depends on the computer. None leaves that out.
         stopping: Asked on the way; once it says so, the check ends with the falls so far.
 
     Raises:
@@ -137,7 +151,7 @@ def check_library(
     if starts < 1:
         raise LevadeError(f"{starts} falls are none; 200 are usual", field="starts")
     falls = Falls(task, robot=robot, seed=seed, threads=threads)
-    trial = _Trial(library, falls, seed, perturbation or Perturbation())
+    trial = _Trial(library, falls, seed, perturbation or Perturbation(), refine)
     for first in range(0, starts, _AT_ONCE):
         if stopping():
             break
@@ -146,8 +160,11 @@ def check_library(
 
 
 class _Trial:
-    def __init__(self, library: Library, falls: Falls, seed: int, perturbation: Perturbation) -> None:
+    def __init__(
+        self, library: Library, falls: Falls, seed: int, perturbation: Perturbation, refine: float | None
+    ) -> None:
         self._library, self._falls, self._seed, self._perturbation = library, falls, seed, perturbation
+        self._refine, self._refined = refine, 0
         self._plays = Plays(library.directory, library.knowledge.mirror)
         self._works: list[Mask] = []  # of the likeliest motions of each fall
         self._perturbed: list[bool] = []
@@ -177,6 +194,10 @@ class _Trial:
             for i, objective, play in zip(indices, objectives, first, strict=True)
         ]
         failed = [j for j, one in enumerate(works) if not one[0]]
+        for j in failed if self._refine is not None else ():
+            assert self._refine is not None
+            better = refined(self._falls, self._plays, objectives[j], numbers[j], seconds=self._refine, seed=self._seed)
+            self._refined += better.works
         if failed:
             self._recovered += self._again([objectives[j] for j in failed], [first[j] for j in failed])
 
@@ -188,6 +209,7 @@ class _Trial:
             seed=self._seed,
             first=Share(first, n),
             after={k: Share(sum(bool(one[:k].any()) for one in self._works), n) for k in AFTER},
+            refined=None if self._refine is None else Share(first + self._refined, n),
             twice=Share(first + self._recovered, n),
             lying={name: self._of_those_on(name) for name in FACES if name in self._faces},
             perturbed=Share(sum(self._perturbed), n),
@@ -222,7 +244,9 @@ class _Trial:
         for j in np.flatnonzero(~diverged):
             qpos, qvel, act = (out[name][j, -1] for name in ("qpos", "qvel", "act"))
             told = joined.reference.position[j, -1]
-            left = self._falls.from_state(engine.layout.state(qpos, qvel, act, joint_reference=told))
+            left = self._falls.from_state(
+                self._falls.folded(engine.layout.state(qpos, qvel, act, joint_reference=told))
+            )
             answer = self._asked(*self._falls.sensed(left.state))
             recovered += bool(tried([left], [[self._plays[answer.number]]])[0].success[0])
         return recovered

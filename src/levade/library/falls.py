@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 
 from levade.arrays import Array
-from levade.engines import Fallen, Perturbation, State, perturbed_models, start_state
+from levade.engines import Fallen, Fold, Perturbation, State, perturbed_models, start_state
+from levade.engines.folding import fold_posture, folded
 from levade.errors import LevadeError
 from levade.feedback import up_in_trunk
 from levade.library.mirror import Mirror
@@ -34,6 +36,7 @@ class Falls:
     Attributes:
         task: The task, from the first fall of the family.
         simulation: What all of them are simulated in.
+        fold: Where its joints go first, before anything is asked [rad], shape (joints,); None if nowhere.
         mirror: Of the robot, if its sides are alike, and so are the scene's and the policy's.
     """
 
@@ -41,7 +44,8 @@ class Falls:
         """Build the simulation.
 
         Args:
-            task: The task. Its family of falls is that of its start, if it has one; else falls from the robot's own height.
+            task: The task. Its family of falls is that of its start, if it has one; else falls from the robot's own height,
+                after which it draws its legs in.
             robot: The robot, instead of the one that the task names.
             seed: Which family.
             threads: Engine threads; 0 for one per core.
@@ -52,10 +56,11 @@ class Falls:
         if task.robust is not None or task.hardware is not None:
             raise LevadeError("library: it is built on the nominal model; leave robust and hardware out of the task")
         robot = robot or task.robot.load()
-        fallen = task.start.fallen or Fallen(dimensions(robot).height)
+        fallen = task.start.fallen or _usual(task, robot)
         self._fallen = replace(fallen, seed=seed, index=0)
         self.task = replace(task, start=StartChoice(fallen=self._fallen))
         self.simulation = Simulation.of(self.task, robot=robot, threads=threads)
+        self.fold = None if fallen.fold is None else fold_posture(robot, fallen.fold)
         self.mirror = None if task.scene.boxes or task.scene.terrain else self._mirror()
 
     def _mirror(self) -> Mirror | None:
@@ -70,6 +75,12 @@ class Falls:
         state = start_state(engine, robot, self.task.scene, start.choice)
         return Objective(self.simulation.starting(state), replace(self.task, start=start))
 
+    def folded(self, state: State) -> State:
+        """How a robot lies once it has done what it does first, after a fall or a failure."""
+        if self.fold is None or self._fallen.fold is None:
+            return state
+        return folded(self.simulation.engine, state, self.fold, self._fallen.fold)
+
     def from_state(self, state: State) -> Objective:
         """The task from a state that is none of the falls."""
         return Objective(self.simulation.starting(state), self.task)
@@ -78,6 +89,18 @@ class Falls:
         """What a robot at rest senses: which way is up in trunk axes, shape (3,), and its joint angles [rad]."""
         quaternion = state.qpos[0, self.simulation.engine.layout.trunk_quaternion]
         return up_in_trunk(quaternion), state.joint_position[0].copy()
+
+
+def _usual(task: Task, robot: Robot) -> Fallen:
+    """Falls from the robot's own height, after which it draws its legs in, if they are such legs."""
+    fallen = Fallen(dimensions(robot).height)
+    if task.physics.engine != "mujoco":
+        return fallen
+    try:
+        fold_posture(robot, fold := Fold())
+    except LevadeError:
+        fold = Fold("neutral")
+    return replace(fallen, fold=fold)
 
 
 def face(up: Array) -> str:
@@ -112,6 +135,14 @@ class Play:
         return image
 
 
+class Playable(Protocol):
+    """What can be played from a fall: a motion, or weights."""
+
+    def decisions(self, policy: JointPolicy) -> Array:
+        """Its weights for a policy, shape (1, d)."""
+        ...
+
+
 class Plays:
     """What there is to play in a library, by number (`levade.library.records`); each motion is read once."""
 
@@ -127,7 +158,7 @@ class Plays:
 
 
 def tried_on_others(
-    objective: Objective, plays: Mapping[int, Play], perturbation: Perturbation, *, seed: tuple[int, ...]
+    objective: Objective, plays: Mapping[int, Playable], perturbation: Perturbation, *, seed: tuple[int, ...]
 ) -> Mask:
     """Play motions from one fall, each on another robot that differs from the model.
 
@@ -156,7 +187,7 @@ def tried_on_others(
     return works
 
 
-def tried(objectives: Sequence[Objective], plays: Sequence[Sequence[Play]]) -> list[Evaluation]:
+def tried(objectives: Sequence[Objective], plays: Sequence[Sequence[Playable]]) -> list[Evaluation]:
     """Play motions from falls, in common batches: for each objective its own, on the nominal model."""
     asked = []
     for objective, own in zip(objectives, plays, strict=True):

@@ -4,7 +4,7 @@
     knowledge.ranked(up, joint_position)            # motions, the likeliest first, each with its probability
 
 How a robot lies is which way is up for it, and where its joints are. A motion that works from the falls nearby is likely to
-work here: each of them has a say by how near it is, and all falls together have one.
+work here: each of them has a say by how near it is, and all falls together have one (`levade.exports.asker.Model`).
 """
 
 from __future__ import annotations
@@ -17,18 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from levade.arrays import Array
+from levade.exports.asker import Model
 from levade.library.mirror import Mirror
 from levade.library.records import Record, image_of
-
-_JOINTS = 0.25
-"""Of a difference of 1 rad in all joints, against one of 1 rad in attitude: a robot on its back has to roll over, however its
-legs are, and its joints are elsewhere in a moment."""
-
-_NEAREST, _LEAST_REACH = 8, 0.1
-"""Falls whose distance is how far a fall reaches, and the least of it [rad]."""
-
-_PRIOR = 0.5
-"""Falls that the share of all of them counts as: what is known nearby soon outweighs it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,49 +78,49 @@ class Knowledge:
         filled = {name: np.where(np.isnan(own := getattr(self, name)), table, own) for name, table in tables.items()}
         return replace(self, **filled)
 
+    @cached_property
+    def model(self) -> Model:
+        """What follows for other states: `levade.exports.asker`, which goes with an exported library."""
+        both, none = np.stack([self.success, self.perturbed]), self.mirror is None
+        return Model(
+            up=self.up,
+            joint_position=self.joint_position,
+            tried=(~np.isnan(both)).sum(axis=0).astype(float),
+            worked=np.nansum(both, axis=0),
+            motions=np.asarray(self.motions, dtype=np.int64),
+            image=np.zeros(0, dtype=np.int64) if none else self._image.astype(np.int64),
+            mirror_joints=np.zeros(0, dtype=np.int64) if self.mirror is None else self.mirror.joints.astype(np.int64),
+            mirror_signs=np.zeros(0) if self.mirror is None else self.mirror.signs,
+        )
+
     def distances(self, up: Array, joint_position: Array) -> Array:
         """How far a state is from each fall [rad], shape (n,): the angle between ways up, and a share of the joints'."""
-        angle = np.arccos(np.clip(self.up @ up, -1.0, 1.0))
-        joints = np.sqrt(((self.joint_position - joint_position) ** 2).mean(axis=1))
-        return np.hypot(angle, _JOINTS * joints)
+        return self.model.distances(up, joint_position)
 
     def probabilities(self, up: Array, joint_position: Array) -> Array:
         """How likely each motion works from a state, on the model or on a robot near it, shape (m,)."""
-        if not len(self.motions):
-            return np.zeros(0)
-        distance = self.distances(up, joint_position)
-        if self.mirror is not None:
-            image = self.distances(self.mirror.up(up), self.mirror.posture(joint_position))
-            distance = np.concatenate([distance, image])
-        reach = max(_LEAST_REACH, float(np.sort(distance)[min(_NEAREST, len(distance)) - 1]))
-        tried, worked = self._evidence
-        near = np.exp(-((distance / reach) ** 2))
-        n = len(self.falls)
-        for_it, all_of_it = near[:n] @ worked, near[:n] @ tried
-        share = (worked.sum(axis=0) + 1.0) / (tried.sum(axis=0) + 2.0)
-        if self.mirror is not None:
-            image = self._image
-            for_it, all_of_it = for_it + near[n:] @ worked[:, image], all_of_it + near[n:] @ tried[:, image]
-            share = (share + share[image]) / 2
-        return (for_it + _PRIOR * share) / (all_of_it + _PRIOR)
+        return self.model.probabilities(up, joint_position)
 
-    @cached_property
-    def _evidence(self) -> tuple[Array, Array]:
-        """How often each motion was tried from each fall, on the model and beside it, and how often it worked, shape (n, m)."""
-        both = np.stack([self.success, self.perturbed])
-        return (~np.isnan(both)).sum(axis=0), np.nansum(both, axis=0)
+    def ranked(self, up: Array, joint_position: Array) -> list[tuple[int, float]]:
+        """Motions and how likely each works from a state, the likeliest first."""
+        return self.model.ranked(up, joint_position)
+
+    def apart(self, up: Array, joint_position: Array) -> float:
+        """How far a state is from the nearest fall, or image of one, that a motion was found for [rad]; infinite of none."""
+        own = np.isin(self.falls, self.motions)
+        if not own.any():
+            return np.inf
+        distance = self.distances(up, joint_position)[own]
+        if self.mirror is not None:
+            image = self.distances(self.mirror.up(up), self.mirror.posture(joint_position))[own]
+            distance = np.minimum(distance, image)
+        return float(distance.min())
 
     @cached_property
     def _image(self) -> NDArray[np.intp]:
         """Column of each motion's image, shape (m,)."""
         order = np.argsort(self.motions)
         return order[np.searchsorted(self.motions, image_of(self.motions), sorter=order)]
-
-    def ranked(self, up: Array, joint_position: Array) -> list[tuple[int, float]]:
-        """Motions and how likely each works from a state, the likeliest first."""
-        probability = self.probabilities(up, joint_position)
-        order = np.argsort(-probability, kind="stable")
-        return [(int(self.motions[j]), float(probability[j])) for j in order]
 
     def cover(self) -> list[tuple[int, int]]:
         """The fewest motions that work from all falls that any works from, nearly: motions, each with how many falls it and

@@ -1,0 +1,474 @@
+#!/usr/bin/env python3
+"""Get a robot up however it fell: ask a motion library, play what it answers, look, ask again. Needs Python 3.10 and numpy.
+
+    python ask.py --state state.json                        # which motion, and how likely it works
+    python ask.py --robot my_robot:MyRobot --attempts 3     # MyRobot is yours: see player.py; it needs read_trunk
+
+state.json has what a robot senses when it lies still, with its joints where the library's `fold` has them:
+
+    {"attitude": [0.1, 0.99, 0.0, 0.05], "joints": {"lf_haa": 0.0, "lf_hfe": 1.5, "...": 0.0}}
+
+``attitude`` is a quaternion w-x-y-z, whatever its yaw; ``up`` can be given instead, in trunk axes. An attempt is:
+
+1. The joints go to the fold's posture within its time, and rest there.
+2. The library is asked with the trunk's attitude and the joints.
+3. Its likeliest motion is played, with the start checks, limits and stops of player.py. What it is compared with is the
+   simulation from the way to lie that is nearest.
+4. The robot stands if its trunk is level and its joints are where the motion ends.
+
+A robot that does not stand, or does so much otherwise than the simulation that player.py stops, is asked about again, after the
+drives have damped for a second. Everything else that player.py stops for ends the program, with drives that damp.
+
+Exit status: 0 it stands, 1 it does not or was stopped, 2 the input is wrong.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import io
+import json
+import math
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, fields
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from levade.exports import player
+
+Array = np.ndarray
+
+JOINTS = 0.25
+"""Of a difference of 1 rad in all joints, against one of 1 rad in attitude: a robot on its back has to roll over, however its
+legs are, and its joints are elsewhere in a moment."""
+
+NEAREST, LEAST_REACH = 8, 0.1
+"""Falls whose distance is how far a fall reaches, and the least of it [rad]."""
+
+HEARD = 128
+"""Falls, and images of falls, that have a say: the nearest ones. An answer then takes as long for thousands of falls."""
+
+PRIOR = 0.5
+"""Falls that the share of all of them counts as: what is known nearby soon outweighs it."""
+
+LEVEL, THERE = 0.35, 0.4
+"""How far a robot that stands may be tilted, and its joints be from where the motion ends [rad]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """Which motion works from where: each fall nearby has a say, by how near it is, and all falls together have one.
+
+    up: which way is up in each fall, in trunk axes, (n, 3). joint_position: (n, joints) [rad].
+    tried, worked: how often each motion was tried from each fall, and how often it worked, (n, m).
+    motions: their numbers, (m,).
+    image: column of each motion's image in the robot's mirror, (m,); of size 0 if its sides differ.
+    mirror_joints, mirror_signs: of which joint each joint of the image takes the angle, and with which sign, (joints,).
+    """
+
+    up: Array
+    joint_position: Array
+    tried: Array
+    worked: Array
+    motions: Array
+    image: Array
+    mirror_joints: Array
+    mirror_signs: Array
+
+    def distances(self, up: Array, joint_position: Array) -> Array:
+        """How far a state is from each fall [rad], (n,): the angle between ways up, and a share of the joints' differences."""
+        angle = np.arccos(np.clip(self.up @ up, -1.0, 1.0))
+        joints = np.sqrt(((self.joint_position - joint_position) ** 2).mean(axis=1))
+        return np.hypot(angle, JOINTS * joints)
+
+    def probabilities(self, up: Array, joint_position: Array) -> Array:
+        """How likely each motion works from a state, on the model or on a robot near it, (m,)."""
+        if not len(self.motions):
+            return np.zeros(0)
+        distance = self.distances(up, joint_position)
+        if len(self.image):
+            sideways = up * np.array([1.0, -1.0, 1.0])
+            image = self.distances(sideways, joint_position[self.mirror_joints] * self.mirror_signs)
+            distance = np.concatenate([distance, image])
+        order = np.argsort(distance, kind="stable")[:HEARD]
+        reach = max(LEAST_REACH, float(distance[order[min(NEAREST, len(order)) - 1]]))
+        say = np.exp(-((distance[order] / reach) ** 2))
+        n = len(self.up)
+        own, other = order < n, order >= n
+        for_it, all_of_it = say[own] @ self.worked[order[own]], say[own] @ self.tried[order[own]]
+        if len(self.image):  # a motion works from a fall as its image does from the fall's image
+            rows = order[other] - n
+            for_it = for_it + (say[other] @ self.worked[rows])[self.image]
+            all_of_it = all_of_it + (say[other] @ self.tried[rows])[self.image]
+        return (for_it + PRIOR * self._share) / (all_of_it + PRIOR)
+
+    @cached_property
+    def _share(self) -> Array:
+        """From how many of all falls each motion works, or its image does from theirs, (m,)."""
+        share = (self.worked.sum(axis=0) + 1.0) / (self.tried.sum(axis=0) + 2.0)
+        return (share + share[self.image]) / 2 if len(self.image) else share
+
+    def ranked(self, up: Array, joint_position: Array) -> list[tuple[int, float]]:
+        """Motions and how likely each works from a state, the likeliest first."""
+        return ranked(self.motions, self.probabilities(up, joint_position))
+
+
+def features(up: Array, joint_position: Array) -> Array:
+    """What is learned from, (..., 3 + joints): the distance between two states is about that of `Model.distances`."""
+    return np.concatenate([up, joint_position * (JOINTS / math.sqrt(joint_position.shape[-1]))], axis=-1)
+
+
+@dataclass(frozen=True, eq=False)
+class Learned:
+    """A model that was learned from which motion works from which fall: `levade.library.learning`.
+
+    kind: "gaussian-process", "trees" or "networks". motions: their numbers, (m,). arrays: what it is made of.
+    slope, offset: of a probability's log odds, so that it is how often a motion works.
+    """
+
+    kind: str
+    motions: Array
+    arrays: dict[str, Array]
+    slope: float = 1.0
+    offset: float = 0.0
+
+    def probabilities(self, up: Array, joint_position: Array) -> Array:
+        """How likely each motion works from a state, (m,)."""
+        raw = np.clip(_RAW[self.kind](self.arrays, features(up, joint_position)), 0.005, 0.995)
+        return 1.0 / (1.0 + np.exp(-(self.slope * np.log(raw / (1.0 - raw)) + self.offset)))
+
+    def ranked(self, up: Array, joint_position: Array) -> list[tuple[int, float]]:
+        """Motions and how likely each works from a state, the likeliest first."""
+        return ranked(self.motions, self.probabilities(up, joint_position))
+
+
+def ranked(motions: Array, probability: Array) -> list[tuple[int, float]]:
+    """Motions, (m,), and how likely each works, the likeliest first."""
+    order = np.argsort(-probability, kind="stable")
+    return [(int(motions[j]), float(probability[j])) for j in order]
+
+
+def _gaussian_process(of: dict[str, Array], x: Array) -> Array:
+    """Posterior mean. states: (k, f). weights: (k, m). mean: (m,). length, amplitude: (1,)."""
+    squared = ((of["states"] - x) ** 2).sum(axis=1)
+    return of["mean"] + of["amplitude"] * np.exp(-0.5 * squared / of["length"] ** 2) @ of["weights"]
+
+
+def _trees(of: dict[str, Array], x: Array) -> Array:
+    """Sum of boosted trees, each of one motion. feature, threshold, left, right, value: (trees, nodes). motion: (trees,).
+
+    first: (m,), what they start from. A leaf is its own child.
+    """
+    tree, node = np.arange(len(of["motion"])), np.zeros(len(of["motion"]), dtype=int)
+    for _ in range(int(of["depth"][0])):
+        goes = x[of["feature"][tree, node]] <= of["threshold"][tree, node]
+        node = np.where(goes, of["left"][tree, node], of["right"][tree, node])
+    return of["first"] + np.bincount(of["motion"], of["value"][tree, node], minlength=len(of["first"]))
+
+
+def _networks(of: dict[str, Array], x: Array) -> Array:
+    """Mean of networks with one hidden layer. into: (e, f, h). bias: (e, h). out: (e, h, m). last: (e, m)."""
+    hidden = np.tanh(np.einsum("f,efh->eh", x, of["into"]) + of["bias"])
+    return (np.einsum("eh,ehm->em", hidden, of["out"]) + of["last"]).mean(axis=0)
+
+
+_RAW = {"gaussian-process": _gaussian_process, "trees": _trees, "networks": _networks}
+
+
+@dataclass(frozen=True, eq=False)
+class Library:
+    """An exported library. Raises ValueError if it is not one.
+
+    joints: their names. model: what it answers by. fold: the posture that the joints go to first, as a motion that rests there.
+    fold_time: [s], of going there. motions: number -> the motion, once for each way to lie that it was simulated from.
+    """
+
+    joints: list[str]
+    model: Model | Learned
+    fold: player.Motion
+    fold_time: float
+    motions: dict[int, list[player.Motion]]
+
+    @classmethod
+    def load(cls, folder: str | Path) -> Library:
+        """Read library.json, model.npz and the motions beside them.
+
+        Raises:
+            OSError: If a file cannot be read.
+            ValueError: If a file is not one of an export, or was changed since.
+        """
+        folder = Path(folder)
+        try:
+            about = json.loads((folder / "library.json").read_text(encoding="utf-8"))
+            content = (folder / "model.npz").read_bytes()
+            if about["checksum"] != checksum(about, content):
+                raise ValueError("library.json, or model.npz, was changed since it was exported (checksum)")
+            model = unpacked(content)
+            motions = {
+                int(number): [player.Motion.load(folder / place / "motion.csv") for place in places]
+                for number, places in about["motions"].items()
+            }
+            posture, joints = np.array(about["fold"]["position"], dtype=float), list(about["joints"])
+            if set(motions) != {int(number) for number in model.motions} or not motions:
+                raise ValueError("its motions are not those of its model")
+            if any(not own or any(one.joints != joints for one in own) for own in motions.values()):
+                raise ValueError("its motions have other joints")
+            fold = resting(next(iter(motions.values()))[0], posture, float(about["fold"]["rest"]))
+            return cls(joints, model, fold, float(about["fold"]["time"]), motions)
+        except (OSError, ValueError):
+            raise
+        except Exception as error:
+            raise ValueError(
+                f"{folder}: is damaged ({type(error).__name__}: {error}); export the library again"
+            ) from None
+
+    def ask(self, up: Array, joint_position: Array) -> list[tuple[int, float]]:
+        """Motions and how likely each works, the likeliest first.
+
+        up: in trunk axes, of any length, (3,). joint_position: (joints,) [rad]. Raises ValueError if a shape is wrong, or
+        not all are numbers.
+        """
+        up, joints = np.asarray(up, dtype=float), np.asarray(joint_position, dtype=float)
+        if up.shape != (3,) or not np.isfinite(up).all() or not np.linalg.norm(up) > 0:
+            raise ValueError("up: should be three numbers, which way is up in trunk axes")
+        if joints.shape != (len(self.joints),) or not np.isfinite(joints).all():
+            raise ValueError(f"joints: should be the angles of {len(self.joints)} joints [rad]")
+        return self.model.ranked(up / np.linalg.norm(up), joints)
+
+
+def nearest(motions: list[player.Motion], up: Array, joint_position: Array) -> player.Motion:
+    """The one that was simulated from the state nearest to this one.
+
+    up: in trunk axes, (3,). joint_position: (joints,) [rad].
+    """
+    return min(motions, key=lambda one: apart(one.up[0], one.start_position, up, joint_position))
+
+
+def apart(up: Array, joint_position: Array, other_up: Array, other_position: Array) -> float:
+    """How far two ways to lie are apart [rad]: by the angle between ways up, or by the joint that differs most."""
+    angle = math.acos(min(1.0, max(-1.0, float(up @ other_up))))
+    return max(angle, float(np.abs(joint_position - other_position).max()))
+
+
+def unpacked(content: bytes) -> Model | Learned:
+    """The model of a model.npz: by what is nearby, or a learned one."""
+    with np.load(io.BytesIO(content), allow_pickle=False) as file:
+        if "kind" not in file:
+            return Model(**{one.name: file[one.name] for one in fields(Model)})
+        of = {name: file[name] for name in file}
+    kind, motions, slope, offset = (of.pop(name) for name in ("kind", "motions", "slope", "offset"))
+    if str(kind) not in _RAW:
+        raise ValueError(f"{kind} is no kind of model; one of {', '.join(_RAW)}")
+    return Learned(str(kind), motions, of, float(slope), float(offset))
+
+
+def checksum(about: dict[str, Any], model: bytes) -> str:
+    """Over all of library.json except its own "checksum", and over model.npz."""
+    rest = {key: value for key, value in about.items() if key != "checksum"}
+    return f"sha256:{hashlib.sha256(player.canonical(rest) + model).hexdigest()}"
+
+
+def resting(like: player.Motion, posture: Array, rest: float) -> player.Motion:
+    """A motion that stays in a posture, with the drives of another one.
+
+    posture: (joints,) [rad]. rest: [s].
+    """
+    rows, joints = max(1, round(rest * like.rate)), len(like.joints)
+    still, table = np.zeros((rows, joints)), np.tile(posture, (rows, 1))
+    return player.Motion(
+        joints=like.joints,
+        rate=like.rate,
+        position=table,
+        velocity=still,
+        torque=still,
+        expected=table,
+        expected_velocity=still,
+        up=np.tile([0.0, 0.0, 1.0], (rows, 1)),
+        turning=np.zeros(rows),
+        kp=like.kp,
+        kd=like.kd,
+        start_position=posture,
+        start_torque=np.zeros(joints),
+        lower=like.lower,
+        upper=like.upper,
+        torque_limit=like.torque_limit,
+        held=like.held,
+    )
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """What came of an attempt.
+
+    motion: its number; None if the robot did not fold up. stopped: why it was stopped, if it was.
+    """
+
+    motion: int | None
+    probability: float
+    stands: bool
+    stopped: str = ""
+
+    def __str__(self) -> str:
+        what = "folding up" if self.motion is None else f"motion {self.motion}, {self.probability:.1%}"
+        return f"{what}: {'it stands' if self.stands else self.stopped or 'it does not stand'}"
+
+
+def get_up(
+    library: Library,
+    robot: Any,
+    *,
+    attempts: int = 3,
+    fold_tolerance: float = 2.0 * math.pi,
+    tolerance: float = 1.0,
+    speed_tolerance: float = 20.0,
+    tilt_tolerance: float = 2.0,
+    clamp: bool = True,
+    wait: Callable[[], Callable[[float], float]] = player.clock,
+    observe: Callable[[Attempt], object] = lambda attempt: None,
+) -> list[Attempt]:
+    """Sense, ask, play, look, and again.
+
+    Args:
+        library: What to ask.
+        robot: What is to get up: with ``read``, ``write`` and ``read_trunk``, see player.py.
+        attempts: How often at most.
+        fold_tolerance: How far joints may be from the fold's posture once they rest there [rad]. By default they may be
+            anywhere, as on their way: legs lie under the robot. What is played then has to begin near where they are.
+        tolerance: How far the joints may be from the simulation in a motion [rad].
+        speed_tolerance: How much faster joints and trunk may move than they ever do in the simulation [rad/s].
+        tilt_tolerance: Largest angle between the trunk's attitude and that in the simulation [rad].
+        clamp: As in ``player.play``.
+        wait: Makes a clock for each motion, as ``player.play`` takes one.
+        observe: Called after each attempt.
+
+    Returns:
+        The attempts: none if it stands already; else it stands if the last one says so.
+
+    Raises:
+        Stopped: If the robot's joints have other names, it has no ``read_trunk``, or a reading or the loop is not to be
+            trusted. Whatever the robot's methods raise is passed on.
+    """
+    player.check_robot(library.fold, robot)
+    if not callable(getattr(robot, "read_trunk", None)):
+        raise player.Stopped("the robot has no read_trunk; a library is asked with the trunk's attitude")
+    done: list[Attempt] = []
+    if any(stands(motion, robot) for own in library.motions.values() for motion in own):
+        return done
+    limits = {"speed_tolerance": speed_tolerance, "clamp": clamp}
+    while len(done) < attempts and not (done and done[-1].stands):
+        motion, probability, stopped, standing = None, 0.0, "", False
+        try:
+            player.play(
+                library.fold,
+                robot,
+                ramp=library.fold_time,
+                start_tolerance=2.0 * math.pi,
+                tolerance=fold_tolerance,
+                feedback=False,
+                wait=wait(),
+                **limits,
+            )
+            up, joints = sense(robot, len(library.joints))
+            motion, probability = library.ask(up, joints)[0]
+            played = nearest(library.motions[motion], up, joints)
+            player.play(
+                played,
+                robot,
+                ramp=0.1,
+                start_tolerance=tolerance,
+                tolerance=tolerance,
+                tilt_tolerance=tilt_tolerance,
+                wait=wait(),
+                **limits,
+            )
+            standing = stands(played, robot)
+        except player.Astray as astray:
+            stopped = str(astray)
+        done.append(Attempt(motion, probability, standing, stopped))
+        observe(done[-1])
+    return done
+
+
+def sense(robot: Any, joints: int) -> tuple[Array, Array]:
+    """Which way is up in trunk axes, (3,), and the joints' angles [rad]. Raises Stopped for readings that are none."""
+    position, _ = player.pair("position and velocity", robot.read(), (joints, joints))
+    quaternion, _ = player.pair("the trunk's attitude and the trunk's rate", robot.read_trunk(), (4, 3))
+    length = math.hypot(*quaternion)
+    if not abs(length - 1.0) < 0.01:
+        raise player.Stopped(f"the robot's trunk reads {quaternion.tolist()}; should be a unit quaternion")
+    return np.array(player.up_of(*(quaternion / length))), position
+
+
+def stands(motion: player.Motion, robot: Any) -> bool:
+    """Whether the trunk is level, and the joints are where a motion ends."""
+    up, joints = sense(robot, len(motion.joints))
+    return bool(up[2] > math.cos(LEVEL) and np.abs(joints - motion.expected[-1]).max() < THERE)
+
+
+def read_state(path: Path, joints: list[str]) -> tuple[Array, Array]:
+    """Which way is up, and the joints' angles, of a JSON file. Raises ValueError if it has no such thing."""
+    content = json.loads(path.read_text(encoding="utf-8"))
+    angles = content["joints"]
+    if isinstance(angles, dict):
+        angles = [angles[name] for name in joints]
+    up = content["up"] if "up" in content else player.up_of(*np.array(content["attitude"], dtype=float))
+    return np.array(up, dtype=float), np.array(angles, dtype=float)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """The command line."""
+    parser = argparse.ArgumentParser(description="Get a robot up however it fell, with an exported motion library.")
+    parser.add_argument("--library", metavar="DIR", default=str(Path(__file__).resolve().parent), help="this folder")
+    parser.add_argument("--state", metavar="FILE", help="say which motion: JSON with attitude or up, and joints")
+    parser.add_argument("--robot", metavar="MODULE:CLASS", help="your class with read, write and read_trunk")
+    parser.add_argument("--attempts", type=int, default=3, help="at most; 3")
+    parser.add_argument("--tolerance", type=float, default=1.0, help="of joints, from the simulation [rad]; 1")
+    parser.add_argument("--tilt-tolerance", type=float, default=2.0, help="of the trunk, from the simulation [rad]; 2")
+    parser.add_argument(
+        "--speed-tolerance", type=float, default=20.0, help="beyond the fastest of the simulation [rad/s]; 20"
+    )
+    parser.add_argument(
+        "--no-clamp", action="store_true", help="send positions beyond the joints' ranges, too, as told"
+    )
+    options = parser.parse_args(arguments)
+    tolerances = (options.tolerance, options.tilt_tolerance, options.speed_tolerance)
+    if (options.state is None) == (options.robot is None):
+        parser.error("give one of --state FILE and --robot MODULE:CLASS")
+    if options.attempts < 1 or not all(0 <= value < np.inf for value in tolerances):
+        parser.error("--attempts should be 1 or more, and tolerances numbers, 0 or more")
+    try:
+        library = Library.load(options.library)
+        if options.state is not None:
+            ranked = library.ask(*read_state(Path(options.state), library.joints))
+            print(json.dumps([{"motion": number, "probability": share} for number, share in ranked]))
+            return 0
+        robot = player.load_robot(options.robot)
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        print(f"ask: {error}", file=sys.stderr)
+        return 2
+    try:
+        done = get_up(
+            library,
+            robot,
+            attempts=options.attempts,
+            tolerance=options.tolerance,
+            speed_tolerance=options.speed_tolerance,
+            tilt_tolerance=options.tilt_tolerance,
+            clamp=not options.no_clamp,
+            observe=print,
+        )
+    except (Exception, KeyboardInterrupt) as stopped:
+        print(f"ask: stopped: {player.why(stopped)}", file=sys.stderr)
+        return 1
+    if not done:
+        print("it stands already")
+    return 0 if not done or done[-1].stands else 1
+
+
+if __name__ == "__main__":
+    player.heed_signals()
+    sys.exit(main())

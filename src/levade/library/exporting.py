@@ -1,0 +1,216 @@
+"""A library for a robot: one folder that needs numpy alone, which asks, plays, looks whether it stands, and asks again.
+
+    exported = export_library(Library.load("falls"), Path("falls-robot"))
+
+FOLDER/ask.py                       asks and plays (`levade.exports.asker`)
+FOLDER/player.py                    plays one motion (`levade.exports.player`)
+FOLDER/library.json, model.npz      joints, the fold, where motions are; what it answers by
+FOLDER/motions/000012/from-000034   a motion of the library from a fall, as `levade export` writes it
+
+A motion that gets up from many falls does otherwise from each of them. What a player compares the robot with has to be the
+simulation from where the robot lies, so that a motion is there once for each way to lie that it is the first answer to. Images
+of motions are in 000012-mirrored; they are simulated from where images of falls lie.
+"""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from collections.abc import Callable
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from levade.arrays import Array
+from levade.engines import State
+from levade.errors import LevadeError
+from levade.exports import export
+from levade.exports.as_csv import write_json, write_player, write_script
+from levade.exports.asker import Model, apart, checksum
+from levade.exports.directory import filling
+from levade.library.asking import Library
+from levade.library.falls import Falls, Plays
+from levade.library.knowledge import Knowledge
+from levade.library.learning import packed as learned_bytes
+from levade.library.records import fall_of, image_of
+from levade.library.storing import read_library
+from levade.motions import Motion
+from levade.robots import Robot
+from levade.search.evaluation import Trials
+from levade.search.objective import Objective
+from levade.search.outcome import Solution, Stopped, Trial
+from levade.search.recording import record
+
+_APART = 0.3
+"""Between ways to lie [rad], beyond which a motion is simulated from both."""
+
+
+@dataclass(frozen=True)
+class ExportedLibrary:
+    """What was written.
+
+    Attributes:
+        directory: Where.
+        motions: Number of each motion -> its folders, one for each way to lie that it was simulated from.
+        failed: Those of them in which it does not work; the model knows how often it does.
+    """
+
+    directory: Path
+    motions: dict[int, tuple[Path, ...]]
+    failed: tuple[Path, ...]
+
+
+def export_library(
+    library: Library,
+    directory: Path,
+    *,
+    robot: Robot | None = None,
+    rate: float | None = None,
+    kp: float | None = None,
+    kd: float | None = None,
+    command: str | None = None,
+    observe: Callable[[int, int], object] = lambda done, motions: None,
+) -> ExportedLibrary:
+    """Write a library for a robot, all files of it or none.
+
+    Args:
+        library: The library.
+        directory: Where to write.
+        robot: Its robot, if the task's name does not say it.
+        rate: Of the motions' rows [Hz]. Defaults to the simulation's.
+        kp: Gain of the robot's drives instead of the simulated ones' [Nm/rad].
+        kd: As well [Nm s/rad].
+        command: How it was asked for, for the record.
+        observe: Called with the number of motions that are done, and of all.
+
+    Raises:
+        LevadeError: If the library has no motions, or its falls do not fold up first, or the directory cannot be written.
+    """
+    knowledge = library.knowledge
+    if not len(knowledge.motions):
+        raise LevadeError(f"{library.directory}: no motion was found yet; build it further")
+    if library.fold is None:
+        raise LevadeError(
+            f"{library.directory}: its falls do not fold up first, so that its motions begin anywhere, and no player can check"
+            " that; build one whose start has fallen: {fold: {}}"
+        )
+    task, seed = read_library(library.directory)
+    falls = Falls(task, robot=robot, seed=seed, threads=1)
+    fold = task.start.fallen and task.start.fallen.fold
+    assert fold is not None
+    plays = Plays(library.directory, knowledge.mirror)
+    folders: dict[int, list[str]] = {}
+    failed: list[str] = []
+    ways, written = _ways(library), 0
+    with filling(directory) as partial:
+        for number, lying in ways.items():
+            motion = f"motions/{fall_of(number):06}{'-mirrored' * (number < 0)}"
+            for fall, image in lying:
+                folder = f"{motion}/from-{fall:06}{'-mirrored' * image}"
+                simulated = _simulated(falls, plays, number, fall, image=image)
+                if not simulated.result.success:
+                    failed.append(folder)
+                export(
+                    simulated, "csv", partial / folder, rate=rate, reference="commanded", kp=kp, kd=kd, command=command
+                )
+                (partial / folder / "player.py").unlink()
+                folders.setdefault(number, []).append(folder)
+                written += 1
+                observe(written, sum(map(len, ways.values())))
+        model = packed(knowledge.model) if library.learned is None else learned_bytes(library.learned)
+        (partial / "model.npz").write_bytes(model)
+        about: dict[str, Any] = {
+            "joints": list(falls.simulation.robot.joint_names),
+            "fold": {"position": library.fold.tolist(), "time": fold.time, "rest": fold.rest},
+            "motions": {str(number): places for number, places in folders.items()},
+            "library": {
+                "task": task.name,
+                "robot": falls.simulation.robot.name,
+                "seed": seed,
+                "falls": len(library.records),
+            },
+            "command": command,
+        }
+        write_json(partial / "library.json", {**about, "checksum": checksum(about, model)}, indent=2)
+        write_player(partial)
+        write_script("asker.py", partial / "ask.py")
+    places = {number: tuple(directory / folder for folder in own) for number, own in folders.items()}
+    return ExportedLibrary(directory, places, tuple(directory / folder for folder in failed))
+
+
+def packed(model: Model) -> bytes:
+    """A model's arrays, for numpy; the same ones give the same bytes."""
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as file:
+        for one in fields(Model):
+            values = io.BytesIO()
+            np.save(values, getattr(model, one.name), allow_pickle=False)
+            file.writestr(zipfile.ZipInfo(f"{one.name}.npy"), values.getvalue(), zipfile.ZIP_DEFLATED)
+    return content.getvalue()
+
+
+def _ways(library: Library) -> dict[int, list[tuple[int, bool]]]:
+    """Ways to lie that each motion is simulated from: falls, or images of falls, each with whether it is the image.
+
+    Its own fall, and each fall from which it works and is the first answer, unless the robot lies nearly so in one of them.
+    """
+    known, mirror = library.knowledge, library.knowledge.mirror
+    row = {int(fall): i for i, fall in enumerate(known.falls)}
+    column = {int(number): j for j, number in enumerate(known.motions)}
+    ways = {number: [(fall_of(number), number < 0)] for number in column}
+    states = {number: [_lying(known, row[fall], image=image)] for number, ((fall, image),) in ways.items()}
+    for fall, i in row.items():
+        number = library.model.ranked(known.up[i], known.joint_position[i])[0][0]
+        if known.success[i, column[number]] != 1.0:
+            continue
+        for image in (False, True) if mirror else (False,):
+            played, lying = image_of(number) if image else number, _lying(known, i, image=image)
+            if min(apart(*other, *lying) for other in states[played]) > _APART:
+                ways[played].append((fall, image))
+                states[played].append(lying)
+    return ways
+
+
+def _lying(known: Knowledge, row: int, *, image: bool) -> tuple[Array, Array]:
+    """Which way is up in a fall, or in its image, and where the joints are."""
+    up, joints = known.up[row], known.joint_position[row]
+    return (known.mirror.up(up), known.mirror.posture(joints)) if image and known.mirror is not None else (up, joints)
+
+
+def _simulated(falls: Falls, plays: Plays, number: int, fall: int, *, image: bool) -> Motion:
+    """A motion from where a fall left the robot; or from where the image of the fall lies, once it has folded up."""
+    lying, play = falls.objective(fall), plays[number]
+    objective = falls.from_state(_mirrored(falls, lying.state)) if image else lying
+    return record(objective, _as_found(objective, play.decisions(objective.policy)), seed=play.motion.provenance.seed)
+
+
+def _mirrored(falls: Falls, lying: State) -> State:
+    """Where the image of a state lies, at rest."""
+    mirror, layout = falls.mirror, falls.simulation.engine.layout
+    assert mirror is not None
+    qpos = lying.qpos[0].copy()
+    qpos[layout.trunk_position] *= np.array([1.0, -1.0, 1.0])
+    qpos[layout.trunk_quaternion] *= np.array([1.0, -1.0, 1.0, -1.0])
+    qpos[layout.joint_qpos] = mirror.posture(lying.joint_position[0])
+    told = mirror.posture(lying.joint_reference[0])
+    still = np.zeros_like(lying.qvel[0]), np.zeros_like(lying.act[0])
+    return falls.folded(layout.state(qpos, *still, joint_reference=told))
+
+
+def _as_found(objective: Objective, weights: np.ndarray) -> Solution:
+    """A motion as if it had been searched for: what it achieves on the model."""
+    found = objective.evaluate(Trials(weights, objective.task.hold_steps))
+    own = {name: one.weight for name, one in objective.task.costs.items()}
+    best = Trial.of(weights[0], float(found.cost(own)[0]), found, 0)
+    return Solution(
+        best=best,
+        trials=0,
+        generations=0,
+        trials_to_success=None,
+        diverged=0,
+        stopped=Stopped.SUCCESS,
+        cost_weights=own,
+        changes=(),
+    )

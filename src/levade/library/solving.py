@@ -1,0 +1,269 @@
+"""Falls solved one round at a time: by the motions that are there, a search around the best of them, or a cold one.
+
+    solver = Solver(falls, directory, seed=0)
+    solver.solve([4, 5, 6], after=[0, 1, 2, 3])     # writes records and motions
+    success, perturbed = solver.rows(known, [0, 1])
+
+A motion that is found is searched on with perturbed models until it works on nearly all of them; so is one that was there and
+works, but seldom on robots that differ, unless a motion was found from a fall nearby already.
+
+What comes of a fall depends on the falls ``after`` which it is solved, on nothing else: not on what is solved with it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from levade.arrays import Array
+from levade.engines import Perturbation
+from levade.errors import Remedy
+from levade.library.falls import Falls, Plays, tried, tried_on_others
+from levade.library.hardening import harden
+from levade.library.knowledge import Knowledge
+from levade.library.records import Method, Record, fall_of, motion_path, record_path
+from levade.motions import Motion
+from levade.search import Generation, InitialGuess, Objective, Solution, Stopped, solve_many
+from levade.search.initial import AROUND
+from levade.search.recording import record as record_motion
+from levade.search.storage import storing
+from levade.tasks import Task
+
+_TRIED = 24
+"""Motions that are tried from a fall, the likeliest first."""
+
+_NEAR = 240
+"""Trials of a search around the best of them."""
+
+_ROBOTS, _SURE, _TOLD = 6, 0.8, 2
+"""Robots that differ, on which so many of the likeliest motions that work are tried; and the share that makes one sure."""
+
+_ELSEWHERE = 0.1
+"""From a fall that has a motion of its own [rad], beyond which another motion may be worth more there."""
+
+_APART = 1000
+"""Between the seeds of searches from different falls."""
+
+_AT_ONCE = 32
+"""Falls whose pairs are tried in one batch."""
+
+
+class Solver:
+    """Solves falls of a library, and keeps what came of them in its directory.
+
+    Attributes:
+        records: The falls that are done, by their numbers.
+    """
+
+    def __init__(
+        self,
+        falls: Falls,
+        directory: Path,
+        seed: int,
+        *,
+        stopping: Callable[[], bool] = lambda: False,
+        observe: Callable[[], object] = lambda: None,
+    ) -> None:
+        """Go on with a library.
+
+        Args:
+            falls: The family.
+            directory: The library's.
+            seed: Seed of the library.
+            stopping: Asked between generations; falls in work are lost once it says so.
+            observe: Called after each part.
+        """
+        self._falls, self._directory, self._seed = falls, directory, seed
+        self._stopping, self._observe = stopping, observe
+        self.records: dict[int, Record] = {}
+        self._plays = Plays(directory, falls.mirror)
+
+    def load(self, numbers: Sequence[int]) -> None:
+        """Read the records of falls, as far as they are there."""
+        for i in numbers:
+            if i not in self.records and (path := record_path(self._directory, i)).is_file():
+                self.records[i] = Record.load(path)
+
+    def solve(self, pending: Sequence[int], *, after: Sequence[int]) -> None:
+        """Do falls, each with the motions that were there ``after`` other ones."""
+        if not pending or self._stopping():
+            return
+        knowledge = Knowledge.of([self.records[i] for i in after], self._falls.mirror)
+        objectives = {i: self._falls.objective(i) for i in pending}
+        begun = self._try_known(knowledge, objectives)
+        self._harden_known(
+            [i for i in begun if i not in self.records and begun[i].works is not None], begun, objectives
+        )
+        for method in (Method.NEAR, Method.COLD):
+            left = [i for i, one in begun.items() if i not in self.records and one.works is None]
+            if method == Method.NEAR:
+                left = [i for i in left if begun[i].guess is not None]
+            self._search(left, begun, objectives, method)
+
+    def _try_known(self, knowledge: Knowledge, objectives: Mapping[int, Objective]) -> dict[int, _Begun]:
+        """Try the motions that are there. Falls that one surely works from are done; of the others, where searches begin."""
+        sensed = {i: self._falls.sensed(objective.state) for i, objective in objectives.items()}
+        likely = {i: [motion for motion, _ in knowledge.ranked(*sensed[i])[:_TRIED]] for i in objectives}
+        begun = {i: _Begun(sensed[i], tuple(likely[i]), (), None, len(likely[i])) for i in objectives}
+        if not len(knowledge.motions):
+            return begun
+        own = [[self._plays[motion] for motion in likely[i]] for i in objectives]
+        for (i, objective), plays, found in zip(
+            objectives.items(), own, tried(list(objectives.values()), own), strict=True
+        ):
+            worked = tuple(motion for motion, works in zip(likely[i], found.success, strict=True) if works)
+            cost = found.cost({name: one.weight for name, one in objective.task.costs.items()})
+            nearest = plays[int(np.argmin(cost))].decisions(objective.policy)
+            begun[i] = replace(begun[i], worked=worked, guess=InitialGuess(nearest, step=AROUND))
+            if worked:
+                begun[i] = self._asked(begun[i], i, objective)
+                if begun[i].sure or knowledge.apart(*sensed[i]) < _ELSEWHERE:
+                    self._keep(i, begun[i], Method.KNOWN, begun[i].works)
+        self._observe()
+        return begun
+
+    def _asked(self, begun: _Begun, fall: int, objective: Objective) -> _Begun:
+        """Which of the motions that work does so on most robots that differ, and whether on enough of them."""
+        told = begun.worked[:_TOLD]
+        plays = {len(told) * robot + k: self._plays[told[k]] for robot in range(_ROBOTS) for k in range(len(told))}
+        works = tried_on_others(objective, plays, Perturbation(), seed=(self._seed, fall, _ROBOTS))
+        share = works.reshape(_ROBOTS, len(told)).mean(axis=0)
+        best = int(np.argmax(share))
+        trials = begun.trials + len(plays)
+        return replace(begun, works=told[best], sure=bool(share[best] >= _SURE), trials=trials)
+
+    def _harden_known(self, left: Sequence[int], begun: dict[int, _Begun], objectives: Mapping[int, Objective]) -> None:
+        """Search on from motions that work, but seldom on robots that differ: they become motions of their own."""
+        if not left or self._stopping():
+            return
+        asked = [objectives[i] for i in left]
+        weights = [self._plays[_given(begun[i].works)].decisions(objectives[i].policy) for i in left]
+        seeds = [self._seed + _APART * i for i in left]
+        better = harden(asked, weights, seeds=seeds, observe=self._interrupted)
+        for i, one, seed, found in zip(left, asked, seeds, better, strict=True):
+            begun[i] = replace(begun[i], trials=begun[i].trials + (found.trials if found else 0))
+            if found is not None and found.stopped == Stopped.INTERRUPTED:
+                continue
+            if found is not None and found.success:
+                found = replace(found, trials=begun[i].trials)
+                self._keep(i, begun[i], Method.NEAR, i, record_motion(one, found, seed=seed))
+            else:
+                self._keep(i, begun[i], Method.KNOWN, begun[i].works)
+        self._observe()
+
+    def _interrupted(self, number: int, generation: Generation) -> Stopped | None:
+        return Stopped.INTERRUPTED if self._stopping() else None
+
+    def _search(
+        self, left: Sequence[int], begun: dict[int, _Begun], objectives: Mapping[int, Objective], method: Method
+    ) -> None:
+        """Search for a motion from each of these falls, in lockstep; those that are found are hardened and kept, and done."""
+        if not left or self._stopping():
+            return
+        asked = [objectives[i] for i in left]
+        guesses: list[InitialGuess | None] = [None] * len(asked)
+        if method == Method.NEAR:
+            asked = [one.with_task(_near(one.task)) for one in asked]
+            guesses = [begun[i].guess for i in left]
+        seeds = [self._seed + _APART * i for i in left]
+        solutions = solve_many(asked, seeds=seeds, initial=guesses, observe=self._interrupted)
+        solutions = self._hardened(asked, solutions, seeds)
+        for i, objective, seed, solution in zip(left, asked, seeds, solutions, strict=True):
+            begun[i] = one = replace(begun[i], trials=begun[i].trials + solution.trials)
+            if solution.stopped == Stopped.INTERRUPTED:
+                continue  # it would have gone on: a later build does it again, to its end
+            if solution.success:
+                self._keep(i, one, method, i, record_motion(objective, solution, seed=seed))
+            elif method == Method.COLD:
+                self._keep(i, one, Method.NONE, None)
+        self._observe()
+
+    def _hardened(
+        self, asked: Sequence[Objective], solutions: Sequence[Solution], seeds: Sequence[int]
+    ) -> list[Solution]:
+        """The same solutions, those that were found searched on on perturbed models."""
+        found = [j for j, one in enumerate(solutions) if one.success and one.stopped != Stopped.INTERRUPTED]
+        better = harden(
+            [asked[j] for j in found],
+            [solutions[j].best.weights[None] for j in found],
+            seeds=[seeds[j] for j in found],
+            observe=self._interrupted,
+        )
+        after = list(solutions)
+        for j, then in zip(found, better, strict=True):
+            if then is not None:
+                first = solutions[j]
+                best = then.best if then.success else first.best
+                after[j] = replace(first, best=best, trials=first.trials + then.trials, stopped=then.stopped)
+        return after
+
+    def _keep(self, i: int, begun: _Begun, method: Method, motion: int | None, found: Motion | None = None) -> None:
+        """Write a fall that is done: first the motion, if one was searched for, then the record."""
+        record = Record(i, *begun.sensed, method, motion, begun.trials, begun.tried, begun.worked)
+        with storing(self._directory, then=Remedy("make room, then build again"), kept="all falls that are done"):
+            if found is not None:
+                found.save(motion_path(self._directory, i))
+            record.write(self._directory)
+        self.records[i] = record
+
+    def rows(self, known: Knowledge, rows: Sequence[int]) -> tuple[Array, Array]:
+        """Try every motion from some falls where it was not tried, on the model and on robots that differ.
+
+        Args:
+            known: What is known.
+            rows: Which of its falls.
+
+        Returns:
+            `Knowledge.success` and `Knowledge.perturbed` of these rows, whole.
+        """
+        success, perturbed = known.success[rows], known.perturbed[rows]
+        objectives = [self._falls.objective(int(known.falls[row])) for row in rows]
+        untried = {k: np.isnan(success[k]) for k in range(len(rows)) if np.isnan(success[k]).any()}
+        own = [[self._plays[int(motion)] for motion in known.motions[which]] for which in untried.values()]
+        asked = [objectives[k] for k in untried]
+        for (k, which), found in zip(untried.items(), tried(asked, own), strict=True):
+            success[k, which] = found.success
+        for k, objective in enumerate(objectives):
+            # robots are numbered by motions, in an order in which later ones come last
+            numbers = {int(j): _robot(int(known.motions[j])) for j in np.flatnonzero(np.isnan(perturbed[k]))}
+            plays = {number: self._plays[int(known.motions[j])] for j, number in numbers.items()}
+            if plays:
+                seed = (self._seed, int(known.falls[rows[k]]))
+                perturbed[k, list(numbers)] = tried_on_others(objective, plays, Perturbation(), seed=seed)
+        return success, perturbed
+
+
+@dataclass(frozen=True, eq=False)
+class _Begun:
+    """A fall that is not done yet: what is sensed, the motions that were tried and worked, where a search begins.
+
+    works: of the motions that work, that which does on most robots that differ; None if none works. sure: whether it does on
+    enough of them.
+    """
+
+    sensed: tuple[Array, Array]
+    tried: tuple[int, ...]
+    worked: tuple[int, ...]
+    guess: InitialGuess | None
+    trials: int
+    works: int | None = None
+    sure: bool = False
+
+
+def _given(motion: int | None) -> int:
+    assert motion is not None
+    return motion
+
+
+def _robot(motion: int) -> int:
+    """Number of the robot that a motion is tried on."""
+    return 2 * fall_of(motion) + (motion < 0)
+
+
+def _near(task: Task) -> Task:
+    """The task with a short search: around a motion that nearly works, it is found soon or not at all."""
+    trials = min(_NEAR, task.search.trials)
+    return replace(task, search=replace(task.search, trials=trials, restart=None, patience=None))

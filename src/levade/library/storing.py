@@ -1,0 +1,112 @@
+"""What a library is of, in its directory: task, seed, number of falls, and which share of them.
+
+begin(directory, falls, seed=0, starts=100)
+task, seed = read_library(directory)
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from levade.document import read_yaml
+from levade.errors import LevadeError, Remedy
+from levade.library.asking import LIBRARY
+from levade.library.falls import Falls
+from levade.search.storage import storing
+from levade.tasks import Task, task_from_dict, task_to_dict, task_to_yaml
+from levade.writing import write_text
+
+TASK = "task.yaml"
+
+
+@dataclass(frozen=True)
+class Shard:
+    """Every n-th fall, from one of the first n on: what one of n machines does.
+
+    Attributes:
+        number: Which, from 0.
+        shards: n.
+    """
+
+    number: int
+    shards: int
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.number < self.shards:
+            raise LevadeError(
+                f"{self.number}/{self.shards} is no shard; 0/{self.shards} to {self.shards - 1}/{self.shards} are"
+                if self.shards > 0
+                else f"{self.number}/{self.shards} is no shard; 0/4, 1/4, 2/4 and 3/4 share falls among four",
+                field="shard",
+            )
+
+    def of(self, starts: int) -> tuple[int, ...]:
+        """Its falls of so many."""
+        return tuple(range(self.number, starts, self.shards))
+
+    def __str__(self) -> str:
+        return f"{self.number}/{self.shards}"
+
+
+WHOLE = Shard(0, 1)
+
+
+def begin(directory: Path, falls: Falls, seed: int, starts: int, shard: Shard = WHOLE) -> None:
+    """Write what the library is of.
+
+    Raises:
+        LevadeError: If the directory holds another one, or cannot be written.
+    """
+    place = directory / LIBRARY
+    if place.is_file():
+        known, began = read_library(directory)
+        if (task_to_dict(known), began) != (task_to_dict(falls.task), seed):
+            raise LevadeError(
+                f"{directory}: holds the library of another task, robot or seed",
+                remedies=(Remedy("write elsewhere", "elsewhere"),),
+            )
+        if read_shard(directory) != shard:
+            raise LevadeError(f"{directory}: holds shard {read_shard(directory)} of a library; merge shards first")
+    with storing(place, then=Remedy("give another directory")):
+        write_text(directory / TASK, task_to_yaml(falls.task))
+        mirror = None if falls.mirror is None else falls.mirror.to_json()
+        fold = "" if falls.fold is None else f"fold: {json.dumps(falls.fold.tolist())}\n"
+        part = "" if shard == WHOLE else f"shard: [{shard.number}, {shard.shards}]\n"
+        write_text(place, f"seed: {seed}\nstarts: {starts}\nmirror: {json.dumps(mirror)}\n{fold}{part}")
+
+
+def read_library(directory: Path) -> tuple[Task, int]:
+    """Task and seed of the library in a directory. Raises LevadeError if there is none."""
+    content = _content(directory)
+    task = task_from_dict(read_yaml(directory / TASK), where=str(directory / TASK))
+    return task, _whole(content.get("seed"), directory, "seed")
+
+
+def read_starts(directory: Path) -> int:
+    """How many falls it was built with at last. Raises LevadeError if there is no library."""
+    return _whole(_content(directory).get("starts"), directory, "starts")
+
+
+def read_shard(directory: Path) -> Shard:
+    """Which of its falls a library has. Raises LevadeError if there is none."""
+    shard = _content(directory).get("shard", [0, 1])
+    if not (isinstance(shard, list) and len(shard) == 2):
+        raise LevadeError(f"{directory / LIBRARY}: shard: should be two whole numbers; the file is damaged")
+    number, shards = (_whole(one, directory, "shard") for one in shard)
+    return Shard(number, shards)
+
+
+def _content(directory: Path) -> Any:
+    place = directory / LIBRARY
+    if not place.is_file():
+        raise LevadeError(f"{directory}: holds no motion library; build one, or give its directory")
+    return read_yaml(place, like="seed and starts")
+
+
+def _whole(value: Any, directory: Path, name: str) -> int:
+    if isinstance(value, bool) or not isinstance(value, int):
+        raise LevadeError(f"{directory / LIBRARY}: {name}: should be a whole number; the file is damaged")
+    return value

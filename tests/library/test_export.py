@@ -1,0 +1,189 @@
+"""An exported library: the same answers with numpy alone, and a loop that asks, plays, looks and asks again."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from levade.costs import Criterion
+from levade.engines import Fold
+from levade.errors import LevadeError
+from levade.exports import asker
+from levade.exports.player import Stopped
+from levade.library import Falls, Library, build
+from levade.library.exporting import export_library
+from levade.tasks import Task, load_task
+
+FOLD = "start={fallen: {height: 0.5, time: 0.4, fold: {time: 0.1, rest: 0.1}}}"
+
+
+def rolling() -> Task:
+    """As tests/library/test_library.py has it, from where the robot has drawn its legs in."""
+    small = ("hold=0.1", "horizon=0.3", "search.polish=4", "search.population=4", "search.trials=24")
+    return replace(
+        load_task("self-righting", changes=[FOLD, *small]),
+        success={"over": Criterion("tilt", maximum=1.9, at="end")},
+    )
+
+
+@pytest.fixture(scope="module")
+def library(tmp_path_factory: pytest.TempPathFactory) -> Library:
+    return build(rolling(), starts=3, directory=tmp_path_factory.mktemp("libraries") / "rolling")
+
+
+@pytest.fixture(scope="module")
+def folder(library: Library, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    place = tmp_path_factory.mktemp("robots") / "rolling"
+    export_library(library, place)
+    return place
+
+
+@pytest.fixture(scope="module")
+def exported(folder: Path) -> asker.Library:
+    return asker.Library.load(folder)
+
+
+def no_clock() -> Callable[[float], float]:
+    return lambda instant: 0.0
+
+
+@dataclass
+class Lying:
+    """Lies on its back, its joints where they are sent; or stands as its motions end, as soon as it is told one.
+
+    trips: reading that is none.
+    """
+
+    exported: asker.Library
+    trips: int = -1
+    stands: bool = False
+
+    def __post_init__(self) -> None:
+        self.position, self.readings, self.written = 0.8 * self.exported.fold.start_position, 0, 0
+
+    def read(self) -> tuple[np.ndarray, np.ndarray]:
+        self.readings += 1
+        if self.readings == self.trips:
+            return np.full_like(self.position, np.nan), self.position
+        return self.position, np.zeros_like(self.position)
+
+    def read_trunk(self) -> tuple[np.ndarray, np.ndarray]:
+        return np.array([1.0, 0, 0, 0] if self.stands else [0, 1.0, 0, 0]), np.zeros(3)
+
+    def write(self, position, velocity, torque, kp, kd) -> None:
+        self.written += 1
+        if kp.any():
+            self.position = position.copy()
+
+
+def test_it_answers_as_the_library_does(library: Library, exported: asker.Library) -> None:
+    generator = np.random.default_rng(0)
+    assert set(exported.motions) == {int(one) for one in library.knowledge.motions}
+    for _ in range(10):
+        up, joints = generator.standard_normal(3), generator.standard_normal(12)
+        answer = library.ask(up, joints)
+        assert exported.ask(up, joints) == [(answer.number, answer.probability), *answer.others]
+
+
+def test_a_motion_is_sent_as_the_library_commands_it(library: Library, exported: asker.Library) -> None:
+    """From the fold on; the image's joints do what the motion's do on the other side."""
+    fold = np.array(exported.fold.start_position)
+    np.testing.assert_array_equal(fold, library.fold)
+    each = [(number, motion) for number, own in exported.motions.items() for motion in own]
+    for number, motion in each:  # from wherever the robot lies
+        if number < 0:
+            own = exported.motions[-1 - number][0]
+            mirror = library.knowledge.mirror
+            assert mirror is not None
+            np.testing.assert_allclose(motion.position, mirror.posture(own.position), atol=1e-9)
+        else:
+            answer = replace(
+                library.ask([0, 0, 1], fold), path=library.directory / f"motions/{number:06}.npz", mirror=None
+            )
+            reference = answer.reference.position[0]
+            np.testing.assert_allclose(motion.position[: len(reference)], reference, rtol=0, atol=1e-9)
+
+
+def test_it_asks_again_until_it_stands_and_gives_up(exported: asker.Library) -> None:
+    lying = Lying(exported)
+    tried = asker.get_up(exported, lying, attempts=2, tolerance=4.0, tilt_tolerance=4.0, wait=no_clock)
+    assert [(one.stands, one.stopped) for one in tried] == [(False, "")] * 2
+    rows = len(exported.fold.position) + round((exported.fold_time + 0.1) * exported.fold.rate)
+    number, share = exported.ask(np.array([0.0, 0.0, -1.0]), exported.fold.start_position)[0]
+    assert [(one.motion, one.probability) for one in tried] == [(number, share)] * 2
+    assert lying.written == 2 * (rows + len(exported.motions[number][0].position))
+    lying.stands, lying.position = (
+        True,
+        exported.motions[number][0].expected[-1],
+    )
+    assert asker.get_up(exported, lying, wait=no_clock) == []  # it stands already
+    lying.position = exported.fold.start_position  # level, with its legs drawn in: it does not
+    tried = asker.get_up(exported, lying, attempts=3, tolerance=4.0, tilt_tolerance=4.0, wait=no_clock)
+    fold = exported.fold.start_position
+    played = asker.nearest(exported.motions[tried[0].motion or 0], np.array([0.0, 0.0, 1.0]), fold)
+    ends = bool(np.abs(played.position[-1] - played.expected[-1]).max() < asker.THERE)
+    assert [one.stands for one in tried] == ([True] if ends else [False] * 3)
+
+
+def test_what_is_astray_is_asked_again_and_what_is_not_to_be_trusted_ends_it(exported: asker.Library) -> None:
+    lying = Lying(exported)
+    tried = asker.get_up(exported, lying, attempts=2, tilt_tolerance=0.0, wait=no_clock)
+    assert len(tried) == 2
+    assert all("tilted by" in one.stopped and not one.stands for one in tried)
+    with pytest.raises(Stopped, match="should be 12 numbers"):
+        asker.get_up(exported, Lying(exported, trips=30), tilt_tolerance=4.0, wait=no_clock)
+    blind = Lying(exported)
+    blind.read_trunk = None  # type: ignore[assignment]
+    with pytest.raises(Stopped, match="no read_trunk"):
+        asker.get_up(exported, blind, wait=no_clock)
+
+
+def test_alone_with_numpy_it_says_which_motion(exported: asker.Library, folder: Path, tmp_path: Path) -> None:
+    state = tmp_path / "state.json"
+    joints = dict(zip(exported.joints, exported.fold.start_position.tolist(), strict=True))
+    state.write_text(json.dumps({"attitude": [0, 1, 0, 0], "joints": joints}))
+    code = "import runpy, sys; sys.modules['levade'] = None; del sys.argv[0]; runpy.run_path(sys.argv[0], run_name='__main__')"
+    ask = [sys.executable, "-c", code, str(folder / "ask.py")]
+    done = subprocess.run([*ask, "--state", str(state)], capture_output=True, text=True, cwd=folder, check=True)
+    ranked = [(one["motion"], one["probability"]) for one in json.loads(done.stdout)]
+    assert ranked == exported.ask(np.array([0.0, 0.0, -1.0]), exported.fold.start_position)
+
+
+def test_a_folder_that_was_changed_is_refused(folder: Path, tmp_path: Path) -> None:
+    for name in ("library.json", "model.npz"):
+        (tmp_path / name).write_bytes((folder / name).read_bytes())
+    about = json.loads((tmp_path / "library.json").read_text())
+    about["fold"]["time"] = 0.0
+    (tmp_path / "library.json").write_text(json.dumps(about))
+    with pytest.raises(ValueError, match="was changed since it was exported"):
+        asker.Library.load(tmp_path)
+
+
+def test_a_robot_that_folds_lies_with_its_legs_drawn_in() -> None:
+    """However it fell: its joints are told the same, and are there; its knees are nearly at their ends."""
+    falls = Falls(load_task("self-righting", robot="go1"), seed=4, threads=1)
+    assert falls.task.start.fallen is not None
+    assert falls.task.start.fallen.fold == Fold()
+    assert falls.fold is not None
+    for state in (falls.objective(i).state for i in range(2)):
+        np.testing.assert_array_equal(state.joint_reference[0], falls.fold)
+        assert np.median(np.abs(state.joint_position - falls.fold)) < 0.1
+    limits = falls.simulation.robot.limits
+    knees = np.arange(2, 12, 3)
+    assert np.all(falls.fold[knees] < limits.lower[knees] + 0.15)
+
+
+def test_only_what_folds_is_exported(tmp_path: Path) -> None:
+    task = replace(
+        rolling(), start=load_task("self-righting", changes=["start={fallen: {height: 0.5, time: 0.4}}"]).start
+    )
+    library = build(task, starts=1, directory=tmp_path / "library")
+    with pytest.raises(LevadeError, match="its falls do not fold up first"):
+        export_library(library, tmp_path / "robot")
