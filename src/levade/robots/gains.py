@@ -10,7 +10,7 @@ GIVE = 0.1
 GIVE_STANDING, GIVE_FREE = 0.08, 0.3
 """[rad], by which a joint of a leg, or of an arm, is off at its torque limit at least, where each has gains of its own."""
 ARM_RESERVE = 5.0
-"""Times the torque that holds an arm out, assumed of its joints whose file gives no limit: 26 Nm at the shoulders of G1 (25 Nm)."""
+"""Times the torque that holds an arm out, assumed of its joints whose file gives no limit: 26 Nm at G1's shoulders (25 Nm)."""
 GIVE_UNDER_LOAD = 0.03
 """[rad], by which a joint that has gains of its own gives way to what it carries in the neutral posture, at most."""
 DAMPING_RATIO = 0.7
