@@ -312,14 +312,15 @@ class PostureSearch:
 
     def _sole(self, leg: Leg) -> Sole:
         model = self.model
-        geoms = tuple(model.geom(name).id for name in leg.soles)
-        round_ = model.geom_type[geoms[0]] in (mujoco.mjtGeom.mjGEOM_SPHERE, mujoco.mjtGeom.mjGEOM_CAPSULE)
+        geoms = tuple(int(model.geom(name).id) for name in leg.soles)
+        foot = model.geom(leg.foot)
+        round_ = int(foot.type[0]) in (mujoco.mjtGeom.mjGEOM_SPHERE, mujoco.mjtGeom.mjGEOM_CAPSULE)
         wide = len(geoms) > 1 or not round_
         turns = any(role in ("pitch", "roll") for role in leg.roles)  # what can lay it flat
         flat = bool(wide and turns and len(self.bare.standing) == 2)
         joints = [model.joint(joint).id for joint in leg.joints]
         lifting = [j for j, role in zip(joints, leg.roles, strict=True) if role in ("hfe", "kfe", "pitch")]
-        return Sole(leg, geoms, int(model.geom_bodyid[geoms[0]]), flat, joints[0], joints[-1], tuple(lifting or joints))
+        return Sole(leg, geoms, int(foot.bodyid[0]), flat, joints[0], joints[-1], tuple(lifting or joints))
 
     def _length(self, sole: Sole) -> float:
         """[m], along the leg's links from the first joint that lifts it to the sole."""
