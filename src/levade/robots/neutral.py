@@ -88,7 +88,7 @@ class PostureSearch:
     def extension(self) -> float:
         """Of the neutral posture: hip above sole, as a share of the leg's length."""
         if self.sprawled:
-            return SPRAWLED_EXTENSION if max(len(sole.lifting) for sole in self.soles) > 1 else 0.65
+            return SPRAWLED_EXTENSION if max(len(sole.lifting) for sole in self.soles) > 1 else 0.85
         return UPRIGHT_EXTENSION if len(self.soles) == 2 else LEVEL_EXTENSION
 
     def neutral(self) -> Array:
@@ -324,7 +324,8 @@ class PostureSearch:
 
     def _length(self, sole: Sole) -> float:
         """[m], along the leg's links from the first joint that lifts it to the sole."""
-        points = [*(self.data.xanchor[j] for j in sole.lifting), self._centre(sole)]
+        end = self._centre(sole) if sole.flat else self.bare.tip(self.data, sole.leg)  # a shank may be its own foot
+        points = [*(self.data.xanchor[j] for j in sole.lifting), end]
         return float(sum(np.linalg.norm(b - a) for a, b in itertools.pairwise(points)))
 
     def _centre(self, sole: Sole) -> Array:
