@@ -95,9 +95,14 @@ def read_limbs(model: mujoco.MjModel, trunk: int, where: str, wanted: Mapping[st
     body = _colliding(model, {b for b in range(model.nbody) if model.body_weldid[b] == model.body_weldid[trunk]})
     floor = min((float(support(model, data, g, _DOWN)[2]) for g in body), default=0.0)
     middle = float(data.subtree_com[trunk, 2])
-    if standing and all(
-        branch.low > floor - _BELOW * branch.length or branch.start > middle + _ABOVE * branch.length
-        for branch in standing
+    solid = all(_colliding(model, tree.below(int(model.jnt_bodyid[branch.joints[-1]]))) for branch in standing)
+    if (
+        standing
+        and solid
+        and all(
+            branch.low > floor - _BELOW * branch.length or branch.start > middle + _ABOVE * branch.length
+            for branch in standing
+        )
     ):
         return Limbs((), (), (), "the limbs that may be legs are arms: they hang high, or hardly reach below the trunk")
     stray = _stray(data, branches, standing)

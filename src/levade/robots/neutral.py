@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from levade.arrays import Array
 from levade.robots.shapes import support
@@ -25,6 +26,8 @@ CROUCHED = 0.7
 
 _LEG_TRIES, _ARM_TRIES, _AGAIN, _POPULATION = 200, 100, 80, 12
 """Trials of each joint that is searched: for the legs, for arms, and for legs that begin near; and of each generation."""
+_KIN = 3
+"""Moving bodies from one to another, up to which overlaps of their shapes do not count."""
 _ATTEMPTS = 4
 """Searches, each from the best of those before it, until the robot is balanced."""
 _STOP = 0.06
@@ -72,6 +75,7 @@ class PostureSearch:
         feet = {int(model.geom_bodyid[g]) for sole in self.soles for g in sole.geoms}
         self._shapes = np.array([g for g in geoms if int(model.geom_bodyid[g]) not in feet], dtype=int)
         self._free = int(model.jnt_dofadr[model.body_jntadr[bare.trunk]])
+        self._near = _near(model)
         self._put(self.zero)
         self._links = [data_rotation(self.data, sole.body) for sole in self.soles]
         self._flat = [_between(np.array([0.0, 0.0, 1.0]), self._normal(sole)) for sole in self.soles]
@@ -84,7 +88,7 @@ class PostureSearch:
     def extension(self) -> float:
         """Of the neutral posture: hip above sole, as a share of the leg's length."""
         if self.sprawled:
-            return SPRAWLED_EXTENSION if max(len(sole.lifting) for sole in self.soles) > 1 else 0.65
+            return SPRAWLED_EXTENSION if max(len(sole.lifting) for sole in self.soles) > 1 else 0.85
         return UPRIGHT_EXTENSION if len(self.soles) == 2 else LEVEL_EXTENSION
 
     def neutral(self) -> Array:
@@ -291,7 +295,9 @@ class PostureSearch:
 
     def _overlap_cost(self) -> float:
         mujoco.mj_collision(self.model, self.data)
-        deep = np.minimum(self.data.contact.dist, 0.0) / self.scale
+        contact = self.data.contact
+        bodies = np.asarray(self.model.geom_bodyid)[contact.geom]
+        deep = np.minimum(contact.dist[~self._near[bodies[:, 0], bodies[:, 1]]], 0.0) / self.scale
         return 300.0 * float(deep @ deep) - 2.0 * float(deep.sum())
 
     # what they look at
@@ -306,19 +312,20 @@ class PostureSearch:
 
     def _sole(self, leg: Leg) -> Sole:
         model = self.model
-        geoms = tuple(model.geom(name).id for name in leg.soles)
-        round_ = model.geom_type[geoms[0]] in (mujoco.mjtGeom.mjGEOM_SPHERE, mujoco.mjtGeom.mjGEOM_CAPSULE)
-        half = np.sort(model.geom_aabb[geoms[0], 3:])
-        wide = len(geoms) > 1 or (not round_ and half[1] > 2 * half[0])
+        geoms = tuple(int(model.geom(name).id) for name in leg.soles)
+        foot = model.geom(leg.foot)
+        round_ = int(foot.type[0]) in (mujoco.mjtGeom.mjGEOM_SPHERE, mujoco.mjtGeom.mjGEOM_CAPSULE)
+        wide = len(geoms) > 1 or not round_
         turns = any(role in ("pitch", "roll") for role in leg.roles)  # what can lay it flat
         flat = bool(wide and turns and len(self.bare.standing) == 2)
         joints = [model.joint(joint).id for joint in leg.joints]
         lifting = [j for j, role in zip(joints, leg.roles, strict=True) if role in ("hfe", "kfe", "pitch")]
-        return Sole(leg, geoms, int(model.geom_bodyid[geoms[0]]), flat, joints[0], joints[-1], tuple(lifting or joints))
+        return Sole(leg, geoms, int(foot.bodyid[0]), flat, joints[0], joints[-1], tuple(lifting or joints))
 
     def _length(self, sole: Sole) -> float:
         """[m], along the leg's links from the first joint that lifts it to the sole."""
-        points = [*(self.data.xanchor[j] for j in sole.lifting), self._centre(sole)]
+        end = self._centre(sole) if sole.flat else self.bare.tip(self.data, sole.leg)  # a shank may be its own foot
+        points = [*(self.data.xanchor[j] for j in sole.lifting), end]
         return float(sum(np.linalg.norm(b - a) for a, b in itertools.pairwise(points)))
 
     def _centre(self, sole: Sole) -> Array:
@@ -336,8 +343,21 @@ class PostureSearch:
         _, spread, axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)
         normal = axes[2] if spread[2] < 0.5 * spread[1] else np.array([0.0, 0.0, 1.0])
         normal = normal if normal[2] >= 0 else -normal
-        # zeros that are almost flat are flat: files round
-        return normal if normal[2] < np.cos(np.radians(8)) else np.array([0.0, 0.0, 1.0])
+        # zeros that are about flat are flat: shapes are not as thin as that tells the way
+        return normal if normal[2] < np.cos(np.radians(25)) else np.array([0.0, 0.0, 1.0])
+
+
+def _near(model: mujoco.MjModel) -> NDArray[np.bool_]:
+    """(bodies, bodies): whether one carries the other over few joints: shapes of such are often wider than the robot."""
+    near = np.eye(model.nbody, dtype=bool)
+    for body in range(1, model.nbody):
+        above = body
+        for _ in range(_KIN):
+            above = int(model.body_parentid[above])
+            while above and not model.body_jntnum[above]:
+                above = int(model.body_parentid[above])
+            near[body, above] = near[above, body] = True
+    return near
 
 
 def data_rotation(data: mujoco.MjData, body: int) -> Array:
