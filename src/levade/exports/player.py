@@ -824,6 +824,7 @@ def heed_signals() -> None:
 
 
 def load_robot(name: str) -> Any:
+    """Make the robot that ``--robot MODULE:CLASS`` names."""
     module, _, kind = name.partition(":")
     if not kind:
         raise ValueError(f"--robot {name}: should be MODULE:CLASS, such as my_robot:MyRobot")
