@@ -58,15 +58,17 @@ def no_clock() -> Callable[[float], float]:
 class Lying:
     """Lies on its back, its joints where they are sent; or stands as its motions end, as soon as it is told one.
 
-    trips: reading that is none.
+    trips: reading that is none. blind_after: readings of the trunk after which these are none.
     """
 
     exported: asker.Library
     trips: int = -1
     stands: bool = False
+    blind_after: int = 10**9
 
     def __post_init__(self) -> None:
         self.position, self.readings, self.written = 0.8 * self.exported.fold.start_position, 0, 0
+        self.looks, self.stiff = 0, list[bool]()
 
     def read(self) -> tuple[np.ndarray, np.ndarray]:
         self.readings += 1
@@ -75,10 +77,14 @@ class Lying:
         return self.position, np.zeros_like(self.position)
 
     def read_trunk(self) -> tuple[np.ndarray, np.ndarray]:
+        self.looks += 1
+        if self.looks > self.blind_after:
+            return np.full(4, np.nan), np.zeros(3)
         return np.array([1.0, 0, 0, 0] if self.stands else [0, 1.0, 0, 0]), np.zeros(3)
 
     def write(self, position, velocity, torque, kp, kd) -> None:
         self.written += 1
+        self.stiff.append(bool(kp.any()))
         if kp.any():
             self.position = position.copy()
 
@@ -118,7 +124,10 @@ def test_it_asks_again_until_it_stands_and_gives_up(exported: asker.Library) -> 
     rows = len(exported.fold.position) + round((exported.fold_time + 0.1) * exported.fold.rate)
     number, share = exported.ask(np.array([0.0, 0.0, -1.0]), exported.fold.start_position)[0]
     assert [(one.motion, one.probability) for one in tried] == [(number, share)] * 2
-    assert lying.written == 2 * (rows + len(exported.motions[number][0].position))
+    second = round(exported.fold.rate)  # in which the drives damp, as it has given up
+    assert lying.written == 2 * (rows + len(exported.motions[number][0].position)) + second
+    assert not any(lying.stiff[-second:])
+    assert all(lying.stiff[:-second])
     lying.stands, lying.position = (
         True,
         exported.motions[number][0].expected[-1],
@@ -143,6 +152,53 @@ def test_what_is_astray_is_asked_again_and_what_is_not_to_be_trusted_ends_it(exp
     blind.read_trunk = None  # type: ignore[assignment]
     with pytest.raises(Stopped, match="no read_trunk"):
         asker.get_up(exported, blind, wait=no_clock)
+
+
+def test_between_two_motions_an_error_lets_the_drives_damp_for_a_second(exported: asker.Library) -> None:
+    """The robot looks once per motion before it begins, to see whether it stands; then the fold is played without a look."""
+    motions = sum(len(own) for own in exported.motions.values())
+    lying, waited = Lying(exported, blind_after=motions), list[float]()
+
+    def clock() -> Callable[[float], float]:
+        def wait(instant: float) -> float:
+            waited.append(instant)
+            return 0.0
+
+        return wait
+
+    with pytest.raises(Stopped, match="numbers"):
+        asker.get_up(exported, lying, wait=clock)
+    second = round(exported.fold.rate)
+    assert lying.stiff[-second - 1]
+    assert not any(lying.stiff[-second:])
+    assert waited[-1] == pytest.approx(1.0, abs=1.5 / exported.fold.rate)
+    before = Lying(exported, blind_after=0)  # nothing was sent yet: the robot's own controller holds it
+    with pytest.raises(Stopped):
+        asker.get_up(exported, before, wait=clock)
+    assert not before.written
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        ({"joints": [0.0]}, "should have joints, and attitude"),
+        ({"attitude": [0, 0, 0, 0], "joints": [0.0]}, "should be a quaternion"),
+        ({"attitude": [1, 0, 0], "joints": [0.0]}, "should be a quaternion"),
+        ({"attitude": [1, 0, 0, 0], "joints": {"knee": 1.0}}, "joints: hip missing"),
+    ],
+)
+def test_a_state_that_says_too_little_is_refused(content: dict[str, object], message: str, tmp_path: Path) -> None:
+    place = tmp_path / "state.json"
+    place.write_text(json.dumps(content))
+    with pytest.raises(ValueError, match=message):
+        asker.read_state(place, ["hip"])
+
+
+def test_an_attitude_need_not_be_of_unit_length(tmp_path: Path) -> None:
+    place = tmp_path / "state.json"
+    place.write_text(json.dumps({"attitude": [1, 1, 0, 0], "joints": [0.0]}))
+    up, _ = asker.read_state(place, ["hip"])
+    np.testing.assert_allclose(up, [0.0, 1.0, 0.0], atol=1e-12)  # rolled by 90 degrees: up is to its left
 
 
 def test_alone_with_numpy_it_says_which_motion(exported: asker.Library, folder: Path, tmp_path: Path) -> None:

@@ -16,8 +16,9 @@ state.json has what a robot senses when it lies still, with its joints where the
    simulation from the way to lie that is nearest.
 4. The robot stands if its trunk is level and its joints are where the motion ends.
 
-A robot that does not stand, or does so much otherwise than the simulation that player.py stops, is asked about again, after the
-drives have damped for a second. Everything else that player.py stops for ends the program, with drives that damp.
+A robot that does so much otherwise than the simulation that player.py stops is asked about again, after its drives have damped
+for a second. A robot that does not stand is asked about again at once. Everything else that player.py stops for ends it all.
+So does an error between two motions, and the last attempt. The drives then damp for a second. They hold a robot that stands.
 
 Exit status: 0 it stands, 1 it does not or was stopped, 2 the input is wrong.
 """
@@ -359,37 +360,52 @@ def get_up(
     if any(stands(motion, robot) for own in library.motions.values() for motion in own):
         return done
     limits = {"speed_tolerance": speed_tolerance, "clamp": clamp}
-    while len(done) < attempts and not (done and done[-1].stands):
-        motion, probability, stopped, standing = None, 0.0, "", False
-        try:
-            player.play(
-                library.fold,
-                robot,
-                ramp=library.fold_time,
-                start_tolerance=2.0 * math.pi,
-                tolerance=fold_tolerance,
-                feedback=False,
-                wait=wait(),
-                **limits,
-            )
-            up, joints = sense(robot, len(library.joints))
-            motion, probability = library.ask(up, joints)[0]
-            played = nearest(library.motions[motion], up, joints)
-            player.play(
-                played,
-                robot,
-                ramp=0.1,
-                start_tolerance=tolerance,
-                tolerance=tolerance,
-                tilt_tolerance=tilt_tolerance,
-                wait=wait(),
-                **limits,
-            )
-            standing = stands(played, robot)
-        except player.Astray as astray:
-            stopped = str(astray)
-        done.append(Attempt(motion, probability, standing, stopped))
-        observe(done[-1])
+    held: player.Motion | None = None  # whose last command the drives have, if they were left with one
+    try:
+        while len(done) < attempts and not (done and done[-1].stands):
+            motion, probability, stopped, standing = None, 0.0, "", False
+            try:
+                player.play(
+                    library.fold,
+                    robot,
+                    ramp=library.fold_time,
+                    start_tolerance=2.0 * math.pi,
+                    tolerance=fold_tolerance,
+                    feedback=False,
+                    wait=wait(),
+                    damping=wait(),
+                    **limits,
+                )
+                held = library.fold
+                up, joints = sense(robot, len(library.joints))
+                motion, probability = library.ask(up, joints)[0]
+                played = nearest(library.motions[motion], up, joints)
+                player.play(
+                    played,
+                    robot,
+                    ramp=0.1,
+                    start_tolerance=tolerance,
+                    tolerance=tolerance,
+                    tilt_tolerance=tilt_tolerance,
+                    wait=wait(),
+                    damping=wait(),
+                    **limits,
+                )
+                held = played
+                standing = stands(played, robot)
+            except player.Astray as astray:
+                stopped = str(astray)
+                if held is not None:  # a motion that did not begin has not damped
+                    player.let_go(held, robot, wait=wait())
+                    held = None
+            done.append(Attempt(motion, probability, standing, stopped))
+            observe(done[-1])
+    except BaseException as error:
+        if held is not None and (failed := player.let_go(held, robot, wait=wait())):
+            error.__notes__ = [*getattr(error, "__notes__", []), *failed]
+        raise
+    if held is not None and not done[-1].stands:
+        player.let_go(held, robot, wait=wait())
     return done
 
 
@@ -412,11 +428,34 @@ def stands(motion: player.Motion, robot: Any) -> bool:
 def read_state(path: Path, joints: list[str]) -> tuple[Array, Array]:
     """Which way is up, and the joints' angles, of a JSON file. Raises ValueError if it has no such thing."""
     content = json.loads(path.read_text(encoding="utf-8"))
+    if not isinstance(content, dict) or "joints" not in content or not {"up", "attitude"} & set(content):
+        raise ValueError(f"{path}: should have joints, and attitude (w-x-y-z) or up")
     angles = content["joints"]
     if isinstance(angles, dict):
+        if missing := [name for name in joints if name not in angles]:
+            raise ValueError(f"{path}: joints: {', '.join(missing)} missing")
         angles = [angles[name] for name in joints]
-    up = content["up"] if "up" in content else player.up_of(*np.array(content["attitude"], dtype=float))
-    return np.array(up, dtype=float), np.array(angles, dtype=float)
+    if "up" in content:
+        return np.array(content["up"], dtype=float), np.array(angles, dtype=float)
+    attitude = np.array(content["attitude"], dtype=float)
+    if attitude.shape != (4,) or not 0.0 < np.linalg.norm(attitude) < math.inf:
+        raise ValueError(f"{path}: attitude: {content['attitude']} should be a quaternion w-x-y-z")
+    return np.array(player.up_of(*(attitude / np.linalg.norm(attitude)))), np.array(angles, dtype=float)
+
+
+def _say_what_is_sent(library: Library, *, clamp: bool) -> None:
+    """Say which joints to hold, and how many commands are clamped."""
+    motions = [motion for own in library.motions.values() for motion in own]
+    if library.fold.held:
+        held = ", ".join(f"{joint} {angle:g}" for joint, angle in library.fold.held.items())
+        print(f"not among its joints, hold them yourself where the simulation had them [rad, slides m]: {held}")
+    beyond = sum(int((motion.clamped()[0] != motion.position).sum()) for motion in motions)
+    if clamp and beyond:
+        sent = sum(motion.position.size for motion in motions)
+        print(
+            f"{beyond} of {sent} positions are beyond the joints' ranges, and are clamped: these are not the motions that were"
+        )
+        print("simulated; on drives like the simulated ones: --no-clamp")
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -447,9 +486,11 @@ def main(arguments: list[str] | None = None) -> int:
             print(json.dumps([{"motion": number, "probability": share} for number, share in ranked]))
             return 0
         robot = player.load_robot(options.robot)
-    except (OSError, ValueError, KeyError, TypeError) as error:
+        player.check_robot(library.fold, robot)
+    except (OSError, ValueError, TypeError, player.Stopped) as error:
         print(f"ask: {error}", file=sys.stderr)
         return 2
+    _say_what_is_sent(library, clamp=not options.no_clamp)
     try:
         done = get_up(
             library,

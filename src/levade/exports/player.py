@@ -433,6 +433,7 @@ def play(
     feedback: bool = True,
     clamp: bool = True,
     wait: Callable[[float], float] | None = None,
+    damping: Callable[[float], float] | None = None,
 ) -> float:
     """Play a motion.
 
@@ -453,6 +454,8 @@ def play(
             simulation: for commanded references on drives like the simulated ones.
         wait: Called before each tick, and again before its command is sent, with the tick's time since the first [s]. Returns
             how late it is [s]. By default the clock.
+        damping: The same for the second in which the drives damp after an error. By default the clock if ``wait`` is, else
+            nothing is waited for.
 
     Returns:
         The largest tracking error [rad].
@@ -508,11 +511,27 @@ def play(
             _on_time(late((ticks + tick) * period), motion.rate)
             joints.write(motion.sent(row, added, clamp), going, motion.torque[row], motion.kp, motion.kd)
     except BaseException as error:
-        failed = _damp(joints, clock() if wait is None else lambda instant: 0.0)
-        if failed:
+        patience = damping or (clock() if wait is None else lambda instant: 0.0)
+        if failed := _damp(joints, patience):
             error.__notes__ = [*getattr(error, "__notes__", []), *failed]
         raise
     return worst
+
+
+def let_go(motion: Motion, robot: Robot, *, wait: Callable[[float], float] | None = None) -> list[str]:
+    """Let the drives that hold a motion's last command only damp, for a second.
+
+    Args:
+        motion: The motion.
+        robot: The robot.
+        wait: As for ``play``.
+
+    Returns:
+        A line about the commands that did not get through, if there were any.
+    """
+    joints = _Joints(motion, robot, math.inf, clamp=True)
+    joints.position = motion.expected[-1]
+    return _damp(joints, wait or clock())
 
 
 def check_robot(motion: Motion, robot: Any, *, feedback: bool = True) -> None:
