@@ -657,14 +657,12 @@ def _export_library(
     library: Annotated[Path, typer.Argument(metavar="DIR", help="A library.")],
     out: Annotated[Path | None, typer.Option(help="Directory; by default DIR-robot.")] = None,
     rate: Annotated[float | None, typer.Option(help="Of the rows [Hz]; by default the simulation's.")] = None,
-    kp: Annotated[float | None, typer.Option(help="Gain of the robot's drives [Nm/rad].")] = None,
-    kd: Annotated[float | None, typer.Option(help="Gain of the robot's drives [Nm s/rad].")] = None,
     as_json: Json = False,
 ) -> int:
     """Write a library for a robot: a folder that asks, plays, looks and asks again, with numpy alone."""
     from levade.cli.librarian import export_the_library
 
-    return export_the_library(library, out=out, rate=rate, kp=kp, kd=kd, as_json=as_json)
+    return export_the_library(library, out=out, rate=rate, as_json=as_json)
 
 
 @_library.command("show")

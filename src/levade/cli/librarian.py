@@ -142,21 +142,16 @@ def export_the_library(
     *,
     out: Path | None,
     rate: float | None,
-    kp: float | None,
-    kd: float | None,
     as_json: bool,
 ) -> int:
     """Exit status 0."""
     place = out or directory.with_name(f"{directory.resolve().name}-robot")
     console = make_console(stderr=as_json)
-    options = {"--rate": rate, "--kp": kp, "--kd": kd}
-    words = [word for name, value in options.items() if value is not None for word in (name, f"{value:g}")]
+    words = [] if rate is None else ["--rate", f"{rate:g}"]
     exported = export_library(
         Library.load(directory),
         place,
         rate=rate,
-        kp=kp,
-        kd=kd,
         command=shlex.join(["levade", "library", "export", str(directory), *words]),
         observe=lambda done, n: console.print(f"  {done} of {n} motions", style="dim"),
     )

@@ -9,6 +9,7 @@ answer.reference                                # what to tell the joints, from 
 from __future__ import annotations
 
 import zipfile
+import zlib
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -108,7 +109,7 @@ class Library:
         place = directory / LIBRARY
         if not place.is_file():
             raise LevadeError(f"{directory}: holds no motion library; build one, or give its directory")
-        records = tuple(Record.load(path) for path in sorted((directory / FALLS).glob("*.json")))
+        records = tuple(Record.load(path) for path in sorted((directory / FALLS).glob("[0-9]*.json")))
         content = read_yaml(place)
         mirror = Mirror.from_json(content.get("mirror"), where=str(place))
         knowledge = Knowledge.of(records, mirror)
@@ -181,9 +182,10 @@ def _read_learned(place: Path, knowledge: Knowledge) -> Learned | None:
         return None
     try:
         model = unpacked(place.read_bytes())
-        assert isinstance(model, Learned)
+        if not isinstance(model, Learned):
+            raise ValueError
         falls = model.arrays.pop("falls")
-    except (OSError, ValueError, KeyError, AssertionError, zipfile.BadZipFile):
+    except (OSError, EOFError, ValueError, KeyError, zipfile.BadZipFile, zlib.error):
         raise LevadeError(f"{place}: is damaged; remove it, or learn again") from None
     same = np.array_equal(falls, knowledge.falls) and np.array_equal(model.motions, knowledge.motions)
     return model if same else None
@@ -207,7 +209,7 @@ def read_success(directory: Path, knowledge: Knowledge) -> dict[str, Array]:
             falls, motions, *written = (file[name] for name in ("falls", "motions", *tables))
         if any(one.shape != (len(falls), len(motions)) for one in written):
             raise ValueError
-    except (OSError, ValueError, KeyError, zipfile.BadZipFile):
+    except (OSError, EOFError, ValueError, KeyError, zipfile.BadZipFile, zlib.error):
         raise LevadeError(f"{place}: is damaged; remove it, and build the library again") from None
     rows, here = np.intersect1d(knowledge.falls, falls, return_indices=True)[1:]
     columns, there = np.intersect1d(knowledge.motions, motions, return_indices=True)[1:]

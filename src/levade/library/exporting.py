@@ -68,8 +68,6 @@ def export_library(
     *,
     robot: Robot | None = None,
     rate: float | None = None,
-    kp: float | None = None,
-    kd: float | None = None,
     command: str | None = None,
     observe: Callable[[int, int], object] = lambda done, motions: None,
 ) -> ExportedLibrary:
@@ -80,8 +78,6 @@ def export_library(
         directory: Where to write.
         robot: Its robot, if the task's name does not say it.
         rate: Of the motions' rows [Hz]. Defaults to the simulation's.
-        kp: Gain of the robot's drives instead of the simulated ones' [Nm/rad].
-        kd: As well [Nm s/rad].
         command: How it was asked for, for the record.
         observe: Called with the number of motions that are done, and of all.
 
@@ -112,9 +108,7 @@ def export_library(
                 simulated = _simulated(falls, plays, number, fall, image=image)
                 if not simulated.result.success:
                     failed.append(folder)
-                export(
-                    simulated, "csv", partial / folder, rate=rate, reference="commanded", kp=kp, kd=kd, command=command
-                )
+                export(simulated, "csv", partial / folder, rate=rate, reference="commanded", command=command)
                 (partial / folder / "player.py").unlink()
                 folders.setdefault(number, []).append(folder)
                 written += 1

@@ -78,14 +78,16 @@ def merge(shards: Sequence[Path], directory: Path, *, robot: Robot | None = None
         with storing(directory, then=Remedy("make room, then merge again")):
             for place in shards:
                 _copy(place, directory)
-    done = [Record.load(path) for path in sorted((directory / FALLS).glob("*.json"))]
+    done = [Record.load(path) for path in sorted((directory / FALLS).glob("[0-9]*.json"))]
     return Merged(len(done), starts, sum(record.motion == record.fall for record in done))
 
 
 def _copy(shard: Path, directory: Path) -> None:
-    """The falls of a shard that are done: first a fall's motion, then its record."""
-    for path in sorted((shard / FALLS).glob("*.json")):
+    """The falls of a shard that are done and not there yet: first a fall's motion, then its record."""
+    for path in sorted((shard / FALLS).glob("[0-9]*.json")):
         record = Record.load(path)
+        if record_path(directory, record.fall).exists():  # what has been tried of its motion is there, too
+            continue
         if record.motion == record.fall:
             with replacing(motion_path(directory, record.fall)) as partial:
                 shutil.copyfile(motion_path(shard, record.fall), partial)

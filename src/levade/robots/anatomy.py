@@ -154,7 +154,15 @@ def _found_legs(
     try:
         legs, others = find_legs(model, trunk, where)
         if "free" in wanted.values():
-            added = [limb for limb in read_limbs(model, trunk, where, wanted).legs if set(limb.joints) <= set(others)]
+            added = [
+                limb
+                for limb in read_limbs(model, trunk, where, wanted).legs
+                if not limb.stands and set(limb.joints) <= set(others)
+            ]
+            if not added:
+                draft.findings.append(
+                    note("limbs", "none is freed: it has no such limb, or one that reaches as deep as a leg")
+                )
             legs = (*legs, *added)
             others = [joint for joint in others if all(joint not in limb.joints for limb in added)]
         return legs, others

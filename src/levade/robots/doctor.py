@@ -70,7 +70,7 @@ class Patient:
     @cached_property
     def leg_length(self) -> float:
         """[m], of the longest leg."""
-        return max(self.bare.leg_length(leg) for leg in self.robot.legs)
+        return max(self.bare.leg_length(leg) for leg in self.robot.standing)
 
     def mass(self, leg: Leg) -> float:
         """[kg]"""

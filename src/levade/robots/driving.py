@@ -158,7 +158,7 @@ def _file(draft: Draft) -> str:
 
 
 def _leg_length(bare: Bare) -> float:
-    return max(bare.leg_length(leg) for leg in bare.legs)
+    return max(bare.leg_length(leg) for leg in bare.standing)
 
 
 def _indices(chosen: NDArray[np.bool_]) -> tuple[int, ...]:

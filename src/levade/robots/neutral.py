@@ -92,9 +92,9 @@ class PostureSearch:
         return UPRIGHT_EXTENSION if len(self.soles) == 2 else LEVEL_EXTENSION
 
     def neutral(self) -> Array:
-        """Arms let down first, then the legs below them."""
+        """Arms let down first, then the legs below them; a waist and a head stay straight."""
         angles = self.zero
-        arms = [leg for leg in self.bare.legs if not leg.stands]
+        arms = [leg for leg in self.bare.legs if leg.kind == "arm"]
         if arms:
             angles = self._search(angles, arms, lambda posture: self._arm_cost(posture, arms), _ARM_TRIES)
         return self.standing(angles, self.extension(), _LEG_TRIES)
@@ -174,7 +174,9 @@ class PostureSearch:
             "popsize": _POPULATION,
             "maxfevals": tries * len(leaders),
             "verbose": -9,
-            "seed": seed,
+            # cma's own seeding goes through numpy's global generator, which is the user's
+            "seed": np.nan,
+            "randn": np.random.RandomState(seed).randn,
             "tolfun": 1e-6,
         }
         es = cma.CMAEvolutionStrategy(np.zeros(len(leaders)), 0.6, options)

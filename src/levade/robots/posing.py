@@ -151,4 +151,4 @@ def _upside_down(bare: Bare) -> bool:
     """Whether every foot is above its hip, the joints in the middle of their ranges."""
     middle = {joint: float(np.mean(limits)) for joint, limits in bare.ranges.items() if np.isfinite(limits).all()}
     data = bare.data_at(middle)
-    return all(bare.tip(data, leg)[2] > data.joint(leg.joints[0]).xanchor[2] for leg in bare.legs)
+    return all(bare.tip(data, leg)[2] > data.joint(leg.joints[0]).xanchor[2] for leg in bare.standing)

@@ -36,12 +36,12 @@ def tucked(robot: Robot) -> Array:
     Raises:
         LevadeError: If the robot's legs are no hips and knees, or it has no crouched posture.
     """
-    if "crouched" not in robot.postures or not all({"hfe", "kfe"} <= set(leg.roles) for leg in robot.legs):
+    if "crouched" not in robot.postures or not all({"hfe", "kfe"} <= set(leg.roles) for leg in robot.standing):
         raise LevadeError(f"robot {robot.name}: its legs have no tucked posture; name another, such as neutral")
     crouched, neutral = robot.posture("crouched"), robot.posture("neutral")
     posture = crouched.copy()
     feet = robot.foot_positions(crouched)
-    for i, leg in enumerate(robot.legs):
+    for i, leg in enumerate(robot.standing):
         joints = np.arange(len(robot.joint_names))[robot.joint_indices(leg)]
         hip, knee = (int(joints[leg.roles.index(role)]) for role in ("hfe", "kfe"))
         posture[knee] = _bent(robot, knee, crouched[knee], bends=crouched[knee] - neutral[knee])

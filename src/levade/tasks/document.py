@@ -70,7 +70,10 @@ _ORDER = (
     *("name", "description", "robot", "scene", "physics", "start", "horizon", "hold"),
     *("policy", "costs", "stages", "success", "search", "robust", "feedback", "hardware"),
 )
-_LATER = (("hardware",), ("policy", "room"), ("policy", "slew"), ("policy", "through"), ("search", "patience"))
+_LATER = (
+    *(("hardware",), ("policy", "room"), ("policy", "slew"), ("policy", "through"), ("search", "patience")),
+    *(("robust", "perturb", "softness"), ("start", "fallen", "fold")),
+)
 """Keys that were not there when runs with a checksum were first made, and are null or empty by default."""
 _SEQUENCE = "tag:yaml.org,2002:seq"
 
@@ -367,10 +370,10 @@ def task_checksum(task: Task, *more: object) -> int:
     """
     content = task_to_dict(task, code=True)
     for *tables, name in _LATER:
-        table = content
+        table: Any = content
         for key in tables:
-            table = table[key]
-        if table[name] is None or table[name] == []:
+            table = table.get(key) if isinstance(table, dict) else None
+        if isinstance(table, dict) and name in table and table[name] in (None, []):
             del table[name]
     first = {name: alias for alias, name in ALIASES.items()}
     name = content["search"]["optimizer"]

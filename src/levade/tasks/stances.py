@@ -85,7 +85,7 @@ def as_attitude(fall: Mapping[str, Any], robot: Robot, where: str) -> dict[str, 
     table = dict(fall)
     side = table.pop(LYING)
     attitudes = ATTITUDES[robot.stance]
-    if side not in attitudes:
+    if not isinstance(side, str) or side not in attitudes:
         raise LevadeError(f"{where}.{LYING}: no side {side!r}; {did_you_mean(str(side), attitudes)}")
     table["roll"], table["pitch"] = attitudes[side]
     if robot.ahead < 0 and side in ("back", "front"):
