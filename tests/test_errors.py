@@ -32,12 +32,16 @@ def messages(path: Path) -> list[str]:
     ]
 
 
+ALONE = [SOURCE / "exports" / name for name in ("player.py", "asker.py")]
+"""Programs of their own, next to an export."""
+
+
 @pytest.mark.slow
 def test_only_the_command_line_speaks_of_its_options() -> None:
     found = {
         (str(path.relative_to(SOURCE).as_posix()), text)
         for path in SOURCE.rglob("*.py")
-        if "cli" not in path.relative_to(SOURCE).parts and path != SOURCE / "exports" / "player.py"
+        if "cli" not in path.relative_to(SOURCE).parts and path not in ALONE
         for text in messages(path)
         if OPTION.search(text)
     }

@@ -34,7 +34,7 @@ def test_help_and_version(levade) -> None:
     assert (status, err) == (0, "")
     for option in ("--robot", "--seed", "--trials", "--optimizer", "--set", "--out", "--json", "--resume"):
         assert option in out
-    listed = re.search(r"--optimizer \S+ (.*?), instead of", " ".join(out.split()))
+    listed = re.search(r"--optimizer \S+ Optimizer instead of the task's: (.*?)\.", " ".join(out.split()))
     assert listed is not None
     assert re.split(", | or ", listed[1]) == list(OPTIMIZERS)
 

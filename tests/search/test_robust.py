@@ -381,7 +381,9 @@ def test_an_interrupted_search_keeps_the_start_that_holds_best(answered: Answere
 
 @pytest.mark.slow
 def test_few_samples_cover_every_range_evenly() -> None:
-    sample = Perturbation(friction=(0.0 + 0.1, 1.1)).spread(objective().engine.model, 12, n=10, seed=1)
+    sample = Perturbation(friction=(0.0 + 0.1, 1.1), softness=(0.5, 2.0)).spread(
+        objective().engine.model, 12, n=10, seed=1
+    )
     assert sorted(np.floor((sample.values["friction"][:, 0] - 0.1) * 10).tolist()) == list(range(10))
     for values in sample.values.values():
         assert len(np.unique(values[:, 0])) == 10 if values.shape[1] else True

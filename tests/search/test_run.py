@@ -184,7 +184,7 @@ def test_a_run_from_when_the_default_was_called_levade_goes_on_to_the_same_end(t
     text = (part / TASK).read_text()
     assert text.count("optimizer: cma-aimed\n") == 1
     text = text.replace("optimizer: cma-aimed\n", "optimizer: levade\n")
-    for later in ("  room: null\n", "  slew: null\n", "  patience: null\n", "hardware: null\n"):
+    for later in ("  room: null\n", "  slew: null\n", "  through: []\n", "  patience: null\n", "hardware: null\n"):
         assert text.count(later) == 1
         text = text.replace(later, "")
     (part / TASK).write_text(text)

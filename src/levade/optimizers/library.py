@@ -1,4 +1,4 @@
-"""The library `cma` without matplotlib, which it imports for plots of its own, and which takes longer than all the rest."""
+"""The library `cma` without what it imports for plots and fits of its own, which takes longer than all the rest."""
 
 from __future__ import annotations
 
@@ -6,16 +6,17 @@ import sys
 import warnings
 from typing import Any
 
+_modules: dict[str, Any] = sys.modules
+_hidden = [name for name in ("matplotlib", "scipy") if name not in _modules]
+
 with warnings.catch_warnings():
-    warnings.simplefilter("ignore")  # that matplotlib is missing
-    _hidden = "matplotlib" not in sys.modules
-    if _hidden:
-        _modules: dict[str, Any] = sys.modules
-        _modules["matplotlib"] = None  # an import of it fails, as where it is not installed
+    warnings.simplefilter("ignore")  # that they are missing
+    for _name in _hidden:
+        _modules[_name] = None  # an import of it fails, as where it is not installed
     try:
         import cma
     finally:
-        if _hidden:
-            del sys.modules["matplotlib"]
+        for _name in _hidden:
+            del _modules[_name]
 
 __all__ = ["cma"]
