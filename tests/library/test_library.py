@@ -144,16 +144,13 @@ def test_a_record_that_is_lost_is_made_again(library: Library, tmp_path: Path) -
     assert contents(tmp_path / "again") == contents(library.directory)
 
 
-def _build_rolling(directory: Path, processes: int) -> None:
-    build(rolling(), starts=STARTS, directory=directory, processes=processes)
-
-
 @pytest.mark.slow
 def test_killed_at_any_time_it_goes_on_in_two_processes_to_the_same_bytes(library: Library, tmp_path: Path) -> None:
     """kill -9, of the one that others work for, too, once some more falls are done."""
     context, generator = multiprocessing.get_context("spawn"), np.random.default_rng(0)
     for processes, falls in ((1, 1), (2, 3)):
-        process = context.Process(target=_build_rolling, args=(tmp_path, processes))
+        how = {"starts": STARTS, "directory": tmp_path, "processes": processes}
+        process = context.Process(target=build, args=(rolling(),), kwargs=how)
         process.start()
         while process.is_alive() and len(list(tmp_path.glob("falls/*.json"))) < falls:
             time.sleep(0.01)
