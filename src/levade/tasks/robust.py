@@ -91,9 +91,9 @@ class Robust:
         if self.contender not in ("best", "mean"):
             raise LevadeError(f"robust.contender: {self.contender!r} is unknown; best or mean")
         if self.contender == "mean" and self.redraw == "never":
-            raise LevadeError("robust.contender: with redraw: never every candidate is compared; leave it out")
+            raise LevadeError("robust.contender: only works with redraw: generation; leave it out")
         if self.validation is not None and self.redraw == "never":
-            raise LevadeError("robust.validation: with redraw: never all candidates run the same models; leave it out")
+            raise LevadeError("robust.validation: only works with redraw: generation; leave it out")
         if self.validation is not None and not 1 <= self.validation <= 1000:
             raise LevadeError(f"robust.validation: {self.validation} should be 1 to 1000; 20 is usual")
         for name in ("tail", "required"):
@@ -105,7 +105,7 @@ class Robust:
             raise LevadeError(f"robust.starts: {self.starts} should be 1 to 1000; 8 is usual")
         if self.racing is not None and self.racing.first >= self.samples:
             raise LevadeError(
-                f"robust.racing.first: {self.racing.first} of {self.samples} samples leaves nothing to race for; fewer"
+                f"robust.racing.first: {self.racing.first} should be less than samples, {self.samples}, which all would run"
             )
 
     @property
