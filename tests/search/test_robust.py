@@ -427,7 +427,7 @@ def test_tasks_keep_what_they_ask_for(tmp_path: Path) -> None:
         ("{redraw: generation, validation: 0}", r"robust.validation: 0 should be 1 to 1000"),
         ("{starts: 0}", r"robust.starts: 0 should be 1 to 1000"),
         ("{tail: 0}", r"robust.tail: 0.0 should be a share"),
-        ("{samples: 2, racing: {first: 2}}", r"robust.racing.first: 2 of 2 samples leaves nothing to race for"),
+        ("{samples: 2, racing: {first: 2}}", r"robust.racing.first: 2 should be less than samples, 2"),
         ("{racing: {first: 1, keep: 0}}", r"robust.racing.keep: 0.0 should be a share"),
         ("{perturb: {frction: [1, 1]}}", r"unknown key 'frction'; did you mean friction\?"),
     ],
