@@ -309,7 +309,7 @@ def test_every_unit_has_its_size(unit: str) -> None:
         ({"policy": {"kernels": -3}}, "policy.kernels: -3 should be"),
         (
             {"policy": {"through": ["crouched"]}},
-            "policy.through: the search begins with initial: hold, which goes through",
+            "policy.through: initial: hold does not use these postures",
         ),
         ({"feedback": {"hold": 0}}, "feedback.hold: 0"),
         (
