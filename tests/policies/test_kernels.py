@@ -77,8 +77,8 @@ def test_seconds_and_normalised_agree_at_one_second_and_scale_between():
     ("config", "message"),
     [
         ({"kernels": 0}, "kernels: 0 should be at least 1"),
-        ({"variance": 0.0}, "variance: 0.0 is out of range"),
-        ({"variance": math.nan}, "variance: nan is out of range"),
+        ({"variance": 0.0}, "variance: 0.0 should be between"),
+        ({"variance": math.nan}, "variance: nan should be between"),
         ({"time": "minutes"}, "time: 'minutes' is unknown; give normalised or seconds"),
     ],
 )

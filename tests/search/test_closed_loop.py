@@ -156,9 +156,7 @@ def test_a_run_resumes_to_the_same_motion(tmp_path: Path, found: tuple[list[Gene
 
 
 def test_what_makes_no_sense_is_one_line() -> None:
-    with pytest.raises(
-        LevadeError, match=r"^feedback: acts on perturbed models, but the task has none"
-    ):
+    with pytest.raises(LevadeError, match=r"^feedback: acts on perturbed models, but the task has none"):
         replace(task(), robust=None)
     with pytest.raises(
         LevadeError, match=r"^feedback: needs one horizon for its gains, but the task has 0.05 to 0.1 s"

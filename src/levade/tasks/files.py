@@ -204,9 +204,7 @@ def _start_of_motion(path: Path) -> dict[str, float] | None:
     arrays = unpack(path)
     names, first = arrays.get("joint_names"), arrays.get("joint_position_reference0")
     if names is None or first is None:
-        raise LevadeError(
-            f"{path}: the joints' commanded posture before the start is missing; make the motion again"
-        )
+        raise LevadeError(f"{path}: the joints' commanded posture before the start is missing; make the motion again")
     try:
         start = json.loads(str(arrays["meta"]))["task"]["start"]
         posture = {str(name): float(angle) for name, angle in zip(names, first, strict=True)}

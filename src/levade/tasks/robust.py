@@ -52,7 +52,7 @@ class Robust:
             `levade.costs.risk`.
         tail: Share of the most expensive roll-outs that "cvar" averages over.
         redraw: "never" runs all candidates on the same models. "generation" draws new models for each generation, shared by
-            its candidates, and compares the best of each generation with the best so far on a validation sample, which is fixed.
+            its candidates, and compares the best of each generation with the best so far on a fixed validation sample.
         validation: Models of the validation sample. Defaults to ``samples``.
         contender: Which candidate of each generation runs on the validation sample: its "best", or the "mean" of the search
             distribution. Near convergence the best candidate mostly owes its rank to chance.

@@ -58,7 +58,7 @@ def task_schema() -> Schema:
     }
     task["properties"][KEY] = {
         "type": "object",
-        "description": "Stance -> changes of the task for robots that stand like this; or a text that says why it does not apply.",
+        "description": "Stance -> changes of the task for robots that stand so; or a text that says why it does not apply.",
         "properties": {name: {"type": ["object", "string"]} for name in STANCES},
         "additionalProperties": False,
     }
@@ -68,7 +68,10 @@ def task_schema() -> Schema:
 
 def _extending(task: Schema) -> None:
     """Let a task that extends another one leave out what it does not change, and remove a cost or a criterion by null."""
-    task["properties"][EXTENDS] = {"type": "string", "description": "Task, or its file, that provides what is left out."}
+    task["properties"][EXTENDS] = {
+        "type": "string",
+        "description": "Task, or its file, that provides what is left out.",
+    }
     task |= {"if": {"required": [EXTENDS]}, "then": {"required": ["name"]}, "else": {"required": task.pop("required")}}
     for name in ("costs", "success"):
         table = task["properties"][name]

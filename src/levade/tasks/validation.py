@@ -140,7 +140,9 @@ def check_stages(
         where = f"stages.{i}"
         _check_names(where, stage, costs, success)
         if stage.trials is not None and stage.trials < 1:
-            raise LevadeError(f"{where}.trials: {stage.trials} should be at least 1; leave it out to use all that is left")
+            raise LevadeError(
+                f"{where}.trials: {stage.trials} should be at least 1; leave it out to use all that is left"
+            )
         if not 0 <= stage.hold <= max(hold, 1):
             raise LevadeError(f"{where}.hold: {stage.hold} should be true, false, or at most the task's {hold} s")
         if hold_steps and not stage.hold and all(looks_at_hold(cost.term) for cost in costs.values()):
