@@ -85,11 +85,11 @@ class Robust:
         if not 1 <= self.samples <= 1000:
             raise LevadeError(f"robust.samples: {self.samples} should be 1 to 1000; 8 is usual")
         if self.measure not in ("mean", "cvar", "worst"):
-            raise LevadeError(f"robust.measure: {self.measure!r} is unknown; mean, cvar or worst")
+            raise LevadeError(f"robust.measure: {self.measure!r} is unknown; give mean, cvar or worst")
         if self.redraw not in ("never", "generation"):
-            raise LevadeError(f"robust.redraw: {self.redraw!r} is unknown; never or generation")
+            raise LevadeError(f"robust.redraw: {self.redraw!r} is unknown; give never or generation")
         if self.contender not in ("best", "mean"):
-            raise LevadeError(f"robust.contender: {self.contender!r} is unknown; best or mean")
+            raise LevadeError(f"robust.contender: {self.contender!r} is unknown; give best or mean")
         if self.contender == "mean" and self.redraw == "never":
             raise LevadeError("robust.contender: only works with redraw: generation; leave it out")
         if self.validation is not None and self.redraw == "never":
