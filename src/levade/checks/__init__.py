@@ -68,7 +68,7 @@ def check(
             models (`levade.tasks.Robust.success`).
         threads: Number of engine threads (0: one per core). Results do not depend on it.
         hopeless: Called with the successes and perturbed runs so far; once it returns true, no more runs are made.
-        stopping: Called between runs; once it returns true, the check ends, and the certificate is marked as interrupted.
+        stopping: Called during the runs; once it returns true, the check ends, and the certificate is marked as interrupted.
 
     Returns:
         The certificate.

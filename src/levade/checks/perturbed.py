@@ -140,7 +140,7 @@ def perturbed(
         feedback: The stabiliser, whose sensors have errors (`levade.feedback.SensorErrors`).
         hopeless: Once it returns true, no more runs are made, and no parameter is tried alone: see `Hopeless`. None makes all
             runs.
-        stopping: Called between runs; once it returns true, the result has the runs made so far, at least some.
+        stopping: Called during the runs; once it returns true, the result has the runs made so far, at least some.
 
     Returns:
         The result.
