@@ -22,7 +22,7 @@ class Regulation:
             fade; that suits postures that stand by themselves, on several contacts.
         bound: Bound on each correction [rad].
         every: Generations after which the gains are computed again, along the best motion. New gains are kept only if that
-            motion succeeds at least as often with them as before; the first ones, at least as often as without feedback.
+            motion ranks no worse with them than with the earlier ones; the first gains, no worse than without feedback.
         runs: Perturbed runs from which the regulator learns to predict what it cannot measure.
 
     Raises:
