@@ -421,9 +421,9 @@ def test_tasks_keep_what_they_ask_for(tmp_path: Path) -> None:
     [
         ("{samples: 0}", r"robust.samples: 0 should be 1 to 1000"),
         ("{measure: wurst}", r"robust.measure"),
-        ("{validation: 9}", r"robust.validation: with redraw: never"),
+        ("{validation: 9}", r"robust.validation: only works with redraw: generation"),
         ("{redraw: generation, contender: median}", r"robust.contender: should be 'best' or 'mean'"),
-        ("{contender: mean}", r"robust.contender: with redraw: never"),
+        ("{contender: mean}", r"robust.contender: only works with redraw: generation"),
         ("{redraw: generation, validation: 0}", r"robust.validation: 0 should be 1 to 1000"),
         ("{starts: 0}", r"robust.starts: 0 should be 1 to 1000"),
         ("{tail: 0}", r"robust.tail: 0.0 should be a share"),
