@@ -189,7 +189,7 @@ def test_a_case_that_does_not_fit_says_which(tmp_path: Path) -> None:
     plan = dataclasses.replace(
         PLAN, seeds=1, optimizers={"cma": {}, "narrow": {"policy.groups": [["lf", "rf"], ["lh"]]}}
     )
-    with pytest.raises(LevadeError, match=r"^rearing on hyq2max, narrow, seed 0: policy.groups: rh in none"):
+    with pytest.raises(LevadeError, match=r"^rearing on hyq2max, narrow, seed 0: policy.groups: rh in no group"):
         bench(plan, tmp_path)
     assert [result.optimizer for result in read(tmp_path / RESULTS)] == ["cma"]
 

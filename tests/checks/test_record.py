@@ -46,10 +46,10 @@ def test_any_other_number_has_another_checksum(standing: Motion, changed: Callab
         ({}, None),
         ({"passed": False, "failed": ["speed", "perturbed"]}, "it fails speed, perturbed"),
         ({"passed": False, "interrupted": True}, "its check was interrupted"),
-        ({"checksum": "0" * 64}, "it is of another motion"),
+        ({"checksum": "0" * 64}, "it belongs to another motion"),
         ({"demands": {**DEMANDS, "share": None, "numerics": False}}, "it does not judge share, numerics"),
         ({"demands": None}, f"it does not judge {', '.join(JUDGED)}"),
-        ({"perturbed": {"runs": 1}}, "it has 1 perturbed runs, and 100 are the least that say much"),
+        ({"perturbed": {"runs": 1}}, "it has 1 perturbed runs, but at least 100 are needed"),
     ],
 )
 def test_a_certificate_vouches_for_the_motion_it_is_of(

@@ -126,6 +126,6 @@ def test_motions_for_robots_without_a_certificate_beside_them_are_remarked_on(
     assert notes("mjcf") == []
     assert "levade check" in notes("unitree")[0]
     certificate(tmp_path / "certificate.json", motion, checksum="0")
-    assert "it is of another motion" in notes("csv")[0]
+    assert "it belongs to another motion" in notes("csv")[0]
     certificate(tmp_path / "certificate.json", motion)
     assert notes("csv") == []

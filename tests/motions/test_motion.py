@@ -322,7 +322,7 @@ def test_a_cost_that_is_python_code_is_named_in_the_file(tmp_path: Path) -> None
     assert export(motion, "json", tmp_path / "out").written
     term = motion.task.costs["leaning"].term
     with pytest.raises(
-        LevadeError, match=r"leaning was Python code, which is not in the file; give the task the function"
+        LevadeError, match=r"leaning was Python code, which is not in the file; give the task its function"
     ):
         term(replay_in("mujoco", motion).trajectories)
     with pytest.raises(LevadeError, match=r"^task\.yaml\.costs\.leaning: was Python code"):

@@ -51,8 +51,8 @@ def test_without_shares_nothing_changes() -> None:
 @pytest.mark.parametrize(
     ("depart", "settle", "message"),
     [
-        (-0.1, 0.0, "depart: -0.1 is not a share of the horizon; 0 to 1"),
-        (0.0, np.nan, "settle: nan is not a share"),
+        (-0.1, 0.0, "depart: -0.1 should be a share of the horizon, 0 to 1"),
+        (0.0, np.nan, "settle: nan should be a share"),
         (0.6, 0.5, "settle: 0.5 and depart: 0.6 are together more than the horizon"),
     ],
 )

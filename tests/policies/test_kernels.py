@@ -76,10 +76,10 @@ def test_seconds_and_normalised_agree_at_one_second_and_scale_between():
 @pytest.mark.parametrize(
     ("config", "message"),
     [
-        ({"kernels": 0}, "kernels: 0 is not a number of kernels"),
-        ({"variance": 0.0}, "variance: 0.0 is out of range"),
-        ({"variance": math.nan}, "variance: nan is out of range"),
-        ({"time": "minutes"}, "time: 'minutes' is unknown; normalised or seconds"),
+        ({"kernels": 0}, "kernels: 0 should be at least 1"),
+        ({"variance": 0.0}, "variance: 0.0 should be between"),
+        ({"variance": math.nan}, "variance: nan should be between"),
+        ({"time": "minutes"}, "time: 'minutes' is unknown; give normalised or seconds"),
     ],
 )
 def test_wrong_kernels_are_named(config, message):
@@ -110,5 +110,5 @@ def test_smooth_weights_are_closer_to_their_neighbours_than_independent_ones():
 
 @pytest.mark.parametrize("length", [-0.1, math.inf, math.nan])
 def test_a_wrong_length_is_named(length):
-    with pytest.raises(LevadeError, match=r"length: .* is not a correlation length"):
+    with pytest.raises(LevadeError, match=r"length: .* should be 0 or more"):
         smoothness(GaussianKernels(), length)

@@ -198,17 +198,17 @@ def test_horizon_is_rounded_to_whole_steps():
         (lambda: rearing().fit(np.zeros((1, 3, 12))), r"position: expected \(n, 150, 12\), got \(1, 3, 12\)"),
         (lambda: rearing(horizon=-1), "horizon: -1 s is not a duration"),
         (lambda: rearing(hold_steps=-1), "hold_steps: -1 is negative"),
-        (lambda: refine(np.zeros((1, 96)), rearing(), rearing(0.4)), "both policies need the same"),
-        (lambda: Policy(GaussianKernels(), (), 1, 0.1), "the groups together cover every joint"),
+        (lambda: refine(np.zeros((1, 96)), rearing(), rearing(0.4)), "give both the same"),
+        (lambda: Policy(GaussianKernels(), (), 1, 0.1), "put every joint in one"),
         (lambda: Policy(GaussianKernels(), (Group((0, 2)),), 1, 0.1), r"joints \[1\] are in no group"),
         (lambda: Policy(GaussianKernels(), (Group((0,)), Group((0,))), 1, 0.1), "joint 0 is already in a group"),
         (
             lambda: Policy(GaussianKernels(), (Group((0,), (Follower((1,), (0.5,)),)),), 1, 0.1),
-            "the sign of joint 1 is 0.5; mirror signs are 1 or -1",
+            "the sign of joint 1 is 0.5; give 1 or -1",
         ),
         (
             lambda: Policy(GaussianKernels(), (Group((0, 1), (Follower((2,), (1,)),)),), 1, 0.1),
-            "a leg has 1 joints and 1 signs, its leader 2 joints",
+            "a leg has 1 joints and 1 signs, but its leader has 2 joints",
         ),
     ],
 )

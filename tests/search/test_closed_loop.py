@@ -156,12 +156,10 @@ def test_a_run_resumes_to_the_same_motion(tmp_path: Path, found: tuple[list[Gene
 
 
 def test_what_makes_no_sense_is_one_line() -> None:
-    with pytest.raises(
-        LevadeError, match=r"^feedback: is on while candidates run on perturbed models, and the task has none"
-    ):
+    with pytest.raises(LevadeError, match=r"^feedback: acts on perturbed models, but the task has none"):
         replace(task(), robust=None)
     with pytest.raises(
-        LevadeError, match=r"^feedback: its gains are made for one duration, and the horizon is 0.05 to 0.1 s"
+        LevadeError, match=r"^feedback: needs one horizon for its gains, but the task has 0.05 to 0.1 s"
     ):
         replace(task(), horizon=HorizonRange(0.05, 0.1))
     with pytest.raises(LevadeError, match=r"^feedback.rate: 0.0 should be 1 to 10000 Hz"):

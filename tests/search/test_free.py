@@ -161,7 +161,7 @@ def test_a_search_finds_the_duration_that_a_task_asks_for() -> None:
         (["horizon=[0.3, 1.5]"], "bounds for the search such as .*is a list"),
         (["policy.goal=fre", "policy.settle=0.4"], "policy.goal: no posture 'fre'; did you mean free"),
         (["horizon={minimum: 0.0001, maximum: 0.3}"], "at least one time step"),
-        (["policy.goal=free"], "policy.goal: it is free, but no reference settles there"),
+        (["policy.goal=free"], "policy.goal: is free, but no reference settles there"),
         (["policy.goal={hnd: free}", "policy.settle=0.4"], "no leg or joint 'hnd'.*hind"),
         (['policy.goal={"lf_kfe": free}', "policy.settle=0.4"], "lf_kfe and rf_kfe share a policy"),
         (['policy.goal={"*_kfe": [-9, 9]}', "policy.settle=0.4"], "should be a range within that of lf_kfe"),
@@ -215,10 +215,10 @@ def test_a_goal_like_a_motion_that_has_none_is_one_line(tmp_path: Path) -> None:
     np.savez(
         path, joint_names=np.array(["a\x1b"]), joint_position_reference0=np.zeros(1), meta=np.array('{"task": {}}')
     )
-    with pytest.raises(LevadeError, match="its start cannot be read; damaged"):
+    with pytest.raises(LevadeError, match="its start cannot be read; the file is damaged"):
         load_task("rearing", changes=[f"policy.goal={{like: {path}}}"])
     np.savez(path, other=np.zeros(1))
-    with pytest.raises(LevadeError, match="does not say what its joints were commanded"):
+    with pytest.raises(LevadeError, match="commanded posture before the start is missing"):
         load_task("rearing", changes=[f"policy.goal={{like: {path}}}"])
     with pytest.raises(LevadeError, match=r"policy.goal.like: .*nowhere.npz: no such file"):
         load_task("rearing", changes=["policy.goal={like: nowhere.npz}"])

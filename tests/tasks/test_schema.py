@@ -104,6 +104,9 @@ def test_a_wrong_key_or_value_is_not(path: str, value: object) -> None:
 
 def test_names_and_keys_are_described() -> None:
     schema = task_schema()
-    assert schema["properties"]["hold"]["description"] == "[s] after T in which the reference stays at its last value."
+    assert (
+        schema["properties"]["hold"]["description"]
+        == "Time after T in which the reference stays at its last value [s]."
+    )
     assert set(schema["properties"]["costs"]["properties"]) == set(TERMS)
     assert schema["$defs"]["Search"]["properties"]["trials"]["default"] == 3000

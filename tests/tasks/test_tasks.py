@@ -252,7 +252,7 @@ def test_every_unit_has_its_size(unit: str) -> None:
         ({"horizon": "5 sec"}, "horizon: unknown unit 'sec' in '5 sec'; units here: s, ms"),
         (
             {"policy": {"variance": "1 s"}},
-            "policy.variance: '1 s', but this number takes no unit; give it in SI, without one",
+            "policy.variance: '1 s' has a unit, but this number takes none; give it in SI, without one",
         ),
         (
             {"scene": {"boxes": [{"position": ["1 deg", 0, 0], "size": [1, 1, 1]}]}},
@@ -275,12 +275,12 @@ def test_every_unit_has_its_size(unit: str) -> None:
         ({"costs": {"effort": {"weight": "much"}}}, "costs.effort.weight: should be a number, is 'much'"),
         ({"costs": {"effort": {"weight": math.nan}}}, "costs.effort.weight: nan is not a number"),
         ({"costs": {"effort": {"weight": 1, "term": [1]}}}, "costs.effort: no term [1]; valid names: angular_velocity"),
-        ({"costs": {}}, "costs: there are none; at least one term says what to look for"),
+        ({"costs": {}}, "costs: there are none; give at least one"),
         ({"costs": 3}, "costs: should be a table of keys and values, is 3"),
         ({"costs": {"position": {"weight": 1}}}, "costs.position: position: no target; give at least one of x, y, z"),
         (
             {"success": {"up": {"target": 1, "tolerance": 1}}},
-            "success.up: 'up' is no quantity, so say which: quantity: ...;",
+            "success.up: 'up' is not a quantity; add the key quantity;",
         ),
         ({"success": {"up": {"quantity": ["height"], "target": 1}}}, "success.up.quantity: should be 'roll', 'pitch'"),
         (
@@ -309,7 +309,7 @@ def test_every_unit_has_its_size(unit: str) -> None:
         ({"policy": {"kernels": -3}}, "policy.kernels: -3 should be"),
         (
             {"policy": {"through": ["crouched"]}},
-            "policy.through: the search begins with initial: hold, which goes through",
+            "policy.through: initial: hold does not use these postures",
         ),
         ({"feedback": {"hold": 0}}, "feedback.hold: 0"),
         (
@@ -322,13 +322,13 @@ def test_every_unit_has_its_size(unit: str) -> None:
             {"stages": [{}, {"weights": {"positon": 1}}]},
             "stages.1.weights: no 'positon' in this task; did you mean position?",
         ),
-        ({"stages": [{"trials": 0}]}, "stages.0.trials: 0 should be at least 1; leave it out for all that is left"),
+        ({"stages": [{"trials": 0}]}, "stages.0.trials: 0 should be at least 1; leave it out to use all that is left"),
         ({"stages": [{"step": 0}]}, "stages.0.step: 0.0 should be a positive factor on the step size"),
         ({"stages": [{"hold": 3.0}]}, "stages.0.hold: 3.0 should be true, false, or at most the task's 0.0 s"),
         ({"stages": [{"hold": "half"}]}, "stages.0.hold: should be a valid boolean"),
         (
             {"hold": 1, "costs": {"position": {"weight": 1, "z": 1, "at": "end"}}, "stages": [{"hold": False}]},
-            "stages.0.hold: False, but every cost of the task looks at the hold; say hold: true",
+            "stages.0.hold: False, but every cost of the task looks at the hold; set hold: true",
         ),
         (
             {
@@ -336,7 +336,7 @@ def test_every_unit_has_its_size(unit: str) -> None:
                 "costs": {"position": {"weight": 1, "z": 1}, "margins": {"weight": 1, "speed": 0.1}},
                 "stages": [{"hold": False}],
             },
-            "costs.margins: looks at the hold, which no stage simulates, and so counts nowhere; let it look at the horizon",
+            "costs.margins: looks at the hold, which no stage simulates, so it counts nowhere; let it look at the horizon",
         ),
         ({"search": {"optimizer": "cmaes"}}, "search.optimizer: no optimizer 'cmaes'; did you mean cma?"),
         ({"search": {"settings": {"aim": 6}}}, "search.settings: no 'aim' for cma-aimed; did you mean aimed?"),
@@ -383,7 +383,7 @@ def test_each_mistake_is_one_line_that_names_the_key(changes: dict[str, object],
         ("stages.7.step=1", "changes: stages.7.step: no '7' in stages; valid names: 0, 1"),
         ("costs.near=0.1", "changes: costs.near: no 'near' in costs; valid names: "),
         ("costs.near={weight: 1}", "changes: costs.near: no term 'near'; valid names: "),
-        ("success.apart={minimum: 0}", "changes: success.apart: 'apart' is no quantity, so say which: quantity: "),
+        ("success.apart={minimum: 0}", "changes: success.apart: 'apart' is not a quantity; add the key quantity; "),
         ("horizon.ms=300", "changes: horizon.ms: horizon is a single value, 0.3; set it as a whole"),
         ("scene.boxes.0=1", "changes: scene.boxes.0: scene.boxes is empty; set it as a whole"),
         ("search.settings.aimd=3", "changes: search.settings: no 'aimd' for cma-aimed; did you mean aimed?"),
@@ -446,8 +446,8 @@ def test_tasks_that_are_not_there(name: str, message: str) -> None:
         ),
         (["policy.variance=-1"], r"^policy.variance: -1.0 is out of range"),
         (["policy.groups=[[lf, rf], [lh, xx]]"], r"^policy.groups: .*no leg 'xx'; valid names: lf, lh, rf, rh"),
-        (["policy.groups=[[lf, rf], [lh]]"], r"^policy.groups: rh in none; every leg of hyq2max goes in one group"),
-        (["policy.groups=[[lf, rf, lh, rh], [rh]]"], r"^policy.groups: a leg in two; every leg"),
+        (["policy.groups=[[lf, rf], [lh]]"], r"^policy.groups: rh in no group; put every leg of hyq2max in one group"),
+        (["policy.groups=[[lf, rf, lh, rh], [rh]]"], r"^policy.groups: a leg is in two groups; put every leg"),
         (["policy.groups=[[lf, rf, lh, rh], []]"], r"^policy.groups: a group is empty; leave it out"),
         (
             ["costs.effort={term: ground_contact, bodies: [trnk], weight: 1}"],
@@ -571,7 +571,7 @@ def test_a_terrain_from_a_file_is_part_of_the_task(tmp_path: Path) -> None:
 def test_a_file_that_a_terminal_would_obey_is_not_printed(tmp_path: Path) -> None:
     path = tmp_path / "task.yaml"
     path.write_text("name: x  # \x1b[2J\n")
-    with pytest.raises(LevadeError, match=r"task.yaml: is no text; it holds control characters"):
+    with pytest.raises(LevadeError, match=r"task.yaml: is not a text file, as it contains control characters"):
         task_text(path)
     path.write_bytes(b"name: x  # caf\xc3\xa9\r\n\tand a tab\r\n")
     assert task_text(path) == "name: x  # café\n\tand a tab\n"

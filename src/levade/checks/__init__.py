@@ -1,4 +1,4 @@
-"""Checks: whether a motion can be trusted.
+"""Checks that tell whether a motion can be trusted.
 
     certificate = check(Motion.load("motion.npz"), runs=500, seed=0)
     certificate.passed
@@ -6,7 +6,7 @@
     certificate.open_loop                                       # the same without the stabiliser, if the motion has one
     certificate.margins["torque"].failed                        # joints that go beyond their limits
 
-What each part does is in docs/check.md.
+docs/check.md describes each part.
 """
 
 from __future__ import annotations
@@ -55,30 +55,32 @@ def check(
     hopeless: Hopeless | None = None,
     stopping: Callable[[], bool] | None = None,
 ) -> Certificate:
-    """Check a motion against its model's uncertainty, its numbers, other engines and its hardware.
+    """Check a motion on perturbed models, with other numerics, in other engines and against its hardware's limits.
 
     Args:
         motion: The motion.
-        runs: Perturbed runs, at most.
+        runs: Largest number of perturbed runs.
         seed: Seed of all random numbers.
-        divide: What to divide the time step of the perturbed runs by.
-        perturbation: Ranges of what differs. Defaults to `levade.engines.Perturbation`.
-        demands: What the certificate asks for. Defaults to `levade.tasks.Demands`.
-        criteria: A task whose success criteria are used instead of the motion's own, which are what its task calls good enough
-            on perturbed models (`levade.tasks.Robust.success`).
-        threads: Engine threads; 0 for one per core. Results do not depend on it.
-        hopeless: Asked on the way with successes and perturbed runs so far; once it says so, no more runs are made.
-        stopping: Asked on the way; once it says so, the certificate is of what was done by then, and says that it is
-            interrupted.
+        divide: Divisor of the time step in the perturbed runs.
+        perturbation: Ranges of the perturbed parameters. Defaults to `levade.engines.Perturbation`.
+        demands: Thresholds of the certificate. Defaults to `levade.tasks.Demands`.
+        criteria: A task whose success criteria replace those of the motion's task, which are its criteria for perturbed
+            models (`levade.tasks.Robust.success`).
+        threads: Number of engine threads (0: one per core). Results do not depend on it.
+        hopeless: Called with the successes and perturbed runs so far; once it returns true, no more runs are made.
+        stopping: Called during the runs; once it returns true, the check ends, and the certificate is marked as interrupted.
+
+    Returns:
+        The certificate.
 
     Raises:
-        LevadeError: If there is nothing to judge by, or no runs.
+        LevadeError: If there are no success criteria, or ``runs`` or ``divide`` is out of range.
     """
     judged = motion.task.good_enough if criteria is None else criteria.success
     simulation = RecordedSimulation(motion, criteria=judged, threads=threads)
     if not simulation.criteria:
         raise LevadeError(
-            f"the task {simulation.task.name} has no success criteria to judge by; give a task that has some",
+            f"the task {simulation.task.name} has no success criteria; give a task that has some",
             field="criteria",
         )
     if not 1 <= runs <= 1_000_000:

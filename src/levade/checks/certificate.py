@@ -1,4 +1,4 @@
-"""Everything that a check finds, and whether that is good enough."""
+"""The certificate: all findings of a check, and whether they meet its demands."""
 
 from __future__ import annotations
 
@@ -17,12 +17,22 @@ from levade.tasks import Demands
 
 @dataclass(frozen=True)
 class Certificate:
-    """What a check found. criteria: whose success criteria were used, the name of a task.
+    """All findings of a check.
 
-    checksum: of the motion (`levade.motions.Motion.checksum`). versions: of the libraries that decided the bits.
-    ranges: what the perturbed runs were drawn from.
-    perturbed, numerics: with the stabiliser, if the motion has one. open_loop: the perturbed runs without it, else None.
-    interrupted: in the perturbed runs; then fewer of them were made, and nothing else.
+    Attributes:
+        task: Name of the motion's task.
+        robot: Name of the robot.
+        criteria: Name of the task whose success criteria were used.
+        checksum: Checksum of the motion (`levade.motions.Motion.checksum`).
+        versions: Library -> version, for those that decide the bits of a result.
+        demands: Thresholds that the motion has to meet.
+        ranges: Ranges that the perturbed runs were drawn from.
+        perturbed: Result of the perturbed runs, with the stabiliser if the motion has one.
+        numerics: Name of a variant -> result, with the stabiliser if the motion has one.
+        engines: Name of an engine -> result.
+        margins: Kind of limit -> slack.
+        open_loop: Result of the perturbed runs without the stabiliser; None if the motion has none.
+        interrupted: Whether the check was interrupted. Then it has fewer perturbed runs, and no other results.
     """
 
     task: str
@@ -41,25 +51,30 @@ class Certificate:
 
     @property
     def verdicts(self) -> tuple[Verdict, ...]:
-        """Pass, fail or unknown, criterion by criterion."""
+        """Verdicts on all demands: pass, fail or unknown."""
         return (self._perturbed(), *self._numerics(), *self._engines(), *self._margins())
 
     @property
     def passed(self) -> bool:
-        """Whether every criterion that is judged is met; not of a check that was interrupted. See also `unknown`."""
+        """Whether the check is complete and no demand is failed. Demands may still be unknown: see `unknown`."""
         return not self.interrupted and all(verdict.passed is not False for verdict in self.verdicts)
 
     @property
     def failed(self) -> tuple[str, ...]:
-        """Names of the criteria that are not met."""
+        """Names of the demands that are not met."""
         return tuple(verdict.name for verdict in self.verdicts if verdict.passed is False)
 
     @property
     def unknown(self) -> tuple[str, ...]:
-        """Names of the criteria that cannot be judged: the robot's limit is not known, or only assumed."""
+        """Names of the demands that cannot be judged, because the robot's limit is not known, or only assumed."""
         return tuple(verdict.name for verdict in self.verdicts if verdict.unknown)
 
     def to_json(self) -> dict[str, Any]:
+        """Write the certificate as plain tables.
+
+        Returns:
+            Tables that JSON can hold.
+        """
         return {
             "passed": self.passed,
             "interrupted": self.interrupted,
@@ -141,7 +156,7 @@ MEASURED = (
     *("power", "robot_power", "flow", "pump_flow"),
     *("foot_force", "impact_speed", "part_force", "trunk_acceleration", "self_collision"),
 )
-"""Margins that are measured against the most that is allowed; of the others, the least that is left is required."""
+"""Margins with an upper bound on what is measured; the others have a lower bound on the slack."""
 
 
 def _number(margin: Margin) -> str:

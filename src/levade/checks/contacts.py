@@ -1,4 +1,4 @@
-"""What a motion does with its feet, and with parts of the robot that meet each other: from poses, by geometry alone."""
+"""Contacts of a motion's feet, and of the robot's parts with each other, computed from poses by geometry alone."""
 
 from __future__ import annotations
 
@@ -14,7 +14,14 @@ from levade.motions import RecordedSimulation
 
 @dataclass(frozen=True)
 class Collision:
-    """Two bodies of the robot in each other. depth: [m], the deepest. time: [s], when. share: of the motion's rows."""
+    """Two bodies of the robot that enter each other.
+
+    Attributes:
+        bodies: Names of the two bodies.
+        depth: Largest depth [m].
+        time: Time of the largest depth [s].
+        share: Share of the motion's rows in which they overlap.
+    """
 
     bodies: tuple[str, str]
     depth: float
@@ -24,7 +31,13 @@ class Collision:
 
 @dataclass(frozen=True)
 class Landing:
-    """A foot that meets the scene. time: [s]. speed: [m/s], of the foot's centre towards what it meets, just before."""
+    """A foot that meets the scene.
+
+    Attributes:
+        foot: Name of the foot.
+        time: Time of the contact [s].
+        speed: Speed of the foot's centre towards the surface, just before [m/s].
+    """
 
     foot: str
     time: float
@@ -32,10 +45,14 @@ class Landing:
 
 
 def poses(simulation: RecordedSimulation) -> tuple[Array, list[Collision], Array]:
-    """The motion's poses in the model.
+    """Pose the model as in each row of the motion, and find its contacts.
 
-    Returns (steps, feet, 3) [m], centres of the feet; what collides with what; and (steps, feet, 3), unit normals of the
-    contacts on the feet, out of the scene, NaN where there is none. A row at a time: a motion is checked once.
+    Args:
+        simulation: The motion.
+
+    Returns:
+        Centres of the feet [m], shape (steps, feet, 3); collisions, deepest first; and unit normals of the contacts on the
+        feet, out of the scene, shape (steps, feet, 3), NaN for a foot without contact.
     """
     motion, model, names = simulation.motion, simulation.model, simulation.embodiment
     data = mujoco.MjData(model)
@@ -75,23 +92,40 @@ def poses(simulation: RecordedSimulation) -> tuple[Array, list[Collision], Array
 
 
 def scene_forces(simulation: RecordedSimulation, normals: Array) -> Array:
-    """(steps, feet) [N]: the file's forces on the feet where they touch the scene, else 0.
+    """Select the recorded forces on the feet that come from the scene.
 
-    The file has those of the robot's own parts, too; a foot that touches both at once keeps both.
+    The motion also records forces of the robot's own parts. A foot that touches a part and the scene at once keeps both.
+
+    Args:
+        simulation: The motion.
+        normals: Normals of the contacts, from `poses`, shape (steps, feet, 3).
+
+    Returns:
+        Forces [N], shape (steps, feet); 0 for a foot that does not touch the scene.
     """
     known = np.asarray(np.isfinite(normals).all(axis=-1))
     touches = known.copy()
-    touches[1:] |= known[:-1]  # forces of a row act during its step, contacts are those at its end
+    touches[1:] |= known[:-1]  # forces of a row act during its step, but contacts belong to its end
     return np.where(touches, np.linalg.norm(simulation.motion["foot_contact_force"], axis=-1), 0.0)
 
 
 def landings(simulation: RecordedSimulation, centres: Array, normals: Array, force: Array) -> list[Landing]:
-    """Every time that a foot without force (steps, feet) comes to bear some; nothing at the start."""
+    """Find all landings: a foot without force comes to bear some. The start does not count.
+
+    Args:
+        simulation: The motion.
+        centres: Centres of the feet, from `poses` [m], shape (steps, feet, 3).
+        normals: Normals of the contacts, from `poses`, shape (steps, feet, 3).
+        force: Forces of the scene on the feet [N], shape (steps, feet).
+
+    Returns:
+        The landings, in order.
+    """
     motion, step, loaded = simulation.motion, simulation.timestep, force > 0
     first = loaded[1:] & ~loaded[:-1]
     found = []
     for row, foot in zip(*np.nonzero(first), strict=True):
-        # forces of a row act during its step, positions are those at its end: the foot was free until the row before
+        # forces of a row act during its step, but positions belong to its end: the foot was free until the row before
         before = int(row)
         if before == 0:
             continue

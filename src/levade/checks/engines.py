@@ -1,4 +1,4 @@
-"""Whether a motion succeeds in another engine, and how far it goes another way there."""
+"""Check whether a motion succeeds in another engine, and how far it differs there."""
 
 from __future__ import annotations
 
@@ -13,15 +13,19 @@ from levade.motions import RecordedSimulation, replay_in
 from levade.trajectory import Trajectories
 
 _ROWS = 20
-"""Times at which the difference is given."""
+"""Number of times at which the difference is given."""
 
 
 @dataclass(frozen=True)
 class Replayed:
-    """What came of it. reason: why the engine is not there; everything else is None then.
+    """Result of a motion in another engine.
 
-    errors: criterion -> error [SI]. apart: as in `levade.checks.numerics.Numeric`. over_time: time [s], how far the trunk's
-    centre of mass [m] and its attitude [rad] are apart.
+    Attributes:
+        success: Whether the motion succeeds there; None if the engine is not available, as for all other results.
+        errors: Criterion -> error [SI].
+        apart: Distances from the recorded motion, as in `levade.checks.numerics.Numeric`.
+        over_time: "time" [s], and the distances of the trunk's centre of mass, "position" [m], and of its "attitude" [rad].
+        reason: Why the engine is not available.
     """
 
     success: bool | None = None
@@ -31,11 +35,23 @@ class Replayed:
     reason: str = ""
 
     def to_json(self) -> dict[str, Any]:
+        """Write the result as plain tables.
+
+        Returns:
+            Tables that JSON can hold.
+        """
         return dict(vars(self))
 
 
 def other_engines(simulation: RecordedSimulation) -> dict[str, Replayed]:
-    """Every engine but the motion's own -> what it makes of the motion."""
+    """Simulate a motion in every engine except its own.
+
+    Args:
+        simulation: The motion.
+
+    Returns:
+        Name of an engine -> result.
+    """
     return {name: _replay(simulation, name) for name in ENGINES if name != simulation.motion.provenance.engine}
 
 

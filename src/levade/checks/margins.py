@@ -1,4 +1,4 @@
-"""What a motion asks of the hardware, against what the hardware can do: from the file's own arrays."""
+"""Margins: how much slack a motion leaves to each limit of the hardware, computed from the motion's arrays."""
 
 from __future__ import annotations
 
@@ -17,22 +17,29 @@ from levade.robots import PID, Robot
 from levade.tasks import Demands
 
 _ROUNDING = 1e-6
-"""Of a limit: a torque that the engine holds at its limit is at it, not beyond."""
+"""Tolerance of a limit: a torque that the engine clamps at its limit is at it, not beyond."""
 GRAVITY = 9.81
 """[m/s2], for forces in weights of the robot."""
 _LITRES_PER_MINUTE = 60e3
-"""In a cubic metre per second."""
+"""One cubic metre per second, in litres per minute."""
 
 
 @dataclass(frozen=True)
 class Margin:
-    """What is left of one kind of limit.
+    """Slack to one kind of limit.
 
-    unit: of the numbers. values: joint, foot or pair of bodies -> what is left (or what is measured, where there is no limit);
-    None where the robot gives no limit. least: the name that has least left (or most of what is measured). value: its number.
-    required: what is demanded; None if nothing. failed: names that do not meet it. unknown: names whose limit is not known, or
-    only assumed; they never fail. passed: None if it is not judged, or if nothing fails and something is unknown.
-    reason: why it is not judged or not there. more: further numbers.
+    Attributes:
+        unit: Unit of the numbers.
+        values: Joint, foot or pair of bodies -> slack, or the measured value if this kind has no limit of its own. None if the
+            robot gives no limit.
+        least: Name with the least slack, or with the largest measured value.
+        value: Its number.
+        required: Demanded number; None if nothing is demanded.
+        failed: Names that do not meet the demand.
+        unknown: Names whose limit is not known, or only assumed; they never fail.
+        passed: Whether the demand is met; None if nothing is demanded, or if nothing fails but something is unknown.
+        reason: Why the margin is not judged or not available.
+        more: Further numbers.
     """
 
     unit: str
@@ -47,13 +54,26 @@ class Margin:
     more: Mapping[str, Any] = field(default_factory=dict)
 
     def to_json(self) -> dict[str, Any]:
+        """Write the margin as plain tables.
+
+        Returns:
+            Tables that JSON can hold.
+        """
         content = asdict(self)
         more = content.pop("more")
         return {**content, "failed": list(self.failed), "unknown": list(self.unknown), **more}
 
 
 def margins(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margin]:
-    """Every kind of limit -> what the motion leaves of it."""
+    """Compute the slack of a motion to every kind of limit.
+
+    Args:
+        simulation: The motion.
+        demands: Thresholds that the margins are compared with.
+
+    Returns:
+        Kind of limit -> margin.
+    """
     motion, limits = simulation.motion, simulation.embodiment.limits
     joints = simulation.embodiment.joint_names
     angle, speed, torque = (motion[f"joint_{name}"] for name in ("position", "velocity", "torque"))
@@ -97,7 +117,7 @@ def margins(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margi
 
 
 def _left(most: Array, limit: Array) -> Array:
-    """(joints,) what is left, as a share of the limit; nan where there is none."""
+    """Compute the slack as a share of the limit, shape (joints,); NaN for a joint without a limit."""
     return np.where(np.isfinite(limit), 1 - most / limit, np.nan)
 
 
@@ -111,9 +131,9 @@ def _least(
     reason: str = "",
     more: Mapping[str, Any] | None = None,
 ) -> Margin:
-    """A margin of what is left (names,); not finite where there is no limit.
+    """Make a margin with a lower bound on the slack, shape (names,), which is not finite for a name without a limit.
 
-    assumed: indices of the names whose limit no file gives. reason: why there is no limit.
+    ``assumed`` has the indices of names whose limit no file gives; ``reason`` says why there is no limit.
     """
     there = np.isfinite(left)
     values = {name: float(value) if finite else None for name, value, finite in zip(names, left, there, strict=True)}
@@ -143,7 +163,7 @@ def _least(
 
 
 def _of(some: Sequence[str], names: Sequence[str]) -> str:
-    """Of which names, unless it is all of them."""
+    """List the names, unless they are all of them."""
     return "" if len(some) == len(names) else f" of {', '.join(some)}"
 
 
@@ -155,7 +175,7 @@ def _most(
     reason: str = "",
     more: Mapping[str, Any] | None = None,
 ) -> Margin:
-    """What is measured, against the most that is allowed."""
+    """Make a margin with an upper bound on what is measured."""
     if not values:
         return Margin(unit, required=allowed, passed=None if allowed is None else True, more=more or {})
     most = max(values, key=lambda name: values[name])
@@ -170,12 +190,12 @@ def _most(
 
 
 def _torque_speed(simulation: RecordedSimulation, required: float | None) -> Margin:
-    """What is left of the line from stall torque to no-load speed, while driving; braking has the constant limit alone."""
+    """Compute the slack to the line from stall torque to no-load speed; a braking joint has the constant limit alone."""
     limits, joints = simulation.embodiment.limits, simulation.embodiment.joint_names
     torque, speed = simulation.motion["joint_torque"], simulation.motion["joint_velocity"]
     left = np.full(len(joints), np.nan)
     if limits.stall_torque is not None:
-        # as a share of the stall torque: near the no-load speed a share of what the line leaves there would mean nothing
+        # a share of the stall torque: near the no-load speed, a share of the torque on the line would mean nothing
         there = np.isfinite(limits.stall_torque)
         left[there] = limits.torque_speed_left(torque, speed).min(axis=0)[there]
     return _least(
@@ -189,7 +209,7 @@ def _torque_speed(simulation: RecordedSimulation, required: float | None) -> Mar
 
 
 def _linkage(simulation: RecordedSimulation, required: float | None) -> Margin:
-    """What is left of the torque that linkages transmit at their angle."""
+    """Compute the slack to the torque that linkages transmit at their angle."""
     motion, joints = simulation.motion, simulation.embodiment.joint_names
     curves = _curves(simulation)
     if isinstance(curves, str):
@@ -207,9 +227,9 @@ def _linkage(simulation: RecordedSimulation, required: float | None) -> Margin:
 
 
 def _flow(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margin]:
-    """Oil that hydraulic joints take, and all of them at once.
+    """Compute the oil flow of each hydraulic joint, and of all of them together.
 
-    A drive that delivers its torque limit at the supply's pressure displaces their ratio per radian, or more, by its losses.
+    A drive displaces at least the ratio of its torque limit to the supply's pressure per radian; with losses, more.
     """
     motion, limits = simulation.motion, simulation.embodiment.limits
     robot = _description(simulation)
@@ -238,13 +258,13 @@ def _flow(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margin]
 
 
 def _curves(simulation: RecordedSimulation) -> Mapping[int, TorqueCurve] | str:
-    """The linkage's curves from the robot's description, or why there are none."""
+    """Read the linkage's curves from the robot's description, or say why there are none."""
     robot = _description(simulation, linkage=True)
     return robot if isinstance(robot, str) else robot.limits.torque_curves
 
 
 def _description(simulation: RecordedSimulation, *, linkage: bool = False) -> Robot | str:
-    """The robot as its description has it now, or why there is none of use."""
+    """Load the robot from its present description, or say why that is not possible."""
     try:
         robot = replace(simulation.task.robot, linkage=linkage).load()
     except LevadeError as error:
@@ -257,7 +277,7 @@ def _description(simulation: RecordedSimulation, *, linkage: bool = False) -> Ro
 
 
 def _energy(power: Array, timestep: float) -> dict[str, float]:
-    """(steps, joints) [W] to numbers of the whole robot: [W] and [J]; what brakes gives nothing back."""
+    """Sum power [W], shape (steps, joints), over the robot and time [W, J]; braking joints recover nothing."""
     whole = np.maximum(power, 0.0).sum(axis=1)
     return {
         "robot_peak": float(whole.max()),
@@ -267,7 +287,7 @@ def _energy(power: Array, timestep: float) -> dict[str, float]:
 
 
 def _contacts(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margin]:
-    """Forces on the feet, their impacts, and what of the robot touches itself."""
+    """Measure forces on the feet, their impacts, and self-collisions."""
     feet = simulation.embodiment.feet
     weight = float(simulation.model.body_mass.sum()) * GRAVITY
     centres, collisions, normals = poses(simulation)
@@ -302,7 +322,7 @@ def _contacts(simulation: RecordedSimulation, demands: Demands) -> dict[str, Mar
 
 
 def _impacts(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margin]:
-    """Forces of the scene on any part of the robot, by a replay in MuJoCo, and the trunk's acceleration, from the file."""
+    """Measure forces of the scene on any part of the robot, by a replay in MuJoCo, and the trunk's recorded acceleration."""
     weight = float(simulation.model.body_mass.sum()) * GRAVITY
     bodies = simulation.engine.bodies
     forces = simulation.rollout(record=bodies).body_contact_force

@@ -1,4 +1,4 @@
-"""Whether a motion depends on how the physics is computed: the same model, other numbers behind it."""
+"""Check whether a motion depends on how the physics is computed: the same model, with other numerics."""
 
 from __future__ import annotations
 
@@ -20,8 +20,12 @@ from levade.trajectory import Trajectories
 class Variant:
     """Another computation of the same physics.
 
-    parts: by which the time step is divided. integrator, cone: the other one. softness: factor on the time that a contact
-    takes to push bodies apart (solref), and on what it may be short of the full force (1 - solimp).
+    Attributes:
+        parts: Divisor of the time step.
+        integrator: Whether to use the other integrator.
+        cone: Whether to use the other friction cone.
+        softness: Factor on the time in which a contact pushes bodies apart (solref), and on its shortfall from the full force
+            (1 - solimp).
     """
 
     parts: int = 1
@@ -37,13 +41,13 @@ VARIANTS: dict[str, Variant] = {
     "other integrator": Variant(integrator=True),
     "other contact cone": Variant(cone=True),
     "softer contact": Variant(softness=2.0),
-    # at half the step: a contact stiffer than two steps is not resolved
+    # at half the step, because MuJoCo does not resolve a contact that is stiffer than two steps
     "stiffer contact": Variant(parts=2, softness=0.5),
 }
-"""Name -> what is computed differently."""
+"""Name -> difference in the computation."""
 
 QUICK = ("half time step", "other contact cone")
-"""The two that tell most, for a look right after a search."""
+"""The two most telling variants, for a short check after a search."""
 
 _OTHER_INTEGRATOR = {
     mujoco.mjtIntegrator.mjINT_IMPLICITFAST: mujoco.mjtIntegrator.mjINT_EULER,
@@ -53,10 +57,16 @@ _OTHER_CONE = {mujoco.mjtCone.mjCONE_ELLIPTIC: mujoco.mjtCone.mjCONE_PYRAMIDAL}
 
 @dataclass(frozen=True)
 class Numeric:
-    """What came of a variant. errors: criterion -> error [SI]. timestep: [s]. reference: "policy" or "interpolation".
+    """Result of a motion with a variant.
 
-    apart: how far the trunk's centre of mass [m], and its attitude [rad], are from the recorded ones, at the horizon and at
-    most.
+    Attributes:
+        success: Whether the motion succeeds.
+        diverged: Whether its simulation broke down.
+        timestep: Time step [s].
+        errors: Criterion -> error [SI].
+        reference: Source of the references between recorded rows: "policy" or "interpolation".
+        apart: Distances of the trunk's centre of mass [m] and of its attitude [rad] from the recorded ones, at the horizon
+            and at most.
     """
 
     success: bool
@@ -67,23 +77,52 @@ class Numeric:
     apart: dict[str, float]
 
     def to_json(self) -> dict[str, Any]:
+        """Write the result as plain tables.
+
+        Returns:
+            Tables that JSON can hold.
+        """
         return dict(vars(self))
 
 
 def numerics(simulation: RecordedSimulation, names: Iterable[str] = tuple(VARIANTS)) -> dict[str, Numeric]:
-    """Each variant's name -> what came of it. names: those of `VARIANTS` to try."""
+    """Simulate a motion with other numerics.
+
+    Args:
+        simulation: The motion.
+        names: Names in `VARIANTS` to try. Defaults to all.
+
+    Returns:
+        Name of a variant -> result.
+    """
     return {name: _try(simulation, VARIANTS[name]) for name in names}
 
 
 def simulate_at(simulation: RecordedSimulation, variant: Variant) -> tuple[Trajectories, str]:
-    """The motion, computed another way; and where its references come from."""
+    """Simulate a motion with one variant.
+
+    Args:
+        simulation: The motion.
+        variant: The variant.
+
+    Returns:
+        The trajectories, and the source of the references: "policy" or "interpolation".
+    """
     other = simulation.with_model(varied(simulation.model_copy(), variant))
     source = other.curve.source if variant.parts > 1 else "policy"
     return other.rollout(feedback=simulation.motion.feedback), source
 
 
 def varied(model: mujoco.MjModel, variant: Variant) -> mujoco.MjModel:
-    """The model, changed in place to compute as the variant says."""
+    """Change a model in place to compute as a variant says.
+
+    Args:
+        model: The model; written to.
+        variant: The variant.
+
+    Returns:
+        The same model.
+    """
     model.opt.timestep /= variant.parts
     if variant.integrator:
         model.opt.integrator = _OTHER_INTEGRATOR.get(
@@ -111,7 +150,16 @@ def _try(simulation: RecordedSimulation, variant: Variant) -> Numeric:
 
 
 def apart(simulation: RecordedSimulation, trajectories: Trajectories, parts: int = 1) -> dict[str, float]:
-    """How far the trunk is from where the file has it, at rows of the file: position [m] and attitude [rad]."""
+    """Measure how far the trunk is from its recorded position and attitude.
+
+    Args:
+        simulation: The recorded motion.
+        trajectories: Another simulation of it, of one trial.
+        parts: Divisor of the time step in that simulation.
+
+    Returns:
+        Distance of the trunk's centre of mass [m] and of its attitude [rad], at the horizon and at most.
+    """
     motion, rows = simulation.motion, slice(parts - 1, None, parts)
     position = trajectories.trunk_com_position()[0, rows] - motion["trunk_com_position"]
     distance = np.linalg.norm(position, axis=-1)

@@ -1,4 +1,4 @@
-"""How often a motion succeeds on robots that differ from the model, and which difference breaks it."""
+"""Check how often a motion succeeds on robots that differ from the model, and which difference breaks it."""
 
 from __future__ import annotations
 
@@ -17,25 +17,29 @@ from levade.feedback import Feedback
 from levade.motions import RecordedSimulation, Trials, run_trials
 
 _POOREST = 3
-"""Runs that can be looked at afterwards."""
+"""Number of the poorest runs that a certificate lists."""
 
 _CORNERS = 8
-"""Runs with one parameter alone at the ends of its range."""
+"""Number of runs with one parameter alone at the ends of its range."""
 
 Hopeless = Callable[[int, int], bool]
-"""Asked on the way with successes and runs so far: whether there is no point in more runs."""
+"""Function of the successes and runs so far: whether more runs are pointless."""
 
 
 @dataclass(frozen=True)
 class Sensitivity:
-    """What one parameter does.
+    """Effect of one parameter.
 
-    explains: share of the differences between the runs that goes along with it, 0 to 1: squared rank correlations of the
-    criteria's errors (those missed more often counting more) with the parameter's numbers and with their distance from the
-    middle, less what chance alone would give.
-    number: which of its numbers matters most; "" if it has but one. failed, succeeded: mean of that number over the runs that
-    failed and over those that succeeded; None where there are none.
-    alone: (successes, runs) with this parameter alone perturbed, at the ends of its range.
+    Attributes:
+        parameter: Name of the parameter.
+        unit: Its unit.
+        explains: Share of the differences between the runs that the parameter explains, 0 to 1. It sums squared rank
+            correlations of the criteria's errors with the parameter's numbers and with their distance from the middle, less
+            what chance alone would give. Criteria that are missed more often count more.
+        number: Name of its most important number; "" if it has only one.
+        failed: Mean of that number over the runs that failed; None if there are none.
+        succeeded: Mean of that number over the runs that succeeded; None if there are none.
+        alone: Successes and runs with this parameter alone perturbed, at the ends of its range.
     """
 
     parameter: str
@@ -47,6 +51,11 @@ class Sensitivity:
     alone: tuple[int, int]
 
     def to_json(self) -> dict[str, Any]:
+        """Write the effect as plain tables.
+
+        Returns:
+            Tables that JSON can hold.
+        """
         return {
             **{
                 name: getattr(self, name) for name in ("parameter", "unit", "explains", "number", "failed", "succeeded")
@@ -57,12 +66,21 @@ class Sensitivity:
 
 @dataclass(frozen=True)
 class Perturbed:
-    """What came of the perturbed runs.
+    """Result of the perturbed runs.
 
-    low, high: of the share, Wilson's interval at 95 %. errors: criterion -> lowest, mean and highest error [SI], and in how
-    many runs it was missed. timestep: [s]. diverged: runs whose simulation broke down. worst: of the runs that fail, if any,
-    the one that misses by the most times its tolerance: its number, errors, and the parameters' values. poorest: numbers of
-    the few that come next to it, and its own before them. sensitivity: in order, strongest first.
+    Attributes:
+        runs: Number of runs.
+        successes: Number of runs that succeeded.
+        low: Lower end of Wilson's interval of the share, at 95 %.
+        high: Upper end of this interval.
+        seed: Seed of all random numbers.
+        timestep: Time step [s].
+        diverged: Number of runs whose simulation broke down.
+        errors: Criterion -> lowest, mean and highest error [SI], and the number of runs that missed it.
+        worst: Number, errors and parameters of the worst run: among the failed ones, if any, the one with the largest miss
+            as a multiple of the tolerance.
+        poorest: Numbers of the poorest runs, the worst first.
+        sensitivity: Effect of each parameter, strongest first.
     """
 
     runs: int
@@ -79,9 +97,15 @@ class Perturbed:
 
     @property
     def share(self) -> float:
+        """Share of the runs that succeeded."""
         return self.successes / self.runs
 
     def to_json(self) -> dict[str, Any]:
+        """Write the result as plain tables.
+
+        Returns:
+            Tables that JSON can hold.
+        """
         return {
             **{
                 name: getattr(self, name)
@@ -105,17 +129,21 @@ def perturbed(
     hopeless: Hopeless | None = None,
     stopping: Callable[[], bool] | None = None,
 ) -> Perturbed:
-    """Simulate a motion on ``runs`` perturbed versions of its model, and once more with each parameter alone.
+    """Simulate a motion on perturbed versions of its model, and then with each parameter perturbed alone.
 
     Args:
         simulation: The motion, and the criteria.
-        perturbation: Ranges of what differs.
-        runs: Perturbed versions, at most.
+        perturbation: Ranges of the perturbed parameters.
+        runs: Largest number of perturbed versions.
         seed: Seed of all random numbers.
-        divide: What to divide the motion's time step by.
-        feedback: The stabiliser, whose sensors err (`levade.feedback.SensorErrors`).
-        hopeless: See `Hopeless`; no parameter is then tried alone. None makes all runs.
-        stopping: Asked on the way; once it says so, the result is of what there is by then, some runs at least.
+        divide: Divisor of the motion's time step.
+        feedback: The stabiliser, whose sensors have errors (`levade.feedback.SensorErrors`).
+        hopeless: Once it returns true, no more runs are made, and no parameter is tried alone: see `Hopeless`. None makes all
+            runs.
+        stopping: Called during the runs; once it returns true, the result has the runs made so far, at least some.
+
+    Returns:
+        The result.
     """
     simulation = simulation.divided(divide)
     model, joints = simulation.model, simulation.joints
@@ -210,5 +238,5 @@ def _sensitivities(
                 alone=(int(alone[name].sum()), len(alone[name])),
             )
         )
-    # what breaks the motion alone comes first where nothing else tells two apart
+    # of two parameters that explain the same, the one that breaks the motion alone more often comes first
     return tuple(sorted(found, key=lambda one: (-one.explains, one.alone[0] / max(one.alone[1], 1), one.parameter)))

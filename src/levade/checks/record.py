@@ -1,4 +1,4 @@
-"""The file that a certificate is kept in, and whether it vouches for a motion.
+"""Read the file of a certificate, and decide whether it vouches for a motion.
 
 reason = doubt(Path("certificate.json"), motion)        # None: it is the motion's, and it passes
 """
@@ -12,25 +12,31 @@ from levade.errors import LevadeError
 from levade.motions import Motion
 
 CERTIFICATE, CERTIFICATE_PAGE = "certificate.json", "certificate.html"
-"""The files' usual names, beside the motion's."""
+"""Usual names of the files, next to the motion's."""
 
 
 JUDGED = (*("share", "numerics", "engines"), *("position", "speed", "torque", "torque_speed", "self_collision"))
-"""Demands that a certificate has to make to vouch for a motion."""
+"""Demands that a certificate has to make so that it vouches for a motion."""
 
 FEWEST = 100
-"""Perturbed runs that it has to have."""
+"""Least number of perturbed runs in such a certificate."""
 
 
 def certificate_beside(motion_file: Path, motion: Motion) -> dict[str, str] | None:
-    """The page of the certificate that lies beside a motion's file, and what it says of the motion.
+    """Find the certificate next to a motion's file.
 
-    None where there is no such page or certificate, or where it is another motion's.
+    Args:
+        motion_file: File of the motion.
+        motion: The motion.
+
+    Returns:
+        Name of its "page", and what it "says" about the motion; None if there is no page or certificate, or it belongs to
+        another motion.
     """
     record, page = motion_file.with_name(CERTIFICATE), motion_file.with_name(CERTIFICATE_PAGE)
     try:
         content = read_yaml(record) if record.is_file() and page.is_file() else None
-    except LevadeError:  # a broken file beside a motion is no reason not to show the motion
+    except LevadeError:  # a motion is shown even if the file next to it is damaged
         return None
     if not isinstance(content, dict) or content.get("checksum") != motion.checksum:
         return None
@@ -42,16 +48,23 @@ def certificate_beside(motion_file: Path, motion: Motion) -> dict[str, str] | No
 
 
 def doubt(path: Path, motion: Motion) -> str | None:
-    """Why a certificate's file does not vouch for a motion, in a few words; None if it does.
+    """Find out whether a certificate vouches for a motion.
+
+    Args:
+        path: File of the certificate.
+        motion: The motion.
+
+    Returns:
+        Why it does not vouch for the motion, in a few words; None if it does.
 
     Raises:
-        LevadeError: If there is no such file, or it is no certificate.
+        LevadeError: If there is no such file, or it is not a certificate.
     """
     content = read_yaml(path)
     if not isinstance(content, dict) or not isinstance(content.get("passed"), bool):
-        raise LevadeError(f"{path}: is no certificate; levade check writes one")
+        raise LevadeError(f"{path}: is not a certificate; levade check writes one")
     if content.get("checksum") != motion.checksum:
-        return "it is of another motion"
+        return "it belongs to another motion"
     if content.get("interrupted"):
         return "its check was interrupted"
     if not content["passed"]:
@@ -64,5 +77,5 @@ def doubt(path: Path, motion: Motion) -> str | None:
         return f"it does not judge {', '.join(left_out)}"
     runs = content.get("perturbed", {}).get("runs", 0)
     if runs < FEWEST:
-        return f"it has {runs} perturbed runs, and {FEWEST} are the least that say much"
+        return f"it has {runs} perturbed runs, but at least {FEWEST} are needed"
     return None

@@ -1,4 +1,4 @@
-"""How sure a share of successes is, and what moves with what."""
+"""Confidence intervals of a share of successes, and rank correlations."""
 
 from __future__ import annotations
 
@@ -9,26 +9,40 @@ import numpy as np
 from levade.arrays import Array
 
 Z = 1.959963984540054
-"""Standard deviations of the normal distribution that hold 95 % of it."""
+"""Standard deviations around the mean of a normal distribution that contain 95 % of it."""
 
 
 def wilson(successes: int, runs: int) -> tuple[float, float]:
-    """Lowest and highest true share that fit the count, at 95 % confidence.
+    """Compute the lowest and highest true share that fit a count, at 95 % confidence.
 
     E. B. Wilson, Probable inference, the law of succession, and statistical inference, JASA 22 (1927).
+
+    Args:
+        successes: Number of successes.
+        runs: Number of runs.
+
+    Returns:
+        Lower and upper end of the interval, 0 to 1.
     """
     if runs == 0:
         return 0.0, 1.0
     share, square = successes / runs, Z * Z / runs
     middle = (share + square / 2) / (1 + square)
     half = Z * math.sqrt(share * (1 - share) / runs + square / (4 * runs)) / (1 + square)
-    # at the ends the root is exact in theory: no confidence is lost to rounding there
+    # with no success or no failure the bound is exact in theory, so rounding may not move it
     low = 0.0 if successes == 0 else max(0.0, middle - half)
     return low, 1.0 if successes == runs else min(1.0, middle + half)
 
 
 def ranks(values: Array) -> Array:
-    """(n, ...) ranks along the first axis, 0 for the smallest; equal values share the mean of theirs."""
+    """Rank values along the first axis; equal values share the mean of their ranks.
+
+    Args:
+        values: Values, shape (n, ...).
+
+    Returns:
+        Ranks, 0 for the smallest, of the same shape.
+    """
     flat = values.reshape(len(values), -1)
     ranked = np.empty(flat.shape)
     for column in range(flat.shape[1]):
@@ -39,7 +53,15 @@ def ranks(values: Array) -> Array:
 
 
 def rank_correlation(values: Array, outcome: Array) -> Array:
-    """Spearman's coefficient of each column of (n, m) with (n,); 0 where either does not change."""
+    """Compute Spearman's rank correlation of each column with an outcome.
+
+    Args:
+        values: Values, shape (n, m).
+        outcome: Outcome, shape (n,).
+
+    Returns:
+        Coefficients, shape (m,); 0 for a column that does not change, or if the outcome does not.
+    """
     one, other = ranks(values), ranks(outcome)
     one, other = one - one.mean(axis=0), other - other.mean()
     scale = np.sqrt((one**2).sum(axis=0) * (other**2).sum())

@@ -1,4 +1,4 @@
-"""Pass, fail or unknown."""
+"""Verdicts of a check: pass, fail or unknown."""
 
 from __future__ import annotations
 
@@ -7,10 +7,15 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Verdict:
-    """One criterion.
+    """Verdict on one demand.
 
-    passed: None if it is not judged, and then reason says why. unknown: whether it would be judged if the robot's limit were
-    known, and not just assumed. value, required: with their unit.
+    Attributes:
+        name: Name of the demand.
+        passed: Whether it is met; None if it is not judged.
+        value: Measured value, with its unit.
+        required: Demanded value, with its unit.
+        reason: Why it is not judged.
+        unknown: Whether it is not judged because the robot's limit is not known, or only assumed.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""Policies: a few weights in, smooth joint references out (eq. 3-4 of the paper). numpy only.
+"""Policies turn a few weights into smooth joint references (eq. 3-4 of the paper), with numpy only.
 
 kernels = GaussianKernels(kernels=16, variance=0.01)
 front = Group(leader=(0, 1, 2), followers=(Follower(joints=(3, 4, 5), signs=(1, 1, 1)),))

@@ -1,4 +1,4 @@
-"""A policy of which the duration, the final posture, or both are decisions of each trial, next to its weights.
+"""A policy whose duration, final posture, or both are decisions of each trial, next to its weights.
 
     free = FreePolicy(policy, horizon=(0.3, 1.5))
     reference = free.reference(decisions)               # each trial has its own horizon
@@ -10,7 +10,7 @@ The decisions of a trial are, one after another:
 - ``log(T / T0)``, with T0 the policy's own horizon, if the duration is free;
 - the angles in which the free joints settle [rad], if the final posture is (`FreeGoal`).
 
-What is beyond a bound counts as the bound. Kernels and blends stay spread over [0, T].
+A decision beyond a bound counts as the bound. Kernels and blends stay spread over [0, T].
 """
 
 from __future__ import annotations
@@ -27,15 +27,15 @@ from levade.policies.policy import Policy
 from levade.trajectory import JointReference
 
 _KEPT = 64
-"""Policies of different durations that are kept: each has a basis of its own."""
+"""Number of policies of different durations that are kept: each has a basis of its own."""
 
 
 @dataclass(frozen=True, eq=False)
 class FreeGoal:
-    """Joints of which the search finds the final angle: those of leaders, which their followers mirror.
+    """Joints whose final angle the search finds: joints of leaders, which the followers mirror.
 
     Attributes:
-        joints: Which of the policy's independent joints, shape (k,).
+        joints: Indices of the policy's independent joints, shape (k,).
         lower: Least angle of each [rad], shape (k,).
         upper: Largest angle of each [rad], shape (k,).
 
@@ -49,17 +49,20 @@ class FreeGoal:
 
     def __post_init__(self) -> None:
         if not (np.isfinite(self.lower).all() and np.isfinite(self.upper).all() and (self.lower <= self.upper).all()):
-            raise LevadeError(f"goal: bounds {self.lower.tolist()} to {self.upper.tolist()} rad make no range")
+            raise LevadeError(
+                f"goal: bounds {self.lower.tolist()} to {self.upper.tolist()} rad make no range; give finite bounds, the"
+                " lower one first"
+            )
 
 
 @dataclass(frozen=True, eq=False)
 class FreePolicy:
-    """A policy of which each trial has a duration or a final posture of its own.
+    """A policy in which each trial has a duration or a final posture of its own.
 
     Attributes:
-        policy: The policy with the duration and final posture where a search begins.
+        policy: Policy with the duration and final posture with which a search begins.
         horizon: Least and largest T [s]; None if it is the policy's own.
-        goal: Joints whose final angle is free; None if the policy's ``ends`` say where all settle.
+        goal: Joints whose final angle is free; None if all settle where the policy's ``ends`` say.
 
     Raises:
         LevadeError: If nothing is free, the bounds do not enclose the policy's own horizon, or the goal is free and nothing
@@ -73,23 +76,23 @@ class FreePolicy:
 
     def __post_init__(self) -> None:
         if self.horizon is None and self.goal is None:
-            raise LevadeError("free policy: neither the horizon nor the goal is free; a Policy does")
+            raise LevadeError("free policy: neither the horizon nor the goal is free; use a Policy")
         if self.horizon is not None and not 0 < self.horizon[0] <= self.policy.horizon <= self.horizon[1] < math.inf:
             raise LevadeError(
                 f"horizon: {self.horizon[0]} to {self.horizon[1]} s should be positive bounds around the policy's own,"
                 f" {self.policy.horizon} s"
             )
         if self.goal is not None and (self.policy.ends is None or self.policy.ends.settle == 0):
-            raise LevadeError("goal: it is free, but no reference settles there; give settle a share of the horizon")
+            raise LevadeError("goal: is free, but no reference settles there; set settle to a share of the horizon")
 
     @property
     def size(self) -> int:
-        """d, the number of decisions of one trial."""
+        """Number of decisions of one trial, d."""
         return self.policy.size + (self.horizon is not None) + (0 if self.goal is None else len(self.goal.joints))
 
     @property
     def joints(self) -> int:
-        """Joints of the robot."""
+        """Number of the robot's joints."""
         return self.policy.joints
 
     @property
@@ -110,7 +113,14 @@ class FreePolicy:
         return self.bounds[1]
 
     def lengths(self, decisions: Array) -> NDArray[np.intp]:
-        """Rows up to the horizon of each trial, shape (n,)."""
+        """Find the horizon of each trial.
+
+        Args:
+            decisions: Decisions, shape (n, size).
+
+        Returns:
+            Rows up to the horizon, shape (n,).
+        """
         if self.horizon is None:
             return np.full(len(decisions), self.horizon_steps, dtype=np.intp)
         least, largest = (math.log(bound / self.policy.horizon) for bound in self.horizon)
@@ -118,13 +128,30 @@ class FreePolicy:
         return np.clip(np.rint(self.policy.horizon * ratio / self.timestep), *self.bounds).astype(np.intp)
 
     def goals(self, decisions: Array) -> Array:
-        """Postures in which the trials settle [rad], shape (n, joints)."""
+        """Find the posture in which each trial settles.
+
+        Args:
+            decisions: Decisions, shape (n, size).
+
+        Returns:
+            Joint angles [rad], shape (n, joints).
+        """
         ends = self.policy.ends
         assert ends is not None
         return ends.goal + self._moved(decisions)
 
     def chosen(self, decision: Array) -> tuple[Policy, Array]:
-        """The policy of one decision, shape (size,), as it decides; and the weights, shape (policy.size,)."""
+        """Make the policy that one trial decides on.
+
+        Args:
+            decision: Decisions of one trial, shape (size,).
+
+        Returns:
+            A policy with this duration and final posture, and its weights [rad], shape (policy.size,).
+
+        Raises:
+            LevadeError: If the decisions have another shape or are not finite.
+        """
         checked = self._checked(np.asarray(decision)[None])
         policy = self._at(int(self.lengths(checked)[0]))
         if self.goal is not None and policy.ends is not None:
@@ -132,15 +159,15 @@ class FreePolicy:
         return policy, checked[0, : policy.size].copy()
 
     def decision(self, weights: Array, *, steps: int | None = None, goal: Array | None = None) -> Array:
-        """Decisions of weights with a duration and a final posture.
+        """Join weights, a duration and a final posture into decisions.
 
         Args:
-            weights: Shape (n, policy.size).
+            weights: Policy weights [rad], shape (n, policy.size).
             steps: Rows up to the horizon. Defaults to the policy's own.
             goal: Final posture [rad], shape (joints,). Defaults to the policy's own.
 
         Returns:
-            Shape (n, size).
+            Decisions, shape (n, size).
         """
         parts = [weights]
         if self.horizon is not None:
@@ -152,13 +179,13 @@ class FreePolicy:
         return np.concatenate(parts, axis=1)
 
     def imitate(self, position: Array) -> Array:
-        """Decisions whose reference is nearest to a given joint motion.
+        """Find the decisions whose reference is nearest to a given joint motion.
 
         Args:
-            position: Joint angles at the end of each step [rad], shape (steps, joints), as many as `bounds` allow.
+            position: Joint angles at the end of each step [rad], shape (steps, joints); the steps are within `bounds`.
 
         Returns:
-            Shape (1, size).
+            Decisions, shape (1, size).
         """
         goal = position[-1] if self.goal is not None else None
         near = self.decision(np.zeros((1, self.policy.size)), steps=len(position), goal=goal)
@@ -166,13 +193,20 @@ class FreePolicy:
         return near
 
     def initial_weights(self, posture: ArrayLike) -> Array:
-        """Decisions that keep a posture through the initial duration."""
+        """Find the decisions that keep a posture for the initial duration.
+
+        Args:
+            posture: Joint angles [rad], shape (joints,).
+
+        Returns:
+            Decisions, shape (size,).
+        """
         return self.decision(self.policy.hold(posture)[None])[0]
 
     def reference(self, weights: Array, *, hold_steps: int | None = None) -> JointReference:
         """Evaluate eq. 3 for trials of different durations and final postures.
 
-        A trial has the same bits as `Policy.reference` gives it at its duration, where the final posture is not free.
+        If the final posture is not free, a trial has the same bits as those of `Policy.reference` at its duration.
 
         Args:
             weights: Decisions, shape (n, size).
@@ -193,7 +227,7 @@ class FreePolicy:
         for steps in np.unique(lengths):
             trials = np.flatnonzero(lengths == steps)
             policy = self._at(int(steps))
-            # what moves the end is added before references are held back
+            # the shift of the end is added before the references are bounded
             plain = policy if moved is None or not policy.bounded else replace(policy, within=None, slew=None)
             one = plain.reference(decisions[trials, : policy.size], hold_steps=hold)
             position[trials, : one.steps], velocity[trials, : one.steps] = one.position, one.velocity
@@ -221,7 +255,7 @@ class FreePolicy:
         return self._made[steps]
 
     def _moved(self, decisions: Array) -> Array:
-        """How far each trial's final posture is from the policy's own [rad], shape (n, joints)."""
+        """Find the distance of each trial's final posture from the policy's own [rad], shape (n, joints)."""
         goal, ends = self.goal, self.policy.ends
         assert goal is not None
         assert ends is not None
@@ -235,10 +269,10 @@ class FreePolicy:
         decisions = np.asarray(decisions, dtype=np.float64)
         if decisions.ndim != 2 or decisions.shape[1] != self.size:
             raise LevadeError(
-                f"weights: expected (n, {self.size}), {self.policy.size} weights and what else is free, got"
+                f"weights: expected (n, {self.size}), {self.policy.size} weights and the other decisions, got"
                 f" {decisions.shape}"
             )
         if not np.isfinite(decisions).all():
             bad = np.flatnonzero(~np.isfinite(decisions).all(axis=1)).tolist()
-            raise LevadeError(f"weights: trials {bad} are not finite")
+            raise LevadeError(f"weights: trials {bad} are not finite; give finite numbers")
         return decisions

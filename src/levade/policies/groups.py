@@ -1,4 +1,4 @@
-"""Which joints share a policy: "the same policy for the front and hind leg pairs" (the paper's rearing), as data."""
+"""Groups of joints that share a policy, as "the same policy for the front and hind leg pairs" of the paper's rearing."""
 
 from __future__ import annotations
 
@@ -16,8 +16,9 @@ from levade.errors import LevadeError
 class Follower:
     """A leg that copies the leader of its group.
 
-    joints: indices in the robot's joint order, in the order of the leader's joints.
-    signs: +1 or -1 per joint: angle of the follower = sign * angle of the leader.
+    Attributes:
+        joints: Indices in the robot's joint order, one for each of the leader's joints.
+        signs: +1 or -1 for each joint: angle of the follower = sign * angle of the leader.
     """
 
     joints: tuple[int, ...]
@@ -26,9 +27,11 @@ class Follower:
 
 @dataclass(frozen=True)
 class Group:
-    """Legs that move as one: the leader's joints have kernels and weights of their own, the followers' are mirrored.
+    """Legs that move together: the leader's joints have kernels and weights of their own, and the followers mirror them.
 
-    leader: joint indices in the robot's joint order.
+    Attributes:
+        leader: Joint indices in the robot's joint order.
+        followers: Legs that copy the leader.
     """
 
     leader: tuple[int, ...]
@@ -36,15 +39,28 @@ class Group:
 
 
 def independent_joints(joints: int) -> tuple[Group, ...]:
-    """Every joint on its own (the paper's posture recovery), in the robot's joint order."""
+    """Give every joint a policy of its own, as in the paper's posture recovery.
+
+    Args:
+        joints: Number of joints.
+
+    Returns:
+        One group of all joints, in the robot's joint order.
+    """
     return (Group(leader=tuple(range(joints))),)
 
 
 def expansion(groups: Sequence[Group]) -> tuple[NDArray[np.intp], Array]:
-    """How the independent joints spread over all joints: ``all = sign * independent[index]``.
+    """Find how the independent joints spread over all joints: ``all = sign * independent[index]``.
 
-    Independent joints are numbered group by group, in the order of each leader's joints.
-    Returns index (joints,) and sign (joints,). Raises LevadeError unless every joint belongs to exactly one leg.
+    Args:
+        groups: Groups of joints. Independent joints are numbered group by group, in the order of each leader's joints.
+
+    Returns:
+        Index and sign, shape (joints,) each.
+
+    Raises:
+        LevadeError: If a joint does not belong to exactly one leg, or a sign is not 1 or -1.
     """
     owner: dict[int, tuple[int, float]] = {}
     first = 0
@@ -53,18 +69,18 @@ def expansion(groups: Sequence[Group]) -> tuple[NDArray[np.intp], Array]:
         for leg, signs in legs:
             if not len(leg) == len(signs) == len(group.leader):
                 raise LevadeError(
-                    f"group {number}: a leg has {len(leg)} joints and {len(signs)} signs, its leader"
+                    f"group {number}: a leg has {len(leg)} joints and {len(signs)} signs, but its leader has"
                     f" {len(group.leader)} joints; give one joint and one sign for each of the leader's"
                 )
             for offset, (joint, sign) in enumerate(zip(leg, signs, strict=True)):
                 if sign not in (1, -1):
-                    raise LevadeError(f"group {number}: the sign of joint {joint} is {sign}; mirror signs are 1 or -1")
+                    raise LevadeError(f"group {number}: the sign of joint {joint} is {sign}; give 1 or -1")
                 if joint in owner:
-                    raise LevadeError(f"group {number}: joint {joint} is already in a group; each joint goes in one")
+                    raise LevadeError(f"group {number}: joint {joint} is already in a group; put each joint in one")
                 owner[joint] = (first + offset, float(sign))
         first += len(group.leader)
     if not owner or sorted(owner) != list(range(len(owner))):
         missing = sorted(set(range(max(owner, default=0) + 1)) - set(owner))
-        raise LevadeError(f"groups: joints {missing} are in no group; the groups together cover every joint, from 0 on")
+        raise LevadeError(f"groups: joints {missing} are in no group; put every joint in one, from 0 on")
     index = np.array([owner[joint][0] for joint in range(len(owner))], dtype=np.intp)
     return index, np.array([owner[joint][1] for joint in range(len(owner))])

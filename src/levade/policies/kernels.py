@@ -2,10 +2,10 @@
 
     f(t) = sum_i w_i phi_i(t) / sum_i phi_i(t),        phi_i(t) = exp(-(t - mu_i)^2 / (2 sigma^2))
 
-The paper prints eq. 4 without the square on (t - mu_i); its Fig. 1 shows the Gaussian, which is what is meant and what
-is used here. Its sigma^2 = 0.01 carries no unit: `GaussianKernels.time` says whether time is in seconds or normalised
-to [0, 1] over the horizon. With M = 16 kernels the two agree at T = 1 s; at the printed T = 0.3 s, sigma = 0.1 s would
-be five times the spacing of the means, so that neighbouring kernels are all but the same.
+The paper prints eq. 4 without the square on (t - mu_i), but its Fig. 1 shows the Gaussian, which is used here. Its
+sigma^2 = 0.01 has no unit: `GaussianKernels.time` says whether time is in seconds or normalised to [0, 1] over the horizon.
+With M = 16 kernels the two agree at T = 1 s. At the printed T = 0.3 s, sigma = 0.1 s would be five times the spacing of the
+means, so neighbouring kernels would be almost the same.
 """
 
 from __future__ import annotations
@@ -22,11 +22,15 @@ from levade.errors import LevadeError
 
 @dataclass(frozen=True)
 class GaussianKernels:
-    """How the kernels lie: the paper's M, sigma^2, and the time that sigma^2 is measured in.
+    """Number and width of the kernels: the paper's M and sigma^2.
 
-    kernels: M, number of kernels; their means mu_i are evenly spaced over 0..T, both ends included.
-    variance: sigma^2, in s^2 where ``time`` is "seconds", else in units of T^2.
-    time: "normalised" or "seconds".
+    Attributes:
+        kernels: M, number of kernels; their means mu_i are evenly spaced over 0..T, both ends included.
+        variance: sigma^2, in s^2 if ``time`` is "seconds", else in units of T^2.
+        time: Time that sigma^2 is measured in: "normalised" to the horizon, or "seconds".
+
+    Raises:
+        LevadeError: If a value is out of range.
     """
 
     kernels: int = 16
@@ -35,24 +39,30 @@ class GaussianKernels:
 
     def __post_init__(self) -> None:
         if self.kernels < 1:
-            raise LevadeError(f"kernels: {self.kernels} is not a number of kernels; at least 1, the paper has 16")
+            raise LevadeError(f"kernels: {self.kernels} should be at least 1; the paper has 16")
         if not (math.isfinite(self.variance) and 1e-12 <= self.variance <= 1e12):
-            raise LevadeError(f"variance: {self.variance} is out of range; between 1e-12 and 1e12, the paper has 0.01")
+            raise LevadeError(f"variance: {self.variance} should be between 1e-12 and 1e12; the paper has 0.01")
         if self.time not in ("normalised", "seconds"):
-            raise LevadeError(f"time: {self.time!r} is unknown; normalised or seconds")
+            raise LevadeError(f"time: {self.time!r} is unknown; give normalised or seconds")
 
     @property
     def means(self) -> Array:
-        """(kernels,) mu_i [-], in time normalised to [0, 1] over the horizon."""
+        """Means mu_i [-], in time normalised to [0, 1] over the horizon, shape (kernels,)."""
         return np.linspace(0.0, 1.0, self.kernels)
 
     def basis(self, time: Array, horizon: float) -> tuple[Array, Array]:
-        """What each kernel contributes at each time, and its rate of change.
+        """Evaluate the share Phi of each kernel at each time, and its rate of change.
 
-        time: (rows,) [s], in [0, horizon]. horizon: T [s].
-        Returns Phi (rows, kernels) [-], each row non-negative and summing to one, so that ``Phi @ w`` is eq. 3, and its
-        exact time derivative (rows, kernels) [1/s]. However narrow the kernels, the nearest one to a row has weight at
-        least 1/kernels: there is no 0/0 between the means.
+        However narrow the kernels, the one nearest to a row has a share of at least 1/kernels: there is no 0/0 between the
+        means.
+
+        Args:
+            time: Times in [0, horizon] [s], shape (rows,).
+            horizon: T [s].
+
+        Returns:
+            Phi [-], shape (rows, kernels), each row non-negative with a sum of one, so that ``Phi @ w`` is eq. 3; and its
+            exact time derivative [1/s], of the same shape.
         """
         means = self.means
         variance = self.variance if self.time == "normalised" else self.variance / horizon**2
@@ -62,6 +72,6 @@ class GaussianKernels:
         exponent = (means - nearest) * (2.0 * t - means - nearest) / (2.0 * variance)
         phi = np.exp(np.minimum(exponent, 0.0))
         phi /= phi.sum(axis=1, keepdims=True)
-        # d/dt log(phi_i) up to what is common to all kernels, which the normalisation takes out again
+        # d/dt log(phi_i) up to a part common to all kernels, which the normalisation removes again
         slope = (means - nearest) / (variance * horizon)
         return phi, phi * (slope - (phi * slope).sum(axis=1, keepdims=True))

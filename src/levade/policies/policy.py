@@ -1,8 +1,8 @@
-"""From weights to joint references (eq. 3), and back: weights that hold a posture, move between two, or copy a motion.
+"""Turn weights into joint references (eq. 3), and find weights that hold a posture, move between two, or copy a motion.
 
-Rows follow `levade.trajectory`: row k is the reference in force during step k, taken at ``(k + 1) * timestep``, the
-end of that step, so that the last row of the motion proper is the policy at the horizon T itself. In the hold the
-reference stays at its value at T and its velocity is zero.
+Rows follow `levade.trajectory`: row k is the reference in force during step k. It is evaluated at ``(k + 1) * timestep``, the
+end of that step, so the last row up to the horizon is the policy at T itself. In the hold the reference stays at its value at
+T, and its velocity is zero.
 """
 
 from __future__ import annotations
@@ -23,31 +23,38 @@ from levade.policies.kernels import GaussianKernels
 from levade.policies.slew import Slew
 from levade.trajectory import JointReference
 
-# Singular values of the basis below this share of the largest are left out of a fit: with kernels that overlap almost
-# entirely they ask for huge weights of opposite sign to follow details that no kernel can show.
+# A fit leaves out singular values of the basis below this share of the largest. With kernels that overlap almost entirely,
+# they would require huge weights of opposite sign, to follow details that no kernel can represent.
 FIT_CUTOFF = 1e-4
 LINE_CUTOFF = 1e-2
 
 
 _HEARD = 0.05
-"""Share of the kernels' reference in a blended row below which that row says nothing about the weights."""
+"""Rows of a blended reference with a smaller share of the kernels' reference say nothing about the weights."""
 
 
 @dataclass(frozen=True)
 class Policy:
-    """One kernel policy per independent joint, spread over the joints of the robot by the groups.
+    """One kernel policy for each independent joint, which the groups spread over the joints of the robot.
 
-    Weights are (n, size): per trial, independent joint by independent joint (`independent_joints` of them, group by
-    group in the order of each leader's joints), the ``kernels.kernels`` weights of that joint. A weight is a desired
-    angle of the leader's joint [rad], the paper's w_i.
+    Weights have shape (n, size). For each trial they are the ``kernels.kernels`` weights of the first independent joint, then
+    those of the next; independent joints are numbered group by group, in the order of each leader's joints. A weight is a
+    desired angle of the leader's joint [rad], the paper's w_i.
 
-    horizon: T [s], rounded to a whole number of steps (at least one). timestep: [s]. hold_steps: rows after T.
-    ends: where every reference comes from and goes to; None leaves that to the weights.
-    within: lower and upper ends [rad] of each joint, between which every reference stays, at rest where it would go beyond;
-        infinite where a joint has none. None lets references go anywhere.
-    slew: how fast references may be. None lets them be as fast as the weights say. One that starts beyond the ends of
-        `within` is back between them as soon as this lets it; so are followers that start elsewhere than their leaders.
-    Raises LevadeError if the groups do not cover every joint once, or a duration is not positive.
+    Attributes:
+        kernels: The kernels, the same for every joint.
+        groups: Groups of joints that share weights.
+        horizon: T [s], rounded to a whole number of steps, at least one.
+        timestep: Time step [s].
+        hold_steps: Rows after T.
+        ends: Postures in which every reference starts and ends. None leaves them to the weights.
+        within: Lower and upper bound of each joint [rad], infinite for a joint without one. A reference that would go beyond
+            a bound rests there. None sets no bounds.
+        slew: Bounds on the speed of references; None sets none. A reference that starts beyond the bounds of ``within``
+            returns as fast as ``slew`` allows, and so does a follower that starts elsewhere than its leader.
+
+    Raises:
+        LevadeError: If the groups do not cover every joint once, or a duration is not positive.
     """
 
     kernels: GaussianKernels
@@ -64,26 +71,27 @@ class Policy:
             if not (math.isfinite(value) and value > 0):
                 raise LevadeError(f"{name}: {value} s is not a duration; give a positive number of seconds")
         if self.hold_steps < 0:
-            raise LevadeError(f"hold_steps: {self.hold_steps} is negative; 0 for no hold")
+            raise LevadeError(f"hold_steps: {self.hold_steps} is negative; give 0 for no hold")
         expansion(self.groups)
 
     @property
     def horizon_steps(self) -> int:
+        """Rows up to the horizon."""
         return max(1, round(self.horizon / self.timestep))
 
     @property
     def joints(self) -> int:
-        """Joints of the robot."""
+        """Number of the robot's joints."""
         return len(self._expansion[0])
 
     @property
     def independent_joints(self) -> int:
-        """Joints that have weights of their own."""
+        """Number of joints that have weights of their own."""
         return sum(len(group.leader) for group in self.groups)
 
     @property
     def size(self) -> int:
-        """d, the number of weights of one trial."""
+        """Number of weights of one trial, d."""
         return self.independent_joints * self.kernels.kernels
 
     @cached_property
@@ -94,11 +102,11 @@ class Policy:
 
     @cached_property
     def _blend(self) -> tuple[Array, Array, Array, Array] | None:
-        """What `Ends.blend` says at the end of each step up to the horizon, its rates by time [1/s] and [rad/s]."""
+        """`Ends.blend` at the end of each step up to the horizon, with rates by time [1/s] and [rad/s]."""
         return self._blend_at(np.arange(1, self.horizon_steps + 1) / self.horizon_steps)
 
     def _blend_at(self, share: Array) -> tuple[Array, Array, Array, Array] | None:
-        """The same at shares (rows,) of the horizon."""
+        """Evaluate `Ends.blend` at shares (rows,) of the horizon, with rates by time [1/s] and [rad/s]."""
         if self.ends is None:
             return None
         factor, added, factor_rate, added_rate = self.ends.blend(share)
@@ -111,17 +119,24 @@ class Policy:
 
     @cached_property
     def _leaders(self) -> NDArray[np.intp]:
-        """(independent_joints,) the robot's joint behind each."""
+        """Joint of the robot that each independent joint is, shape (independent_joints,)."""
         return np.array([joint for group in self.groups for joint in group.leader], dtype=np.intp)
 
     def reference(self, weights: Array, *, hold_steps: int | None = None) -> JointReference:
-        """What the weights ask of the joints (eq. 3).
+        """Evaluate eq. 3: joint references from policy weights.
 
-        weights: (n, size) [rad]. hold_steps: rows after the horizon, those of the policy unless given.
-        Returns position [rad] and velocity [rad/s], (n, horizon_steps + hold_steps, joints), C-contiguous.
-        A trial's bits depend on its own weights alone, not on the batch it is in; equal weights of a joint give exactly
-        that angle and exactly zero velocity; followers mirror their leader exactly.
-        Raises LevadeError if the weights have another shape or are not finite.
+        A trial's bits depend on its own weights alone, not on the batch. Equal weights of a joint give exactly that angle and
+        exactly zero velocity. Followers mirror their leader exactly.
+
+        Args:
+            weights: Policy weights [rad], shape (n, size).
+            hold_steps: Rows after the horizon. Defaults to the policy's own.
+
+        Returns:
+            Position [rad] and velocity [rad/s], shape (n, horizon_steps + hold_steps, joints), C-contiguous.
+
+        Raises:
+            LevadeError: If the weights have another shape or are not finite.
         """
         weights = self._checked(weights)
         n, rows = weights.shape[0], self.horizon_steps
@@ -135,15 +150,15 @@ class Policy:
         return JointReference(position, velocity, self.timestep, rows)
 
     def at(self, weights: Array, time: Array) -> tuple[Array, Array]:
-        """Evaluate eq. 3 at any instants; with `slew`, straight between the rows of `reference`.
+        """Evaluate eq. 3 at any instants; with ``slew``, interpolate linearly between the rows of `reference`.
 
         Args:
             weights: Policy weights [rad], shape (n, size).
             time: Instants [s], shape (rows,), from 0 to the horizon T.
 
         Returns:
-            Position [rad] and velocity [rad/s], shape (n, rows, joints); at the end of a step those of `reference`, up to
-            rounding.
+            Position [rad] and velocity [rad/s], shape (n, rows, joints). At the end of a step they equal those of
+            `reference`, up to rounding.
 
         Raises:
             LevadeError: If the weights have another shape or are not finite.
@@ -159,7 +174,7 @@ class Policy:
         return position, velocity
 
     def _between_rows(self, slew: Slew, weights: Array, time: Array) -> tuple[Array, Array]:
-        """As `at`, where the speed is bounded: straight between the rows of `reference`, from what joints were told last."""
+        """Interpolate linearly between the rows of `reference`, beginning at the last commanded angles: `at`, with ``slew``."""
         rows = self.reference(weights, hold_steps=0)
         n, joints = len(weights), self.joints
         position = np.concatenate([np.broadcast_to(np.array(slew.start), (n, 1, joints)), rows.position], axis=1)
@@ -188,7 +203,7 @@ class Policy:
         np.matmul(basis[0], deviation, out=position)
         position += start[:, None, index]
         np.matmul(basis[1], deviation, out=velocity)
-        # two columns of one product may differ in the last bit even where their weights agree, so followers are copied
+        # two columns of one product may differ in the last bit even if their weights agree, so followers are copied
         for joint, leader in enumerate(self._leaders[index]):
             if joint != leader:
                 np.multiply(position[:, :, leader], sign[joint], out=position[:, :, joint])
@@ -202,11 +217,11 @@ class Policy:
             position += added
 
     def bound(self, position: Array, velocity: Array) -> None:
-        """Put references back between the ends of `within`, at rest where they were beyond, and slow them to `slew`.
+        """Clip references to the bounds of ``within``, at rest where they were beyond, and slow them down to ``slew``.
 
         Args:
-            position: At the end of each step up to the horizon [rad], shape (n, rows, joints); written to.
-            velocity: [rad/s], of the same shape; written to.
+            position: References at the end of each step up to the horizon [rad], shape (n, rows, joints); written to.
+            velocity: Their rates [rad/s], of the same shape; written to.
         """
         if self._ends_of_ranges is not None:
             lower, upper = self._ends_of_ranges
@@ -217,7 +232,7 @@ class Policy:
 
     @property
     def bounded(self) -> bool:
-        """Whether references are held back at all."""
+        """Whether ``within`` or ``slew`` bounds the references."""
         return self.within is not None or self.slew is not None
 
     @cached_property
@@ -225,27 +240,49 @@ class Policy:
         return None if self.within is None else np.array(self.within)
 
     def initial_weights(self, posture: ArrayLike) -> Array:
-        """Weights that keep a posture: see `hold`."""
+        """Find the weights that keep a posture: see `hold`.
+
+        Args:
+            posture: Joint angles [rad], shape (joints,).
+
+        Returns:
+            Policy weights [rad], shape (size,).
+        """
         return self.hold(posture)
 
     def hold(self, posture: ArrayLike) -> Array:
-        """Weights that keep a posture (the paper's start for rearing).
+        """Find the weights that keep a posture, the paper's start for rearing.
 
-        posture: (joints,) [rad]. Returns (size,) [rad]. Where legs share a policy the posture need not be mirrored:
-        each independent joint takes the mean of the leader's angle and its followers', mirrored back.
+        Args:
+            posture: Joint angles [rad], shape (joints,). Legs that share a policy need not mirror each other: each
+                independent joint takes the mean of the leader's angle and its followers' mirrored ones.
+
+        Returns:
+            Policy weights [rad], shape (size,).
+
+        Raises:
+            LevadeError: If the posture has another shape or is not finite.
         """
         return np.repeat(self.project(self._posture(posture)), self.kernels.kernels)
 
     def interpolate(self, start: ArrayLike, goal: ArrayLike, *, through: Sequence[ArrayLike] = ()) -> Array:
-        """Weights of the straight line from one posture to another (the paper's start for posture recovery).
+        """Find the weights of a straight line from one posture to another, the paper's start for posture recovery.
 
-        through: postures on the way, at equal distances in time; with them the line is straight from each to the next.
+        With 16 kernels of variance 0.01, normalised, the reference strays from the line by less than 0.5 % of the way, and
+        the outermost weights overshoot it by a sixth of the way. Wider kernels overshoot more: by the whole way for 0.01 s^2
+        at T = 0.3 s.
 
-        start, goal: (joints,) [rad], at t = 0 and t = T, taken onto the groups as `hold` does.
-        Returns (size,) [rad]: a least-squares fit to the line over the steps that keeps the weights near it too, see
-        `fit`. With 16 kernels of variance 0.01, normalised, the reference strays from the line by less than 0.5 %
-        of the way, and the outermost weights overshoot it by a sixth of the way. Wider kernels overshoot more: by
-        the whole way for 0.01 s^2 at T = 0.3 s.
+        Args:
+            start: Joint angles at t = 0 [rad], shape (joints,), projected onto the groups as `hold` does.
+            goal: Joint angles at t = T [rad], shape (joints,), projected in the same way.
+            through: Postures on the way [rad], at equal distances in time. The line is straight from each to the next.
+
+        Returns:
+            Policy weights [rad], shape (size,): a least-squares fit to the line that also keeps the weights near it, see
+            `fit`.
+
+        Raises:
+            LevadeError: If a posture has another shape or is not finite.
         """
         first, last = self._posture(start), self._posture(goal)
         share = np.arange(1, self.horizon_steps + 1) / self.horizon_steps
@@ -257,12 +294,21 @@ class Policy:
         return self.fit(line[None], cutoff=LINE_CUTOFF)[0]
 
     def fit(self, position: Array, *, cutoff: float = FIT_CUTOFF) -> Array:
-        """Weights whose reference is nearest to given joint motions, in the least-squares sense over the steps.
+        """Find the weights whose reference is nearest to given joint motions, by least squares over the steps.
 
-        position: (n, horizon_steps, joints) [rad], rows at the end of each step. Returns (n, size) [rad].
-        cutoff: directions of the basis weaker than this share of its strongest are not used; larger is tamer, less
-        exact. Of all weights that do about equally well, those nearest to the motion sampled at the kernel means are
-        returned: kernels that overlap widely would otherwise ask for weights far outside the motion.
+        Many weights fit about equally well if kernels overlap widely. The result is nearest to the motion sampled at the
+        kernel means; others may lie far outside the motion.
+
+        Args:
+            position: Joint angles at the end of each step [rad], shape (n, horizon_steps, joints).
+            cutoff: Directions of the basis weaker than this share of its strongest are not used. A larger value keeps the
+                weights nearer to the motion, and fits less exactly.
+
+        Returns:
+            Policy weights [rad], shape (n, size).
+
+        Raises:
+            LevadeError: If the motions have another shape.
         """
         position = np.asarray(position, dtype=np.float64)
         if position.ndim != 3 or position.shape[1:] != (self.horizon_steps, self.joints):
@@ -275,10 +321,10 @@ class Policy:
         return (sampled + missed @ np.linalg.pinv(self.basis[0], rcond=cutoff).T).reshape(len(position), self.size)
 
     def imitate(self, position: Array) -> Array:
-        """Weights whose reference, blended at its ends, is nearest to given joint motions.
+        """Find the weights whose reference, blended at its ends, is nearest to given joint motions.
 
-        As `fit` does for the kernels alone. Rows where the blend leaves little of the kernels' reference count little, and so
-        does what the given motions do there.
+        `fit` does the same for the kernels alone. Rows in which the blend leaves little of the kernels' reference count
+        little, whatever the given motions do there.
 
         Args:
             position: Joint angles at the end of each step up to the horizon [rad], shape (n, horizon_steps, joints).
@@ -300,7 +346,14 @@ class Policy:
         return (sampled + missed @ solve.T).reshape(len(position), self.size)
 
     def project(self, angles: Array) -> Array:
-        """(..., joints) angles [rad] to (..., independent_joints): each leader's angle and its followers', averaged."""
+        """Average each leader's angle with the mirrored ones of its followers.
+
+        Args:
+            angles: Joint angles [rad], shape (..., joints).
+
+        Returns:
+            Angles of the independent joints [rad], shape (..., independent_joints).
+        """
         index, sign = self._expansion
         mirrored = angles * sign
         leaders = [mirrored[..., index == i] for i in range(self.independent_joints)]
@@ -308,13 +361,27 @@ class Policy:
         return np.stack([a[..., 0] + (a - a[..., :1]).mean(axis=-1) for a in leaders], axis=-1)
 
     def following(self, independent: int) -> list[tuple[int, float]]:
-        """The joints of the robot that follow an independent joint, and the sign with which each does."""
+        """Find the joints of the robot that follow an independent joint.
+
+        Args:
+            independent: Index of the independent joint.
+
+        Returns:
+            Index and sign of each joint that follows it.
+        """
         index, sign = self._expansion
         leader = self._leaders[independent]
         return [(int(joint), float(sign[joint])) for joint in np.flatnonzero(index == independent) if joint != leader]
 
     def spread(self, angles: Array) -> Array:
-        """(..., independent_joints) angles [rad] to (..., joints): each leader's angle, which its followers mirror."""
+        """Spread the angles of independent joints over all joints: followers mirror their leaders.
+
+        Args:
+            angles: Angles of the independent joints [rad], shape (..., independent_joints).
+
+        Returns:
+            Joint angles [rad], shape (..., joints).
+        """
         index, sign = self._expansion
         return angles[..., index] * sign
 
@@ -338,14 +405,22 @@ class Policy:
 
 
 def refine(weights: Array, old: Policy, new: Policy) -> Array:
-    """Weights of another basis, as a rule with more kernels, that best reproduce the same references.
+    """Find weights of another policy, usually with more kernels, that best reproduce the same references.
 
-    weights: (n, old.size) [rad]. Returns (n, new.size) [rad]. The groups may differ too. See `Policy.fit`.
-    Raises LevadeError unless both policies have the same joints, horizon and timestep.
+    Args:
+        weights: Weights of the old policy [rad], shape (n, old.size).
+        old: The old policy.
+        new: The new policy. Its kernels and groups may differ.
+
+    Returns:
+        Weights of the new policy [rad], shape (n, new.size): see `Policy.fit`.
+
+    Raises:
+        LevadeError: If the policies differ in joints, horizon or time step.
     """
     if (old.joints, old.horizon_steps, old.timestep) != (new.joints, new.horizon_steps, new.timestep):
         raise LevadeError(
-            f"refine: {old.joints} joints, {old.horizon_steps} steps of {old.timestep} s to {new.joints} joints,"
-            f" {new.horizon_steps} steps of {new.timestep} s; both policies need the same"
+            f"refine: the old policy has {old.joints} joints and {old.horizon_steps} steps of {old.timestep} s, the new one"
+            f" {new.joints} joints and {new.horizon_steps} steps of {new.timestep} s; give both the same"
         )
     return new.fit(old.reference(weights, hold_steps=0).position)

@@ -1,4 +1,4 @@
-"""What a search needs of a policy: how to write one's own.
+"""The protocol of policies: what a policy of your own has to offer to a search.
 
     class Sine:
         size, joints, horizon_steps = 2, 12, 150
@@ -19,7 +19,7 @@ from levade.trajectory import JointReference
 
 @runtime_checkable
 class JointPolicy(Protocol):
-    """From weights to joint references. A trial's bits should depend on its own weights alone, not on the batch."""
+    """A function from weights to joint references. A trial's bits should depend on its own weights alone, not on the batch."""
 
     @property
     def size(self) -> int:
@@ -37,21 +37,21 @@ class JointPolicy(Protocol):
         ...
 
     def initial_weights(self, posture: Array) -> Array:
-        """Weights around which a search begins.
+        """Find the weights around which a search begins.
 
         Args:
-            posture: What the joints were commanded last [rad], shape (joints,).
+            posture: Last commanded posture [rad], shape (joints,).
 
         Returns:
-            Shape (size,).
+            Weights, shape (size,).
         """
         ...
 
     def reference(self, weights: Array, *, hold_steps: int | None = None) -> JointReference:
-        """What weights ask of the joints.
+        """Evaluate the joint references of weights.
 
         Args:
-            weights: Shape (n, size).
+            weights: Weights of n trials, shape (n, size).
             hold_steps: Rows after the horizon. Defaults to the task's hold.
 
         Returns:

@@ -1,13 +1,14 @@
-"""A bound on how fast references move: no drive follows one that is faster than its joint can be.
+"""A bound on the speed of references: no drive follows a reference that is faster than its joint.
 
     slew = Slew(speed=(12.0,), start=(0.3,))
     slew.limit(position, velocity, timestep=0.002)      # in place
 
-Of all curves that are never faster than L, (above + below) / 2 is nearest to a curve x(t), by its largest distance, with
+The curve (above + below) / 2 is nearest to a curve x(t), by its largest distance, among all curves that are never faster
+than L. Here
 
-    above(t) = max over s of x(s) - L |t - s|,      below(t) = min over s of x(s) + L |t - s|,
+    above(t) = max over s of x(s) - L |t - s|,      below(t) = min over s of x(s) + L |t - s|
 
-the least such curve above x and the largest below it. It begins early what x does too suddenly.
+are the least such curve above x and the largest one below it. Where x is too sudden, the curve begins earlier.
 """
 
 from __future__ import annotations
@@ -19,25 +20,25 @@ import numpy as np
 from levade.arrays import Array
 
 _ROUNDING = 1e-9
-"""[rad]: curves that differ by less are the same."""
+"""[rad]: curves that differ by less count as the same."""
 
 
 @dataclass(frozen=True)
 class Slew:
-    """The fastest that references may be.
+    """Bounds on the speed of references.
 
     Attributes:
-        speed: Of each joint [rad/s]; infinite for no bound.
-        start: What each joint was told last [rad]: where references come from.
+        speed: Largest speed of each joint [rad/s]; infinite for no bound.
+        start: Last commanded angle of each joint [rad], from which references start.
     """
 
     speed: tuple[float, ...]
     start: tuple[float, ...]
 
     def limit(self, position: Array, velocity: Array, timestep: float) -> None:
-        """Put the nearest references that keep to the speed in the place of those that do not.
+        """Replace references that are too fast by the nearest ones that keep to the speed.
 
-        They begin where the joints were told to be last, and end where those that they replace do, if the speed lets them.
+        The new references start at the last commanded angles, and end where the old ones do, if the speed allows it.
 
         Args:
             position: References at the end of each step up to the horizon [rad], shape (n, rows, joints); written to.
@@ -62,7 +63,7 @@ class Slew:
 
 
 def _above(x: Array, ramp: Array) -> Array:
-    """The least curve above x, shape (k, rows), that is never faster than the ramp."""
+    """Find the least curve above x, shape (k, rows), that is never faster than the ramp."""
     falling = np.maximum.accumulate(x + ramp, axis=1) - ramp
     rising = np.maximum.accumulate((x - ramp)[:, ::-1], axis=1)[:, ::-1] + ramp
     return np.maximum(falling, rising)

@@ -1,4 +1,4 @@
-"""A policy as plain tables, so that a file can hold it: kernels, groups of joints, ends and times.
+"""Write a policy as plain tables, which a file can hold, and read it again.
 
 content = policy_to_dict(policy)        # JSON
 policy = policy_from_dict(content)      # the same policy, to the bit
@@ -24,9 +24,12 @@ from levade.policies.slew import Slew
 def policy_to_dict(policy: Policy) -> dict[str, Any]:
     """Write a policy as plain tables.
 
+    Args:
+        policy: The policy.
+
     Returns:
-        Tables that JSON can hold. ``groups`` has joint indices and mirror signs, ``ends`` is None where the weights decide
-        where a reference starts and ends; times in s, angles in rad.
+        Tables that JSON can hold, with times in s and angles in rad. ``groups`` has joint indices and mirror signs; ``ends``
+        is None if the weights decide where a reference starts and ends.
     """
     ends = policy.ends
     return {
@@ -65,7 +68,7 @@ def _finite(value: float) -> float | None:
 
 
 def _within(ends: Any) -> tuple[tuple[float, ...], tuple[float, ...]] | None:
-    """Ends of ranges, of which a file has null where a joint has none."""
+    """Read the ends of ranges; null stands for a joint without a range."""
     if ends is None:
         return None
     lower, upper = (
@@ -85,8 +88,14 @@ def _slew(table: Any) -> Slew | None:
 def policy_from_dict(content: Mapping[str, Any]) -> Policy:
     """Read a policy from the tables of `policy_to_dict`.
 
+    Args:
+        content: The tables.
+
+    Returns:
+        The same policy, to the bit.
+
     Raises:
-        LevadeError: If something is missing, or makes no policy.
+        LevadeError: If a key is missing, or a value does not fit.
     """
     try:
         ends = content["ends"]
@@ -112,18 +121,18 @@ def policy_from_dict(content: Mapping[str, Any]) -> Policy:
         raise LevadeError(f"policy: its tables cannot be read ({type(error).__name__}: {error})") from None
     for name, angles in (("start", policy.ends.start), ("goal", policy.ends.goal)) if policy.ends else ():
         if angles.shape != (policy.joints,):
-            raise LevadeError(f"policy.ends.{name}: {angles.size} angles for {policy.joints} joints")
+            raise LevadeError(f"policy.ends.{name}: has {angles.size} angles for {policy.joints} joints; give one each")
     if policy.within is not None:
         lower, upper = policy.within
         if not len(lower) == len(upper) == policy.joints:
-            raise LevadeError(f"policy.within: should be two ends for each of {policy.joints} joints")
-        if not all(low <= high for low, high in zip(lower, upper, strict=True)):  # NaN is no end either
-            raise LevadeError("policy.within: a lower end is above the upper one, or no number")
+            raise LevadeError(f"policy.within: should have two ends for each of {policy.joints} joints")
+        if not all(low <= high for low, high in zip(lower, upper, strict=True)):  # also if one is NaN
+            raise LevadeError("policy.within: a lower end is above the upper one, or not a number")
     if policy.slew is not None:
         if not len(policy.slew.speed) == len(policy.slew.start) == policy.joints:
-            raise LevadeError(f"policy.slew: should be a speed and a start for each of {policy.joints} joints")
+            raise LevadeError(f"policy.slew: should have a speed and a start for each of {policy.joints} joints")
         if not (all(speed > 0 for speed in policy.slew.speed) and all(map(math.isfinite, policy.slew.start))):
-            raise LevadeError("policy.slew: a speed is not positive, or a start is no number")
+            raise LevadeError("policy.slew: a speed is not positive, or a start is not a number")
     return policy
 
 

@@ -1,4 +1,4 @@
-"""Tasks: the declarative whole, read from YAML or built in Python; the built-in ones are YAML files in ``data/``.
+"""Tasks: what a motion has to achieve, read from YAML or built in Python. The built-in ones are YAML files in ``data/``.
 
 task = load_task("rearing", changes=["horizon=0.4"])
 task = load_task("my-task.yaml", robot="my/robot.yaml")

@@ -1,4 +1,4 @@
-"""What a motion has to show to pass: thresholds, as data."""
+"""Demands: the thresholds that a motion has to meet to pass a check."""
 
 from __future__ import annotations
 
@@ -10,21 +10,33 @@ from levade.errors import LevadeError
 
 @dataclass(frozen=True)
 class Demands:
-    """Thresholds; None for what is measured but not judged.
+    """Thresholds of a check; None measures without judging.
 
-    share: of the perturbed runs, that has to succeed. numerics, engines: whether the motion has to succeed in every numerical
-    variant, and in every other engine that is there.
-    position: [rad], the least distance from the end of a joint's range. speed, torque, torque_speed, linkage: the least that
-    is left of each limit, as a share of it.
-    torque_rms: the least that is left of each torque limit by the root mean square over the motion, which is what heats.
-    power: [W], the most of one joint. robot_power: [W], the most of all joints that drive, at once. flow: [l/min], the most of
-    a hydraulic joint. pump_flow: [l/min], the most of all at once.
-    foot_force: the most on one foot, in weights of the robot. impact_speed: [m/s], the most with which a foot meets the scene.
-    part_force: the most that the scene puts on any one part, feet and trunk among them, in weights of the robot.
-    trunk_acceleration: the most of the trunk, in g. self_collision: [m], how deep parts of the robot may enter each other.
+    Descriptions of robots give no limits for heat, power, flow, forces and impacts, so by default nothing is demanded there.
 
-    Robots' descriptions say nothing of what heats, of power, flow, forces and impacts, so nothing is demanded of them unless
-    asked for.
+    Attributes:
+        share: Least share of the perturbed runs that succeed.
+        numerics: Whether the motion has to succeed in every numerical variant.
+        engines: Whether the motion has to succeed in every other engine that is installed.
+        position: Least distance from the ends of a joint's range [rad].
+        speed: Least slack to each joint's speed limit, as a share of it.
+        torque: Least slack to each joint's torque limit, as a share of it.
+        torque_speed: Least slack to each actuator's torque-speed line, as a share of the stall torque.
+        linkage: Least slack to the torque that each linkage transmits at its angle, as a share of it.
+        torque_rms: Least slack of the root mean square torque over the motion, which heats the drive, to each torque limit,
+            as a share of it.
+        power: Largest power of one joint [W].
+        robot_power: Largest power of all driving joints together, at any time [W].
+        flow: Largest flow of a hydraulic joint [l/min].
+        pump_flow: Largest flow of all hydraulic joints together, at any time [l/min].
+        foot_force: Largest force on one foot [robot weights].
+        impact_speed: Largest speed with which a foot meets the scene [m/s].
+        part_force: Largest force of the scene on any one part, feet and trunk included [robot weights].
+        trunk_acceleration: Largest acceleration of the trunk [g].
+        self_collision: Largest depth to which two parts of the robot may enter each other [m].
+
+    Raises:
+        LevadeError: If a threshold is not finite, or the share is not between 0 and 1.
     """
 
     share: float | None = 0.95
@@ -48,7 +60,11 @@ class Demands:
 
     @classmethod
     def robust(cls) -> Demands:
-        """What says nothing of limits: robots that differ from the model, numerics and engines alone."""
+        """Make demands on perturbed runs, numerics and engines alone, without the robot's limits.
+
+        Returns:
+            The demands.
+        """
         return cls(position=None, speed=None, torque=None, torque_speed=None, linkage=None, self_collision=None)
 
     def __post_init__(self) -> None:

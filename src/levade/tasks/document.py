@@ -64,7 +64,7 @@ TERMS = {
     "margins": Margins,
     "ground_contact": GroundContact,
 }
-"""Name in a task file -> term."""
+"""Name in a task file -> class of the term."""
 
 _ORDER = (
     *("name", "description", "robot", "scene", "physics", "start", "horizon", "hold"),
@@ -74,16 +74,26 @@ _LATER = (
     *(("hardware",), ("policy", "room"), ("policy", "slew"), ("policy", "through"), ("search", "patience")),
     *(("robust", "perturb", "softness"), ("start", "fallen", "fold")),
 )
-"""Keys that were not there when runs with a checksum were first made, and are null or empty by default."""
+"""Keys that were added after the first runs with a checksum, and are null or empty by default."""
 _SEQUENCE = "tag:yaml.org,2002:seq"
 
 
 def task_text(name_or_path: str | Path) -> str:
-    """Read a task file as it was written, comments and all. Raises LevadeError if it cannot be read, or is no text."""
+    """Read the text of a task file, comments included.
+
+    Args:
+        name_or_path: Name of a built-in task, or path of a YAML file.
+
+    Returns:
+        The text.
+
+    Raises:
+        LevadeError: If there is no such file, or it is not a text.
+    """
     path = find(str(name_or_path))
     text = read_text(path)
     if CONTROL.search(text):
-        raise LevadeError(f"{path}: is no text; it holds control characters")
+        raise LevadeError(f"{path}: is not a text file, as it contains control characters; give a YAML file")
     return text
 
 
@@ -91,21 +101,24 @@ def load_task(name_or_path: str | Path, *, robot: str | Robot | None = None, cha
     """Load a built-in task by name, or any task by the path of its YAML file.
 
     Args:
-        name_or_path: Which task.
-        robot: Another robot than the task's: its name, its file, or a `levade.robots.Robot`.
+        name_or_path: Name of a built-in task, or path of a YAML file.
+        robot: A robot to use instead of the task's: its name, its file, or a `levade.robots.Robot`.
         changes: Changes of single values, "path=value" each, such as "costs.effort.weight=0.5". The path has to exist in the
             task with all its defaults, except for settings of the optimizer and whole costs and criteria, such as
-            "success.apart={quantity: self_distance, minimum: 0, at: min}".
-            Another ``search.optimizer`` comes without the settings of the task's own.
+            "success.apart={quantity: self_distance, minimum: 0, at: min}". A change of ``search.optimizer`` drops the
+            settings of the task's own optimizer.
+
+    Returns:
+        The task.
 
     Raises:
-        LevadeError: If the task cannot be read, or a value makes no sense.
+        LevadeError: If the task cannot be read, or a value is wrong.
     """
     made, name = (robot, robot.name) if isinstance(robot, Robot) else (None, robot)
     path = find(str(name_or_path))
     content = read_task(path)
     with_robot = [change for change in changes if change.partition("=")[0].startswith("robot.")]
-    if name is not None or with_robot:  # first, as numbers in units of the robot are those of this one
+    if name is not None or with_robot:  # first, because numbers may be in units of this robot
         content["robot"] = _other_robot(content.get("robot"), name, with_robot, where=str(path))
     task = task_from_dict(content, where=str(path), robot=made)
     rest = [change for change in changes if change not in with_robot]
@@ -123,7 +136,7 @@ def load_task(name_or_path: str | Path, *, robot: str | Robot | None = None, cha
 
 
 def _other_robot(content: Any, name: str | None, changes: Sequence[str], *, where: str) -> dict[str, Any]:
-    """The table of the robot, with another one's name in it and the changes made."""
+    """Write the table of the robot with another robot's name, and with the changes made."""
     choice = build(RobotChoice, content or {}, where=f"{where}.robot")
     if name is not None:
         choice = dataclasses.replace(choice, name=name, actuation=None, variant=None)
@@ -144,7 +157,7 @@ _CHANGES = "changes"
 
 @contextmanager
 def _changing() -> Iterator[None]:
-    """Make errors about values that a change gave speak of the field ``changes``."""
+    """Attribute errors about values from a change to the field ``changes``."""
     try:
         yield
     except LevadeError as error:
@@ -154,17 +167,20 @@ def _changing() -> Iterator[None]:
 def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False, robot: Robot | None = None) -> Task:
     """Make a task from the tables of its YAML file.
 
-    The robot is loaded if a number is in units of it, such as ``1.5 heights``.
+    It loads the robot if a number is in units of the robot, such as ``1.5 heights``.
 
     Args:
         content: The tables.
-        where: What error messages start with.
-        code: Whether to accept costs that were Python code, as `task_to_dict` writes them for a motion file; their terms
-            are then `levade.tasks.code.MissingCode`.
-        robot: The robot that is meant, if it is at hand; else the one that the task names is loaded.
+        where: Place of the tables, with which messages begin.
+        code: Whether to accept costs that were Python code, as `task_to_dict` writes them for a motion file. Their terms
+            become `levade.tasks.code.MissingCode`.
+        robot: The task's robot, if it is already loaded. Defaults to the one that the task names.
+
+    Returns:
+        The task.
 
     Raises:
-        LevadeError: If something is missing, unknown or wrong.
+        LevadeError: If a key or value is missing, unknown or wrong.
     """
     content = dict(content)
 
@@ -193,7 +209,7 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
             else stage
             for i, stage in enumerate(content["stages"])
         ]
-    if not code:  # a motion's task is complete, and reads no files
+    if not code:  # the task of a motion is complete, and names no files
         content["policy"] = with_goal(content.get("policy", {}), f"{where}.policy.goal")
     content["hardware"] = _demands(content.get("hardware"))
     content = dict(to_si(content, where=where, robot=measures))
@@ -219,7 +235,7 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
 
 
 def _with_quantities(success: Mapping[str, Any], where: str) -> dict[str, Any]:
-    """The criteria, each with its quantity: its name, unless it says otherwise."""
+    """Give each criterion its quantity, which defaults to its name."""
     named = {
         name: {"quantity": name, **value} if isinstance(value, Mapping) and name in QUANTITIES else value
         for name, value in success.items()
@@ -227,20 +243,20 @@ def _with_quantities(success: Mapping[str, Any], where: str) -> dict[str, Any]:
     for name, value in named.items():
         if isinstance(value, Mapping) and "quantity" not in value:
             raise LevadeError(
-                f"{where}.success.{name}: {name!r} is no quantity, so say which: quantity: ...;"
+                f"{where}.success.{name}: {name!r} is not a quantity; add the key quantity;"
                 f" {did_you_mean(str(name), QUANTITIES)}"
             )
     return named
 
 
 def _good_enough(robust: Any, success: Mapping[str, Any], where: str) -> Any:
-    """What robust asks for, its criteria filled up from those of the task: ``{pitch: {tolerance: 0.1}}`` is enough."""
+    """Complete the criteria of robust from those of the task, so that ``{pitch: {tolerance: 0.1}}`` is enough."""
     if not (isinstance(robust, Mapping) and isinstance(robust.get("success"), Mapping)):
         return robust
     for name in robust["success"]:
         if name not in success:
             hint = did_you_mean(str(name), success) if success else "the task has none"
-            raise LevadeError(f"{where}.robust.success.{name}: is no criterion of the task; {hint}")
+            raise LevadeError(f"{where}.robust.success.{name}: is not a criterion of the task; {hint}")
     filled = {
         name: {**success[name], **value}
         if isinstance(value, Mapping) and isinstance(success.get(name), Mapping)
@@ -251,7 +267,7 @@ def _good_enough(robust: Any, success: Mapping[str, Any], where: str) -> Any:
 
 
 def _without_code(criteria: Mapping[str, Any], where: str) -> dict[str, Any]:
-    """Criteria whose measures may have been Python code."""
+    """Read criteria whose measures were Python code; leave the others."""
     return {
         name: criterion_of_missing(value, where=f"{where}.{name}")
         if isinstance(value, Mapping) and KEY in value
@@ -261,7 +277,7 @@ def _without_code(criteria: Mapping[str, Any], where: str) -> dict[str, Any]:
 
 
 def _demands(hardware: Any) -> Any:
-    """What a certificate asks for: true for the usual demands, false for no certificate."""
+    """Read the key hardware: true stands for the usual demands, false for no certificate."""
     if isinstance(hardware, bool):
         return {} if hardware else None
     return hardware
@@ -280,7 +296,7 @@ def _check_horizon(horizon: Any, where: str) -> None:
 
 
 def _missing_optimizer(content: dict[str, Any]) -> MissingCode | None:
-    """Take an optimizer that was Python code out of a task's tables."""
+    """Remove an optimizer that was Python code from a task's tables."""
     search = content.get("search")
     if not (isinstance(search, Mapping) and isinstance(search.get("optimizer"), Mapping)):
         return None
@@ -292,7 +308,7 @@ def _missing_optimizer(content: dict[str, Any]) -> MissingCode | None:
 def _tolerances(
     stage: Mapping[str, Any], success: Mapping[str, Any], where: str, robot: Callable[[], Dimensions]
 ) -> dict[str, Any]:
-    """A stage whose tolerances for promotion, each in the unit of its criterion, are SI."""
+    """Turn a stage's tolerances for promotion, each in the unit of its criterion, into SI."""
     if not isinstance(stage.get("promote"), Mapping):
         return dict(stage)
     promote = {
@@ -303,15 +319,18 @@ def _tolerances(
 
 
 def task_to_dict(task: Task, *, code: bool = False) -> dict[str, Any]:
-    """Write the whole task as plain tables, with every default filled in, in SI: what ``task.yaml`` of a run holds.
+    """Write the whole task as plain tables in SI, with every default filled in, as in ``task.yaml`` of a run.
 
     Args:
         task: The task.
-        code: Whether to write a cost that is Python code as ``{python: module.name, weight: ...}``, which names it without
-            holding it. `task_from_dict` reads it back with ``code=True`` only.
+        code: Whether to write a cost that is Python code as ``{python: module.name, weight: ...}``, which only names it.
+            `task_from_dict` reads it again only with ``code=True``.
+
+    Returns:
+        The tables.
 
     Raises:
-        LevadeError: For a cost that is Python code, unless ``code`` is true: a file cannot hold it.
+        LevadeError: If a cost, measure or optimizer is Python code and ``code`` is false.
     """
     optimizer = task.search.optimizer
     if not isinstance(optimizer, str):
@@ -343,7 +362,7 @@ def task_to_dict(task: Task, *, code: bool = False) -> dict[str, Any]:
 
 
 def _name_measures(content: dict[str, Any], criteria: Mapping[str, Criterion], code: bool, where: str) -> None:
-    """Write the quantities of criteria into their tables. LevadeError for one that is Python code, unless ``code`` is true."""
+    """Write the quantities of criteria into their tables; raise LevadeError for Python code, unless ``code`` is true."""
     for name, criterion in criteria.items():
         if (of := measure_to_dict(criterion.quantity)) and not code:
             raise LevadeError(f"{where}.{name}: a Python function cannot be written to a task file")
@@ -351,22 +370,47 @@ def _name_measures(content: dict[str, Any], criteria: Mapping[str, Criterion], c
 
 
 def holds_code(task: Task) -> bool:
-    """Whether a task has a cost, a measure or an optimizer that is Python code, which a file cannot hold."""
+    """Find out whether a task has a cost, a measure or an optimizer that is Python code.
+
+    Args:
+        task: The task.
+
+    Returns:
+        Whether it has one, so that a file cannot contain the whole task.
+    """
     content = task_to_dict(task, code=True)
     tables = [*content["costs"].values(), *content["success"].values(), content["search"]["optimizer"]]
     return any(isinstance(table, Mapping) and KEY in table for table in tables)
 
 
 def task_to_yaml(task: Task, *, code: bool = False) -> str:
-    """Write the text of a task file with every default filled in. code: as in `task_to_dict`."""
+    """Write the text of a task file with every default filled in.
+
+    Args:
+        task: The task.
+        code: As in `task_to_dict`.
+
+    Returns:
+        The text, in YAML.
+
+    Raises:
+        LevadeError: As `task_to_dict` does.
+    """
     return _yaml(task_to_dict(task, code=code))
 
 
 def task_checksum(task: Task, *more: object) -> int:
-    """A checksum of the task and of what else decides a result; costs that are Python code count by their names.
+    """Compute a checksum of the task, and of everything else that decides a result.
 
-    An optimizer counts by its first name, which may be an alias today, and what came later only where it is used: runs and
-    benches of earlier versions go on.
+    Costs that are Python code count by their names. So that runs and benches of earlier versions can go on, an optimizer
+    counts by its first name, which may be an alias now, and a newer key counts only if it is set.
+
+    Args:
+        task: The task.
+        more: Other objects that decide the result; their texts count.
+
+    Returns:
+        The checksum, CRC-32.
     """
     content = task_to_dict(task, code=True)
     for *tables, name in _LATER:
@@ -388,13 +432,13 @@ def _yaml(content: dict[str, Any]) -> str:
         pass
 
     Dumper.add_representer(_Row, lambda dumper, row: dumper.represent_sequence(_SEQUENCE, row, flow_style=True))
-    if content["scene"]["terrain"] is not None:  # a line for each row, not for each number
+    if content["scene"]["terrain"] is not None:  # one line a row, not one line a number
         content["scene"]["terrain"]["heights"] = [_Row(row) for row in content["scene"]["terrain"]["heights"]]
     return yaml.dump(content, Dumper=Dumper, sort_keys=False, width=120, allow_unicode=True)
 
 
 class _Row(list[float]):
-    """A list that is written in one go."""
+    """A list that YAML writes on one line."""
 
 
 def _cost(name: str, content: Any, *, where: str, code: bool) -> Cost:
@@ -450,12 +494,12 @@ def _apply(content: dict[str, Any], change: str) -> None:
 
 
 def _may_add(table: str, value: Any) -> bool:
-    """Whether a change may add to a table; a wrong name there is told by the task itself."""
+    """Find out whether a change may add to a table, where the task itself reports a wrong name."""
     return table in ("search.settings", "start.fall") or (table in ("costs", "success") and isinstance(value, Mapping))
 
 
 def _plain(value: Any) -> Any:
-    """Tuples to lists, mappings to dicts: what YAML writes without tags."""
+    """Turn tuples into lists and mappings into dicts, which YAML writes without tags."""
     if isinstance(value, Mapping):
         return {key: _plain(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):

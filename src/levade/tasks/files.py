@@ -1,4 +1,4 @@
-"""Files of tasks: the built-in ones, and what a task file names: a task to extend, a terrain, or what to end like.
+"""Files of tasks: the built-in ones, and those that a task file names: a task to extend, a terrain, or a goal.
 
 A path in a task file is relative to the task file. A run's ``task.yaml`` is complete: it has heights and angles, and no paths.
 """
@@ -20,19 +20,33 @@ from levade.scenes import read_heights
 _BUILT_IN = Path(__file__).parent / "data"
 
 EXTENDS = "extends"
-"""Key of a task file that names another task, which has what this one leaves out."""
+"""Key of a task file that names another task, from which it takes everything that it leaves out."""
 
 MERGED = ("scene", "physics", "policy", "costs", "success", "search", "robust", "feedback")
-"""Tables of a task file of which one that extends another names only what it changes."""
+"""Tables of which a task that extends another one names only the keys that it changes."""
 
 
 def builtin_tasks() -> dict[str, Path]:
-    """Name -> file of every built-in task, by name."""
+    """List the built-in tasks.
+
+    Returns:
+        Name -> file, sorted by name.
+    """
     return {path.stem: path for path in sorted(_BUILT_IN.glob("*.yaml"), key=lambda path: path.stem)}
 
 
 def find(name_or_path: str) -> Path:
-    """The file of a built-in task, or of the path. Raises LevadeError if there is none."""
+    """Find the file of a task.
+
+    Args:
+        name_or_path: Name of a built-in task, or path of a YAML file.
+
+    Returns:
+        The file.
+
+    Raises:
+        LevadeError: If there is none.
+    """
     tasks = builtin_tasks()
     if name_or_path in tasks:
         return tasks[name_or_path]
@@ -45,7 +59,14 @@ def find(name_or_path: str) -> Path:
 
 
 def asks_for_hardware(name_or_path: str, changes: Sequence[str]) -> bool:
-    """Whether a task, with changes such as ``hardware=true``, asks for searches until a certificate passes.
+    """Find out whether a task asks for searches until a certificate passes.
+
+    Args:
+        name_or_path: Name of a built-in task, or path of a YAML file.
+        changes: Changes of single values, such as "hardware=true".
+
+    Returns:
+        Whether the task asks for it, with the changes made.
 
     Raises:
         LevadeError: If its file cannot be read.
@@ -59,14 +80,17 @@ def asks_for_hardware(name_or_path: str, changes: Sequence[str]) -> bool:
 
 
 def read_task(path: Path, *, seen: tuple[Path, ...] = ()) -> dict[str, Any]:
-    """Read the tables of a task file, filled up from those of the task that it extends.
+    """Read the tables of a task file, completed from those of the task that it extends.
 
-    A table changes the keys that it names, and a key that is null in ``costs`` or ``success`` is taken out of them. All else, a
-    whole cost, criterion or start among them, replaces what the other task has.
+    A table changes the keys that it names, and a key that is null in ``costs`` or ``success`` is removed. Everything else, such
+    as a whole cost, criterion or start, replaces that of the other task.
 
     Args:
-        path: The file. Paths in it are relative to it; those in the result are seen from here.
-        seen: The files that extend it, for a clear message where they go in a circle.
+        path: The file. Paths in it are relative to it; those in the result, to the working directory.
+        seen: The files that extend it, to detect a circle.
+
+    Returns:
+        The tables.
 
     Raises:
         LevadeError: If a file cannot be read, or the task extends itself.
@@ -82,14 +106,22 @@ def read_task(path: Path, *, seen: tuple[Path, ...] = ()) -> dict[str, Any]:
     seen = (*seen, path.resolve())
     if other.resolve() in seen:
         names = " extends ".join(one.name for one in (*seen, other))
-        raise LevadeError(f"{path}: {EXTENDS}: {names}, in a circle; begin from a task of its own")
+        raise LevadeError(f"{path}: {EXTENDS}: {names}, in a circle; extend a task that does not extend this one")
     if not isinstance(content.get("name"), str):
-        raise LevadeError(f"{path}: name: is missing; a task that extends {named} has a name of its own")
+        raise LevadeError(f"{path}: name: is missing; give the task that extends {named} a name of its own")
     return extended(read_task(other, seen=seen), content)
 
 
 def extended(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
-    """The tables of a task with the changes of one that extends it."""
+    """Merge the tables of a task with those of one that extends it.
+
+    Args:
+        base: Tables of the task.
+        changes: Tables of the task that extends it.
+
+    Returns:
+        The merged tables.
+    """
     content = {**base, **changes}
     for name in MERGED:
         ours, theirs = changes.get(name), base.get(name)
@@ -97,7 +129,7 @@ def extended(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
             continue
         table = {**{key: value for key, value in theirs.items() if key not in ours}, **ours}
         if name == "search" and "optimizer" in ours and "settings" not in ours:
-            table.pop("settings", None)  # they are the other optimizer's
+            table.pop("settings", None)  # they belong to the other optimizer
         if name in ("costs", "success"):
             table = {key: value for key, value in table.items() if value is not None}
         content[name] = table
@@ -105,12 +137,12 @@ def extended(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
 
 
 def _is_path(text: str) -> bool:
-    """Whether a text is the path of a file, there or not, and no name of a built-in task."""
+    """Find out whether a text is the path of a file, which may not exist, and not the name of a built-in task."""
     return Path(text).suffix in (".yaml", ".yml", ".npz") or "/" in text or "\\" in text
 
 
 def _with_folder(content: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """The tables of a task file in a folder, the paths in them as seen from here."""
+    """Make the paths in a task file, which are relative to its folder, relative to the working directory."""
     content = dict(content)
     for part, key, name in (("scene", "terrain", "file"), ("policy", "goal", "like")):
         table = content.get(part)
@@ -123,12 +155,19 @@ def _with_folder(content: dict[str, Any], folder: Path) -> dict[str, Any]:
 
 
 def _is_beside(folder: Path, like: str) -> bool:
-    """Whether a text means a file as seen from a folder, and no built-in task."""
+    """Find out whether a text names a file relative to a folder, and not a built-in task."""
     return like not in builtin_tasks() and (_is_path(like) or (folder / like).is_file())
 
 
 def with_goal(policy: Any, where: str) -> Any:
-    """The policy with the posture in which another task or a motion starts, where its goal is ``{like: TASK}``.
+    """Resolve the policy's goal ``{like: TASK}`` to the posture in which that task or motion starts.
+
+    Args:
+        policy: Table of the policy.
+        where: Place of the goal, for messages.
+
+    Returns:
+        The table with the posture; other tables as they are.
 
     Raises:
         LevadeError: If there is no such task or motion, or it does not start standing in a posture.
@@ -137,7 +176,7 @@ def with_goal(policy: Any, where: str) -> Any:
     if not (isinstance(goal, Mapping) and "like" in goal):
         return policy
     if len(goal) > 1:
-        raise LevadeError(f"{where}: like stands alone; leave out {', '.join(map(str, goal.keys() - {'like'}))}")
+        raise LevadeError(f"{where}: like takes no other keys; leave out {', '.join(map(str, goal.keys() - {'like'}))}")
     like = str(goal["like"])
     with located(f"{where}.like: "):
         motion = Path(like).suffix == ".npz"
@@ -149,7 +188,7 @@ def with_goal(policy: Any, where: str) -> Any:
 
 
 def _start_of_task(name_or_path: str) -> Any:
-    """The posture in which a task starts; None if it does not start standing."""
+    """Find the posture in which a task starts; None if it does not start standing."""
     start = read_task(find(name_or_path)).get("start", {"settled": {}})
     settled = start.get("settled", {}) if isinstance(start, Mapping) and len(start) < 2 else None
     if not isinstance(settled, Mapping) or (start and "settled" not in start):
@@ -158,29 +197,40 @@ def _start_of_task(name_or_path: str) -> Any:
 
 
 def _start_of_motion(path: Path) -> dict[str, float] | None:
-    """What the joints were commanded before a motion started [rad], by joint; None if it started from a fall.
+    """Read the commanded posture before a motion started [rad], by joint; None if it started from a fall.
 
-    A motion is a room above tasks, so that a few of its arrays are read here. `levade.motions.file` checks all of them.
+    ``tasks`` may not import ``motions``, so this reads a few arrays itself. `levade.motions.file` checks all of them.
     """
     arrays = unpack(path)
     names, first = arrays.get("joint_names"), arrays.get("joint_position_reference0")
     if names is None or first is None:
-        raise LevadeError(
-            f"{path}: does not say what its joints were commanded before the start; make the motion again"
-        )
+        raise LevadeError(f"{path}: the joints' commanded posture before the start is missing; make the motion again")
     try:
         start = json.loads(str(arrays["meta"]))["task"]["start"]
         posture = {str(name): float(angle) for name, angle in zip(names, first, strict=True)}
         if not np.isfinite(list(posture.values())).all() or any(map(hides, posture)):
             raise ValueError
     except (ValueError, TypeError, LookupError, RecursionError):
-        raise LevadeError(f"{path}: its start cannot be read; damaged, or not a motion.npz of levade solve") from None
+        raise LevadeError(
+            f"{path}: its start cannot be read; the file is damaged, or not a motion.npz of levade solve"
+        ) from None
     fell = not isinstance(start, Mapping) or any(start.get(name) is not None for name in ("fall", "fallen"))
     return None if fell else posture
 
 
 def with_heights(scene: Any, where: str) -> Any:
-    """The scene with its terrain's heights instead of the file that they are in."""
+    """Read the heights of a scene's terrain, if the scene names a file of them.
+
+    Args:
+        scene: Table of the scene.
+        where: Place of the terrain, for messages.
+
+    Returns:
+        The table with heights instead of the file; other tables as they are.
+
+    Raises:
+        LevadeError: If the file cannot be read, or a value of the terrain is wrong.
+    """
     terrain = scene.get("terrain") if isinstance(scene, Mapping) else None
     if not isinstance(terrain, Mapping) or "file" not in terrain:
         return scene
@@ -191,7 +241,7 @@ def with_heights(scene: Any, where: str) -> Any:
     if not isinstance(file, str):
         raise LevadeError(f"{where}.file: should be the path of a file, is {kind_of(file)}")
     if height is not None and (isinstance(height, bool) or not isinstance(height, (int, float)) or not height > 0):
-        raise LevadeError(f"{where}.height: should be a positive height, that of white, is {kind_of(height)}")
+        raise LevadeError(f"{where}.height: should be the height of white in m, above 0, is {kind_of(height)}")
     try:
         return {**scene, "terrain": {**terrain, "heights": read_heights(Path(file), height)}}
     except LevadeError as error:

@@ -1,4 +1,4 @@
-"""The parts of a task: which robot, where it starts, policy, costs, stages, and how to look."""
+"""The parts of a task: robot, start, horizon, policy, costs, stages and search settings."""
 
 from __future__ import annotations
 
@@ -21,7 +21,16 @@ else:
 
 @dataclass(frozen=True)
 class RobotChoice:
-    """Which robot, and in which version: see `levade.robots.load_robot`. kp [Nm/rad], kd [Nm s/rad]."""
+    """Which robot the task is for, and in which version: see `levade.robots.load_robot`.
+
+    Attributes:
+        name: Name of a robot, or path of its file.
+        actuation: Actuation of the joints. Defaults to the robot's own.
+        variant: Variant of the robot. Defaults to the robot's own.
+        linkage: Whether linkages limit the torque of the joints that they drive.
+        kp: Proportional gain of the joints [Nm/rad]. Defaults to the robot's own.
+        kd: Derivative gain of the joints [Nm s/rad]. Defaults to the robot's own.
+    """
 
     name: str = "hyq2max"
     actuation: str | None = None
@@ -31,14 +40,31 @@ class RobotChoice:
     kd: float | None = None
 
     def load(self) -> Robot:
-        """Load the robot. Raises LevadeError."""
+        """Load the robot.
+
+        Returns:
+            The robot.
+
+        Raises:
+            LevadeError: If there is no such robot, version or gain.
+        """
         options = asdict(self)
         return load_robot(options.pop("name"), **options)
 
 
 @dataclass(frozen=True)
 class StartChoice:
-    """Where the motion starts: exactly one of the four."""
+    """Where the motion starts: exactly one of the four.
+
+    Attributes:
+        settled: The robot stands, settled in a posture.
+        fall: The robot lies as one fall, simulated first, left it.
+        fallen: The robot lies as any of a family of falls left it.
+        state: The robot is in a given state.
+
+    Raises:
+        LevadeError: If none or several are given.
+    """
 
     settled: Settled | None = None
     fall: Fall | None = None
@@ -57,15 +83,22 @@ class StartChoice:
 
     @property
     def choice(self) -> Settled | Fall | Fallen | GivenState:
+        """The one that is given."""
         return next(one for one in self._all if one is not None)
 
 
 @dataclass(frozen=True)
 class HorizonRange:
-    """A horizon T that is a decision of the search: each trial has its own.
+    """A horizon T that the search chooses, for each trial separately.
 
-    minimum, maximum: bounds [s], both always there. initial: where the search begins [s]; the geometric mean of the bounds if
-        None, as T is searched in its logarithm.
+    Attributes:
+        minimum: Lower bound of T [s].
+        maximum: Upper bound of T [s].
+        initial: T with which the search begins [s]. Defaults to the geometric mean of the bounds, because the search uses the
+            logarithm of T.
+
+    Raises:
+        LevadeError: If a value is not positive, or they are out of order.
     """
 
     minimum: float
@@ -89,7 +122,7 @@ class HorizonRange:
 
     @property
     def begin(self) -> float:
-        """Where the search begins [s]."""
+        """T with which the search begins [s]."""
         return math.sqrt(self.minimum * self.maximum) if self.initial is None else self.initial
 
 
@@ -97,21 +130,27 @@ class HorizonRange:
 class PolicyChoice:
     """How weights become joint references (eq. 3-4).
 
-    kernels, variance, time: see `levade.policies.GaussianKernels`.
-    groups: which legs share a policy, mirrored: "pairs" (front and hind, as the paper's rearing), "sides" (left and
-        right), "all" (one for all legs), "independent" (one each, as the paper's recovery), or lists of leg names.
-    initial: the first mean of the search: "hold" what the joints were told last, or "interpolate" in a straight line from
-        the joint angles at the start to the posture ``goal``, or from posture to posture of ``through`` on the way there.
-    goal: a posture, as in `levade.engines.Settled`; or "free": the search finds it, within the joints' ranges. Legs, ends and
-        sides may be free (``{hind: free}``), and joints, within the two angles of a range (``{"*_kfe": [-2.0, -1.0]}``); the
-        rest of the posture is the neutral one. A free one needs ``settle``.
-    through: postures that ``interpolate`` goes through, at equal distances in time between the start and the goal.
-    depart, settle: shares of the horizon in which every reference leaves what the joints were told last, and goes over to
-        the goal; 0 leaves the ends to the weights. See `levade.policies.Ends`.
-    room: how far references stay from the ends of the joints' ranges [rad], at rest where they would come nearer, as with a
-        drive that clamps them; at most a quarter of a range. None lets them go anywhere.
-    slew: share of the joints' speed limits that references keep to, which otherwise begin early what is too sudden: see
-        `levade.policies.Slew`. None lets them be as fast as the weights say.
+    Attributes:
+        kernels: M, the number of kernels: see `levade.policies.GaussianKernels`.
+        variance: Variance of the kernels, the paper's sigma^2, in the unit that ``time`` gives.
+        time: Time that the variance is measured in: "normalised" to the horizon, or "seconds".
+        groups: Which legs share a policy, mirrored: "pairs" (front and hind, as in the paper's rearing), "sides" (left and
+            right), "all" (one for all legs), "independent" (one for each leg, as in the paper's recovery), or lists of leg
+            names.
+        initial: First mean of the search: "hold" the last commanded posture, or "interpolate" in a straight line from the
+            joint angles at the start to the posture ``goal``, by way of the postures in ``through``.
+        goal: Final posture, as in `levade.engines.Settled`; or "free": the search finds it, within the joints' ranges. Legs,
+            ends and sides may be free (``{hind: free}``), and joints, within the two angles of a range
+            (``{"*_kfe": [-2.0, -1.0]}``). The other joints take the neutral posture. A free goal needs ``settle``.
+        through: Postures that ``interpolate`` passes, at equal distances in time between the start and the goal.
+        depart: Share of the horizon in which every reference leaves the last commanded posture; 0 leaves the start to the
+            weights. See `levade.policies.Ends`.
+        settle: Share of the horizon in which every reference moves to the goal; 0 leaves the end to the weights. See
+            `levade.policies.Ends`.
+        room: Least distance of references from the ends of the joints' ranges [rad], at most a quarter of a range.
+            References that would come nearer rest there, as with a drive that clamps them. None sets no bound.
+        slew: Share of the joints' speed limits that references keep to. References that would move faster begin earlier: see
+            `levade.policies.Slew`. None sets no bound.
     """
 
     kernels: int = 16
@@ -128,18 +167,23 @@ class PolicyChoice:
 
     @property
     def goal_is_free(self) -> bool:
-        """Whether some of the final posture is for the search to find."""
+        """Whether the search finds part of the final posture."""
         values = [self.goal] if isinstance(self.goal, str) else self.goal.values()
         return any(value == FREE or isinstance(value, tuple) for value in values)
 
 
 FREE = "free"
-"""What stands for a posture that the search finds."""
+"""Value of ``goal`` for a posture that the search finds."""
 
 
 @dataclass(frozen=True, eq=False)
 class Cost:
-    """A term and its weight, the paper's Q_i."""
+    """A term and its weight, the paper's Q_i.
+
+    Attributes:
+        term: The term: a number for each trial, unweighted.
+        weight: Factor on the term's number.
+    """
 
     term: Term
     weight: float
@@ -152,15 +196,18 @@ class Cost:
 class Stage:
     """A part of the search with a cost of its own.
 
-    trials: budget of the stage; what is left if None. Of the last one, only where there are several `Robust.starts`: after so
-        many trials without a success, as many starts again are looked for, while the budget lasts for another such round.
-    promote: criterion -> tolerance: the stage ends when one trial is within all of them.
-    weights: cost -> weight, instead of the task's.
-    hold: how much of the hold is simulated: all (true), none (false), or the first so many seconds. With less than all,
-        only trials that meet every criterion so far are simulated through the rest, to see whether they succeed; with
-        none, costs that look at the hold are left out.
-    step: factor on the optimizer's step size when the stage begins; the rest of the search distribution is kept.
-    robust: whether candidates are tried on perturbed models, where the task asks for it at all. Without, nothing succeeds yet.
+    Attributes:
+        name: Name of the stage.
+        trials: Budget of the stage. Defaults to what is left. The last stage takes it only with several `Robust.starts`:
+            after this many trials without a success, the search looks for another set of starts while the budget lasts.
+        promote: Criterion -> tolerance: the stage ends when one trial is within all of them.
+        weights: Cost -> weight, instead of the task's.
+        hold: Simulated part of the hold: all (true), none (false), or the first seconds. With less than all, only trials that
+            meet every criterion so far are simulated through the rest, to see whether they succeed. With none, costs that
+            look at the hold are left out.
+        step: Factor on the optimizer's step size when the stage begins; the rest of the search distribution is kept.
+        robust: Whether candidates also run on perturbed models, if the task asks for that. In a stage without them, no
+            candidate of such a task counts as a success.
     """
 
     name: str = "full"
@@ -174,10 +221,12 @@ class Stage:
 
 @dataclass(frozen=True)
 class Change:
-    """Weights that change in the middle of a search, as the sliders of ``levade solve --watch`` do it.
+    """A change of the costs' weights during a search, as the sliders of ``levade solve --watch`` make it.
 
-    generation: the first one that they hold in, counted from 1. factors: cost -> factor on its weight, the task's own and
-    those of the stages, until another change names the cost; 1 for what the task says.
+    Attributes:
+        generation: First generation that the factors apply to, counted from 1.
+        factors: Cost -> factor on its weight, in the task and in its stages, until another change names the cost; 1 restores
+            the task's weight.
     """
 
     generation: int
@@ -186,23 +235,26 @@ class Change:
 
 @dataclass(frozen=True)
 class Search:
-    """How to look.
+    """How to search: optimizer, budget and search distribution.
 
-    optimizer: name, where an alias becomes the name; or, in Python, a class, function or object: see `levade.optimizers`.
-    trials: budget, all stages counted.
-    population: trials per generation, the optimizer's default if None.
-    step: initial standard deviation of the weights [rad].
-    smoothness: correlation length of neighbouring weights in the initial covariance, as a share of the horizon; 0 for
-        none, as plain CMA-ES has it. modes: search only over so many of the smoothest directions of each joint's weights;
-        all if None. step_adaptation: see `levade.optimizers.CMAES`.
-    restart: trials without a success after which the search starts anew, from the first stage, with other random numbers:
-        whoever rolled to the wrong side seldom finds the way back. Not once candidates are tried on perturbed models. None
-        goes on to the end of the budget.
-    patience: with restart, trials over which the best cost has to have fallen by a tenth for an attempt to go on all the
-        same. None restarts it in any case.
-    polish: trials to go on for after the first success, for a lower cost; None goes on to the end of the budget.
-    settings: numbers that only this optimizer takes, such as {elite: 0.2}; see its class in `levade.optimizers`.
-    changes: of the costs' weights on the way.
+    Attributes:
+        optimizer: Name of the optimizer; an alias becomes the name. In Python also a class, function or object: see
+            `levade.optimizers`.
+        trials: Budget of all stages together.
+        population: Trials per generation. Defaults to the optimizer's own.
+        step: Initial standard deviation of the weights [rad].
+        smoothness: Correlation length of neighbouring weights in the initial covariance, as a share of the horizon; 0 for
+            none, as in plain CMA-ES.
+        modes: Number of the smoothest directions of each joint's weights that the search uses. Defaults to all.
+        step_adaptation: Rule that adapts the step size: see `levade.optimizers.CMAES`.
+        restart: Trials without a success after which the search starts again, from the first stage, with other random
+            numbers: a search that commits to the wrong side rarely recovers. Robust stages do not restart. None goes on to
+            the end of the budget.
+        patience: With restart, an attempt goes on if its best cost fell by a tenth over this many trials. None restarts it
+            in any case.
+        polish: Trials after the first success, to lower the cost. None goes on to the end of the budget.
+        settings: Numbers that only this optimizer takes, such as {elite: 0.2}: see its class in `levade.optimizers`.
+        changes: Changes of the costs' weights during the search.
     """
 
     optimizer: OptimizerChoice = "cma-aimed"
@@ -219,10 +271,17 @@ class Search:
     changes: tuple[Change, ...] = ()
 
     def __post_init__(self) -> None:
-        # so that a search has one form, however it is named
+        # a search has one form, whichever alias names its optimizer
         object.__setattr__(self, "optimizer", canonical(self.optimizer))
 
     def factors(self, generation: int) -> dict[str, float]:
-        """Cost -> factor on its weight in a generation; costs that nothing changed are left out."""
+        """Find the factors that apply in a generation.
+
+        Args:
+            generation: The generation, counted from 1.
+
+        Returns:
+            Cost -> factor on its weight. Costs that nothing has changed are left out.
+        """
         due = sorted((c for c in self.changes if c.generation <= generation), key=lambda change: change.generation)
         return {name: factor for change in due for name, factor in change.factors.items()}

@@ -1,4 +1,4 @@
-"""From a task's policy to one on a robot's joints: groups of legs become groups of joints."""
+"""Make a task's policy on a robot's joints: groups of legs become groups of joints."""
 
 from __future__ import annotations
 
@@ -22,10 +22,13 @@ def make_policy(task: Task, robot: Robot, *, start: Array | None = None) -> Poli
     Args:
         task: The task.
         robot: The robot.
-        start: What the joints were commanded last [rad], shape (joints,). Defaults to the policy's goal.
+        start: Last commanded posture [rad], shape (joints,). Defaults to the policy's goal.
+
+    Returns:
+        The policy; a `levade.policies.FreePolicy` if the horizon or the goal is free.
 
     Raises:
-        LevadeError: If its groups do not fit the robot's legs.
+        LevadeError: If the groups do not fit the robot's legs, or the goal does not fit its joints.
     """
     choice = task.policy
     ends = None
@@ -53,7 +56,18 @@ def make_policy(task: Task, robot: Robot, *, start: Array | None = None) -> Poli
 
 
 def goal_posture(choice: PolicyChoice, robot: Robot) -> Array:
-    """The posture in which the policy's references settle [rad], shape (joints,); of free joints, where a search begins."""
+    """Find the posture in which the policy's references settle.
+
+    Args:
+        choice: The task's policy.
+        robot: The robot.
+
+    Returns:
+        Joint angles [rad], shape (joints,). For free joints, the angles with which a search begins.
+
+    Raises:
+        LevadeError: If a posture does not exist, or is out of a joint's range.
+    """
     if choice.goal == FREE:
         return robot.posture("neutral")
     goal = choice.goal
@@ -69,7 +83,14 @@ def goal_posture(choice: PolicyChoice, robot: Robot) -> Array:
 
 
 def through_postures(choice: PolicyChoice, robot: Robot) -> list[Array]:
-    """The postures that the policy's first references go through [rad], shape (joints,) each.
+    """Find the postures that the policy's first references go through.
+
+    Args:
+        choice: The task's policy.
+        robot: The robot.
+
+    Returns:
+        Joint angles [rad], shape (joints,) each, in order.
 
     Raises:
         LevadeError: If a posture does not exist, or is out of a joint's range.
@@ -82,7 +103,7 @@ def through_postures(choice: PolicyChoice, robot: Robot) -> list[Array]:
 
 
 def _free_ranges(choice: PolicyChoice, robot: Robot) -> tuple[Array, Array]:
-    """Bounds of the final angle of each joint [rad], shape (joints,) each; NaN for joints that are not free.
+    """Find the bounds of the final angle of each joint [rad], shape (joints,) each; NaN for joints that are not free.
 
     Raises:
         LevadeError: If a leg or joint does not exist, a range is out of the joint's own, or a joint without one is free.
@@ -109,10 +130,10 @@ def _free_ranges(choice: PolicyChoice, robot: Robot) -> tuple[Array, Array]:
 
 
 def _free_goal(policy: Policy, lower: Array, upper: Array, robot: Robot) -> FreeGoal:
-    """The freedom of a policy's independent joints: that of each leader, within what its followers can do.
+    """Intersect the free range of each independent joint with those of the joints that follow it.
 
     Raises:
-        LevadeError: If of joints that share a policy one is free and another is not.
+        LevadeError: If only some of the joints that share a policy are free.
     """
     leaders = [joint for group in policy.groups for joint in group.leader]
     low, high = lower[leaders], upper[leaders]
@@ -131,7 +152,7 @@ def _free_goal(policy: Policy, lower: Array, upper: Array, robot: Robot) -> Free
 
 
 def _joints_named(key: str, robot: Robot) -> list[int]:
-    """Indices of the joints of a leg, an end or a side; or of those that a pattern names."""
+    """Find the indices of the joints of a leg, an end or a side, or of those that match a pattern."""
     legs = [leg for leg in robot.legs if key in (leg.name, leg.end, leg.side)]
     if legs:
         return [i for leg in legs for i in range(*robot.joint_indices(leg).indices(len(robot.joint_names)))]
@@ -143,14 +164,25 @@ def _joints_named(key: str, robot: Robot) -> list[int]:
 
 
 def leg_groups(choice: PolicyChoice, robot: Robot) -> tuple[Group, ...]:
-    """Groups of legs as groups of joints, mirror signs derived from the robot's kinematics."""
+    """Turn groups of legs into groups of joints, with mirror signs from the robot's kinematics.
+
+    Args:
+        choice: The task's policy.
+        robot: The robot.
+
+    Returns:
+        Groups of joint indices; legs and arms never share one.
+
+    Raises:
+        LevadeError: If a group is empty, or a leg does not exist, is in no group or is in two.
+    """
     legs = robot.legs
     key: dict[str, Callable[[Leg], str]] = {
         "pairs": lambda leg: leg.end,
         "sides": lambda leg: leg.side,
         "all": lambda leg: "",
         "independent": lambda leg: leg.name,
-    }  # of limbs of one kind: arms never do what legs do
+    }  # groups have limbs of one kind: arms do not copy legs
     if isinstance(choice.groups, str):
         of = key[choice.groups]
         grouped = [
@@ -165,8 +197,8 @@ def leg_groups(choice: PolicyChoice, robot: Robot) -> tuple[Group, ...]:
             raise LevadeError("policy.groups: a group is empty; leave it out")
         if sorted(named) != sorted(leg.name for leg in legs):
             missing = sorted({leg.name for leg in legs} - set(named))
-            problem = f"{', '.join(missing)} in none" if missing else "a leg in two"
-            raise LevadeError(f"policy.groups: {problem}; every leg of {robot.name} goes in one group")
+            problem = f"{', '.join(missing)} in no group" if missing else "a leg is in two groups"
+            raise LevadeError(f"policy.groups: {problem}; put every leg of {robot.name} in one group")
 
     def indices(leg: Leg) -> tuple[int, ...]:
         where = robot.joint_indices(leg)

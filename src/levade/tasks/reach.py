@@ -1,4 +1,4 @@
-"""Reach: whether a robot's legs are long enough, and its parts far enough apart, for what a task asks for."""
+"""Check that a robot's legs are long enough, and its parts far enough apart, for a task."""
 
 from __future__ import annotations
 
@@ -17,16 +17,23 @@ from levade.robots import Leg, Robot
 from levade.tasks.task import Task
 
 _ROOM = 0.01
-"""[m]: soft joint limits and contacts give way by less."""
+"""[m]: soft joint limits and contacts yield by less."""
 
 
 def check_reach(task: Task, robot: Robot, model: Any) -> None:
-    """Raise LevadeError if a criterion on height, or a weighted position's z, is above what the trunk can reach on a foot.
+    """Check that the trunk can be as high as the task asks while a foot is on the ground.
 
-    That is the longest leg and the distance from its hip to the trunk's centre of mass in one line, on the highest place
-    of the scene. A jump goes higher: criteria with ``at: max`` are exempt, and so are costs of tasks that have one.
+    The highest place of the trunk's centre of mass is above the highest place of the scene, by the longest leg plus the
+    distance from its hip to the centre of mass. A jump goes higher: criteria with ``at: max`` are exempt, and so are costs of
+    tasks that have one. Slopes have no highest place and are not checked.
 
-    model: robot and scene, compiled. Slopes have no highest place and are not checked.
+    Args:
+        task: The task.
+        robot: The robot.
+        model: Compiled MuJoCo model of the robot and the scene.
+
+    Raises:
+        LevadeError: If a criterion on the height, or a weighted cost on the position's z, asks for more.
     """
     if task.scene.slope:
         return
@@ -51,14 +58,20 @@ def check_reach(task: Task, robot: Robot, model: Any) -> None:
             raise LevadeError(
                 f"{where}: asks for {height:.2f} m, but the trunk's centre of mass of {robot.name} is at {highest:.2f} m at"
                 f" most with a foot on the ground (leg {leg:.2f} m, hip to centre of mass {hip:.2f} m{scene}); ask for less,"
-                " such as 1.3 heights, or of a jump, in a criterion with at: max"
+                " such as 1.3 heights, or for a jump, by a criterion with at: max"
             )
 
 
 def check_clearance(task: Task, robot: Robot, model: Any) -> None:
-    """Raise LevadeError if a criterion asks for more distance between the robot's parts than a posture leaves.
+    """Check that the robot's parts are as far apart as the task asks, in the neutral posture and in the one at the start.
 
-    The postures are the neutral one and the one at the start. model: robot and scene, compiled.
+    Args:
+        task: The task.
+        robot: The robot.
+        model: Compiled MuJoCo model of the robot and the scene.
+
+    Raises:
+        LevadeError: If a criterion asks for more distance than a posture leaves.
     """
     if clearance_in(model) is None:
         return
@@ -79,7 +92,7 @@ def check_clearance(task: Task, robot: Robot, model: Any) -> None:
 
 
 def _nearest(robot: Robot, model: Any, posture: Array) -> tuple[float, tuple[str, ...]]:
-    """Least distance [m] between parts of the robot in a posture, and the names of the two; infinite if none is near."""
+    """Find the least distance [m] between parts of the robot in a posture, and their names; infinite if none is near."""
     data = mujoco.MjData(model)
     for joint, angle in zip(robot.joint_names, posture, strict=True):
         data.joint(joint).qpos[0] = angle
@@ -92,7 +105,7 @@ def _nearest(robot: Robot, model: Any, posture: Array) -> tuple[float, tuple[str
 
 
 def _reaches(robot: Robot, leg: Leg) -> tuple[float, float]:
-    """[m], from the hip along the leg to the sole, and from the hip to the trunk's centre of mass."""
+    """Measure a leg from hip to sole [m], and the distance from its hip to the trunk's centre of mass [m]."""
     geometry = next(shape for shape in robot.leg_geometry if shape.name == leg.name)
     chain = [*geometry.anchors, geometry.foot]
     links = sum(float(np.linalg.norm(far - near)) for near, far in itertools.pairwise(chain))
@@ -100,7 +113,7 @@ def _reaches(robot: Robot, leg: Leg) -> tuple[float, float]:
 
 
 def _highest(model: Any) -> float:
-    """[m], of the top of what stands in the world."""
+    """Find the height of the scene's highest point [m]."""
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     fixed = (model.geom_bodyid == 0) & (model.geom_type != mujoco.mjtGeom.mjGEOM_PLANE)

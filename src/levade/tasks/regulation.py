@@ -1,4 +1,4 @@
-"""Feedback in the search: what a task may ask for so that the closed loop is optimised, not the motion alone."""
+"""Feedback in the search: with it, a task optimises the closed loop instead of the motion alone."""
 
 from __future__ import annotations
 
@@ -10,18 +10,23 @@ from levade.errors import LevadeError
 
 @dataclass(frozen=True)
 class Regulation:
-    """A regulator that is on while candidates run on perturbed models: in the search as in the check.
+    """A regulator that is on while candidates run on perturbed models, in the search and in the check.
 
-    It senses attitude, angular velocity and joints, with errors, and corrects the joint references one period later; see
-    docs/feedback.md. On the nominal model it does nothing: each candidate is held to what it does there.
+    It measures attitude, angular velocity and joints, with errors, and corrects the joint references one period later: see
+    docs/feedback.md. It keeps each candidate to its motion on the nominal model, so there it does nothing.
 
-    rate: measurements a second [Hz]; the nearest that steps allow.
-    motion, hold: correction that costs 1 up to the horizon, and after it [rad]: more lets it do more. A hold of None is without
-        feedback: its last corrections fade. That is for postures that stand by themselves, on several contacts.
-    bound: bound on each correction [rad].
-    every: generations after which the gains are made again, along the best motion. Gains stay only if that motion holds no less
-        with them than before; the first ones, than without.
-    runs: perturbed runs from which is learned what is to be expected of what is not sensed.
+    Attributes:
+        rate: Measurements per second [Hz]; the nearest rate that whole time steps allow.
+        motion: Correction that costs 1 up to the horizon [rad]: the larger, the more the regulator corrects.
+        hold: Correction that costs 1 in the hold [rad]. None switches feedback off in the hold, where the last corrections
+            fade; that suits postures that stand by themselves, on several contacts.
+        bound: Bound on each correction [rad].
+        every: Generations after which the gains are computed again, along the best motion. New gains are kept only if that
+            motion ranks no worse with them than with the earlier ones; the first gains, no worse than without feedback.
+        runs: Perturbed runs from which the regulator learns to predict what it cannot measure.
+
+    Raises:
+        LevadeError: If a value is out of range.
     """
 
     rate: float = 250.0

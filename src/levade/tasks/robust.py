@@ -1,4 +1,4 @@
-"""Robust optimisation: what a task may ask for so that its motion holds on robots that differ from the model."""
+"""Robust optimisation: with it, a task searches for a motion that succeeds on robots that differ from the model."""
 
 from __future__ import annotations
 
@@ -19,7 +19,15 @@ from levade.errors import LevadeError
 
 @dataclass(frozen=True)
 class Racing:
-    """All candidates run the nominal model and ``first`` samples; only the best share ``keep`` of them the rest."""
+    """A race: all candidates run the nominal model and a few samples, and only the best of them run the rest.
+
+    Attributes:
+        first: Samples that all candidates run.
+        keep: Share of the candidates that run the other samples.
+
+    Raises:
+        LevadeError: If a value is out of range.
+    """
 
     first: int = 2
     keep: float = 0.5
@@ -33,25 +41,32 @@ class Racing:
 
 @dataclass(frozen=True)
 class Robust:
-    """How candidates are tried on perturbed models.
+    """How candidates run on perturbed models.
 
-    samples: perturbed models for each candidate, beside the nominal one. Every roll-out counts as a trial.
-    measure, tail: of the costs of a candidate's whole roll-outs, the nominal one among them: see `levade.costs.risk`.
-    redraw: "never" tries all candidates on the same models; "generation" draws new ones for each generation (the candidates of
-        one share them), and compares the best of each with the best so far on one sample that stays the same.
-    validation: models of that sample; as many as ``samples`` if None.
-    contender: who of a generation is compared on it: its "best", by the models of the generation, or the "mean" of the
-        distribution that its candidates are drawn from: near the end, luck on a few models is most of what sets the best apart.
-    required: share of the samples (of that which stays the same, if others are drawn for each generation) that a candidate has
-        to succeed on, beside the nominal model, to count as a success.
-    starts: motions of the nominal model, each from a search of its own, of which that one goes on to the robust stages which
-        succeeds on most of the models that stay the same. Motions that look alike on one model differ widely on others.
-    success: what is good enough on a perturbed model: criteria of the task's, by their names, with tolerances or bounds of
-        their own; what it does not name is asked of the nominal model alone. None asks for the task's criteria.
-    racing: None runs every candidate on every sample. perturb: ranges.
+    The samples of one generation cover every range evenly (`levade.engines.Perturbation.spread`). They follow from the seed of
+    the search and the number of the generation.
 
-    The samples of one generation cover every range evenly (`levade.engines.Perturbation.spread`); they follow from the seed of
-    the solve and the number of the generation.
+    Attributes:
+        samples: Perturbed models for each candidate, in addition to the nominal one. Every roll-out counts as a trial.
+        measure: Risk measure over the costs of a candidate's complete roll-outs, including the nominal one: see
+            `levade.costs.risk`.
+        tail: Share of the most expensive roll-outs that "cvar" averages over.
+        redraw: "never" runs all candidates on the same models. "generation" draws new models for each generation, shared by
+            its candidates, and compares the best of each generation with the best so far on a fixed validation sample.
+        validation: Models of the validation sample. Defaults to ``samples``.
+        contender: Which candidate of each generation runs on the validation sample: its "best", or the "mean" of the search
+            distribution. Near convergence the best candidate mostly owes its rank to chance.
+        required: Share of the samples that a candidate has to succeed on, in addition to the nominal model, to count as a
+            success. With new models in each generation, the validation sample counts.
+        starts: Motions of the nominal model, each from a search of its own. The one that succeeds on most models of the
+            fixed sample goes on to the robust stages. Motions that look alike on one model differ widely on others.
+        success: Criteria for a perturbed model: some of the task's, by name, with their own tolerances or bounds. The
+            others apply to the nominal model alone. Defaults to the task's criteria.
+        racing: Race that spares poor candidates most samples. None runs every candidate on every sample.
+        perturb: Ranges of the perturbed parameters.
+
+    Raises:
+        LevadeError: If a value is out of range, or two do not go together.
     """
 
     samples: int = 8
@@ -70,15 +85,15 @@ class Robust:
         if not 1 <= self.samples <= 1000:
             raise LevadeError(f"robust.samples: {self.samples} should be 1 to 1000; 8 is usual")
         if self.measure not in ("mean", "cvar", "worst"):
-            raise LevadeError(f"robust.measure: {self.measure!r} is unknown; mean, cvar or worst")
+            raise LevadeError(f"robust.measure: {self.measure!r} is unknown; give mean, cvar or worst")
         if self.redraw not in ("never", "generation"):
-            raise LevadeError(f"robust.redraw: {self.redraw!r} is unknown; never or generation")
+            raise LevadeError(f"robust.redraw: {self.redraw!r} is unknown; give never or generation")
         if self.contender not in ("best", "mean"):
-            raise LevadeError(f"robust.contender: {self.contender!r} is unknown; best or mean")
+            raise LevadeError(f"robust.contender: {self.contender!r} is unknown; give best or mean")
         if self.contender == "mean" and self.redraw == "never":
-            raise LevadeError("robust.contender: with redraw: never every candidate is compared; leave it out")
+            raise LevadeError("robust.contender: only works with redraw: generation; leave it out")
         if self.validation is not None and self.redraw == "never":
-            raise LevadeError("robust.validation: with redraw: never all candidates run the same models; leave it out")
+            raise LevadeError("robust.validation: only works with redraw: generation; leave it out")
         if self.validation is not None and not 1 <= self.validation <= 1000:
             raise LevadeError(f"robust.validation: {self.validation} should be 1 to 1000; 20 is usual")
         for name in ("tail", "required"):
@@ -90,24 +105,45 @@ class Robust:
             raise LevadeError(f"robust.starts: {self.starts} should be 1 to 1000; 8 is usual")
         if self.racing is not None and self.racing.first >= self.samples:
             raise LevadeError(
-                f"robust.racing.first: {self.racing.first} of {self.samples} samples leaves nothing to race for; fewer"
+                f"robust.racing.first: {self.racing.first} should be less than samples, {self.samples}, which all would run"
             )
 
     @property
     def fixed(self) -> int:
-        """Models of the sample that stays the same."""
+        """Number of models of the fixed sample."""
         return self.samples if self.validation is None else self.validation
 
     def rollouts(self, candidates: int) -> int:
-        """Of so many candidates, the nominal ones among them."""
+        """Count the roll-outs of a generation, including those of the nominal model.
+
+        Args:
+            candidates: Number of candidates.
+
+        Returns:
+            Number of roll-outs.
+        """
         if self.racing is None:
             return candidates * (1 + self.samples)
         return candidates * (1 + self.racing.first) + self.kept(candidates) * (self.samples - self.racing.first)
 
     def kept(self, candidates: int) -> int:
-        """How many of them run all samples."""
+        """Count the candidates that run all samples.
+
+        Args:
+            candidates: Number of candidates.
+
+        Returns:
+            Number of candidates that are kept.
+        """
         return candidates if self.racing is None else max(1, math.ceil(self.racing.keep * candidates - 1e-9))
 
     def enough(self, share: Array) -> NDArray[np.bool_]:
-        """Whether shares (n,) of the samples are what is required."""
+        """Decide whether shares of successful samples are enough.
+
+        Args:
+            share: Share of the samples that each candidate succeeds on, shape (n,).
+
+        Returns:
+            Whether each reaches ``required``, shape (n,).
+        """
         return share >= self.required - 1e-9

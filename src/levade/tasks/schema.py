@@ -2,8 +2,8 @@
 
     schema = task_schema()                          # levade tasks schema > task.schema.json
 
-It follows from the dataclasses of a task and its terms: their fields, types and docstrings. What it cannot say (bounds in the
-right order, a group for every leg) `levade.tasks.load_task` says.
+It follows from the dataclasses of a task and its terms: their fields, types and docstrings. `levade.tasks.load_task` checks
+what a schema cannot express, such as the order of bounds or a group for every leg.
 """
 
 from __future__ import annotations
@@ -32,15 +32,19 @@ DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 
 def task_schema() -> Schema:
-    """The JSON schema (draft 2020-12) of task files."""
+    """Make the JSON schema (draft 2020-12) of task files.
+
+    Returns:
+        The schema, as tables that JSON can hold.
+    """
     definitions: dict[str, Schema] = {}
     task = _table(Task, definitions)
     task["properties"]["costs"] = _costs(definitions)
     task["properties"]["success"] = _success(definitions)
     definitions["Stage"]["properties"]["promote"] = {"type": "object", "additionalProperties": _number("any")}
     heights = definitions["Terrain"]
-    heights["properties"]["file"] = {"type": "string", "description": "A .npy of heights in m, or an image."}
-    heights["properties"]["height"] = _number("a length") | {"description": "Of white, in an image."}
+    heights["properties"]["file"] = {"type": "string", "description": "File of heights: a .npy in m, or an image."}
+    heights["properties"]["height"] = _number("a length") | {"description": "Height of white in an image."}
     heights["required"] = ["size"]
     heights["oneOf"] = [{"required": ["heights"]}, {"required": ["file"]}]
     engine = definitions["Physics"]["properties"]["engine"]
@@ -50,11 +54,11 @@ def task_schema() -> Schema:
     definitions["StartChoice"] |= {"minProperties": 1, "maxProperties": 1}
     definitions["Fall"]["properties"][LYING] = {
         "enum": list(ATTITUDES["level"]),
-        "description": "The side that it comes to lie on: gives roll and pitch, by how the robot stands.",
+        "description": "Side that the robot comes to lie on, instead of roll and pitch.",
     }
     task["properties"][KEY] = {
         "type": "object",
-        "description": "What differs with how a robot stands; or a text: why the task means nothing there.",
+        "description": "Stance -> changes of the task for robots that stand so; or a text that says why it does not apply.",
         "properties": {name: {"type": ["object", "string"]} for name in STANCES},
         "additionalProperties": False,
     }
@@ -63,8 +67,11 @@ def task_schema() -> Schema:
 
 
 def _extending(task: Schema) -> None:
-    """Let a task that extends another one leave out what it does not change, and take a cost or a criterion out by null."""
-    task["properties"][EXTENDS] = {"type": "string", "description": "A task, or its file, that has what is left out."}
+    """Let a task that extends another one leave out what it does not change, and remove a cost or a criterion by null."""
+    task["properties"][EXTENDS] = {
+        "type": "string",
+        "description": "Task, or its file, that provides what is left out.",
+    }
     task |= {"if": {"required": [EXTENDS]}, "then": {"required": ["name"]}, "else": {"required": task.pop("required")}}
     for name in ("costs", "success"):
         table = task["properties"][name]
@@ -74,7 +81,7 @@ def _extending(task: Schema) -> None:
 
 
 def _costs(definitions: dict[str, Schema]) -> Schema:
-    """A cost is named after its term, or says which it is."""
+    """Make the schema of the costs: each is named after its term, or names it."""
     for name, term in TERMS.items():
         definitions[f"term {name}"] = table = _table(term, definitions, term=name)
         table["properties"] |= {"term": {"const": name}, "weight": {"type": "number"}}
@@ -93,7 +100,7 @@ def _costs(definitions: dict[str, Schema]) -> Schema:
 
 
 def _success(definitions: dict[str, Schema]) -> Schema:
-    """A criterion is named after its quantity, or says which it is."""
+    """Make the schema of the criteria: each is named after its quantity, or names it."""
     table = definitions["Criterion"] = _table(Criterion, definitions)
     del table["required"]
     return {
@@ -105,7 +112,7 @@ def _success(definitions: dict[str, Schema]) -> Schema:
 
 
 def _table(kind: Any, definitions: dict[str, Schema], *, term: str | None = None) -> Schema:
-    """The schema of a dataclass."""
+    """Make the schema of a dataclass."""
     fields = [field for field in dataclasses.fields(kind) if field.init]
     hints, texts = typing.get_type_hints(kind), _described(kind, [field.name for field in fields])
     properties: dict[str, Schema] = {}
@@ -131,12 +138,12 @@ def _table(kind: Any, definitions: dict[str, Schema], *, term: str | None = None
 
 
 def _schema(hint: Any, measures: str | None, definitions: dict[str, Schema]) -> Schema:
-    """The schema of a type; numbers may have the units of what they measure."""
+    """Make the schema of a type; numbers may have the units of what they measure."""
     origin, arguments = typing.get_origin(hint), typing.get_args(hint)
     if dataclasses.is_dataclass(hint):
         name = typing.cast(type, hint).__name__
         if name not in definitions:
-            definitions[name] = {}  # a place, for those that hold themselves
+            definitions[name] = {}  # a placeholder, for classes that contain themselves
             definitions[name] = _table(hint, definitions)
         return _reference(name)
     if origin in (typing.Union, types.UnionType):
@@ -157,7 +164,7 @@ def _schema(hint: Any, measures: str | None, definitions: dict[str, Schema]) -> 
 
 
 def _number(measures: str | None) -> Schema:
-    """A number, or a text with a number and a unit that fits."""
+    """Make the schema of a number, or of a text with a number and a unit that fits."""
     if measures is None:
         return {"type": "number"}
     kinds = {name: kind for name, (kind, _) in (UNITS | ROBOT_UNITS).items()}
@@ -172,7 +179,7 @@ def _reference(name: str) -> Schema:
 
 
 def _described(kind: Any, names: list[str]) -> dict[str, str]:
-    """Field -> what the docstring says of it, under ``Attributes:`` or as ``field: ...`` or ``one, other: ...``."""
+    """Find what a docstring says about each field, under ``Attributes:`` or as ``field: ...`` or ``one, other: ...``."""
     text = inspect.cleandoc(kind.__doc__ or "")
     _, found, section = text.partition("\nAttributes:\n")
     if found:

@@ -1,7 +1,7 @@
-"""Stances: what of a task differs with how a robot stands, and how a robot lies on its back, front or side.
+"""Stances: how a task differs with the way a robot stands, and how a robot lies on its back, front or side.
 
-A task file is written once for all robots. Its table ``stances`` says what is different on two legs (``upright``) or on limbs
-that point outward (``sprawled``), or in one line why the task means nothing there.
+A task file is written once for all robots. Its table ``stances`` gives changes for robots on two legs (``upright``) or on limbs
+that point outward (``sprawled``), or says in one line why the task does not apply to them.
 """
 
 from __future__ import annotations
@@ -33,14 +33,22 @@ ATTITUDES: dict[str, dict[str, tuple[str, str]]] = {
     },
 }
 ATTITUDES["sprawled"] = ATTITUDES["level"]
-"""Stance -> side that a robot lies on -> roll and pitch of its trunk. What is up on four legs is ahead on two."""
+"""Stance -> side that a robot lies on -> roll and pitch of its trunk. Up on four legs is ahead on two."""
 
 
 def on_robot(content: Mapping[str, Any], robot: Callable[[], Robot], where: str) -> dict[str, Any]:
-    """The tables of a task without ``stances`` and ``lying``; the robot is asked for where there are such.
+    """Resolve ``stances`` and ``lying`` in the tables of a task.
+
+    Args:
+        content: The tables.
+        robot: Loads the robot; called only if one of the keys is there.
+        where: Place of the tables, for messages.
+
+    Returns:
+        The tables without these keys.
 
     Raises:
-        LevadeError: As `for_stance` and `as_attitude`.
+        LevadeError: As `for_stance` and `as_attitude` do.
     """
     content = dict(content)
     if KEY in content:
@@ -53,10 +61,18 @@ def on_robot(content: Mapping[str, Any], robot: Callable[[], Robot], where: str)
 
 
 def for_stance(content: Mapping[str, Any], robot: Robot, where: str) -> dict[str, Any]:
-    """The tables of a task for a robot: what its stance changes is in place, and ``stances`` is gone.
+    """Apply the changes that a task makes for a robot's stance.
+
+    Args:
+        content: The tables of the task, with ``stances``.
+        robot: The robot.
+        where: Place of the tables, for messages.
+
+    Returns:
+        The tables for this robot, without ``stances``.
 
     Raises:
-        LevadeError: If a stance does not exist, or the task means nothing on such a robot.
+        LevadeError: If a stance does not exist, or the task does not apply to such a robot.
     """
     content = dict(content)
     stances = content.pop(KEY)
@@ -67,17 +83,25 @@ def for_stance(content: Mapping[str, Any], robot: Robot, where: str) -> dict[str
             raise LevadeError(f"{where}.{KEY}: no stance {name!r}; {did_you_mean(str(name), STANCES)}")
         if not isinstance(changes, (str, Mapping)):
             raise LevadeError(
-                f"{where}.{KEY}.{name}: should be a table of changes, or a text that says why the task means nothing, is"
+                f"{where}.{KEY}.{name}: should be a table of changes, or a text that says why the task does not apply, is"
                 f" {kind_of(changes)}"
             )
     changes = stances.get(robot.stance, {})
     if isinstance(changes, str):
-        raise LevadeError(f"{content.get('name', where)}: means nothing on {robot.name}: {changes}")
+        raise LevadeError(f"{content.get('name', where)}: does not apply to {robot.name}: {changes}")
     return extended(content, dict(changes))
 
 
 def as_attitude(fall: Mapping[str, Any], robot: Robot, where: str) -> dict[str, Any]:
-    """A fall with the roll and pitch at which a robot comes to lie on the side that ``lying`` names.
+    """Turn the side that ``lying`` names into the roll and pitch of a fall.
+
+    Args:
+        fall: Table of the fall, with ``lying``.
+        robot: The robot.
+        where: Place of the table, for messages.
+
+    Returns:
+        The table with roll and pitch, without ``lying``.
 
     Raises:
         LevadeError: If there is no such side.

@@ -1,4 +1,4 @@
-"""What a motion has to achieve, and how to look for it: robot, scene, start, policy, costs, stages, success, search."""
+"""A task: what a motion has to achieve, and how to search for it."""
 
 from __future__ import annotations
 
@@ -27,16 +27,30 @@ from levade.tasks.validation import (
 
 @dataclass(frozen=True)
 class Task:
-    """The declarative whole. Tasks are YAML files; `levade.tasks.load_task` reads them.
+    """What a motion has to achieve, and how to search for it. `levade.tasks.load_task` reads it from a YAML file.
 
-    horizon: T [s], or bounds between which the search finds it. hold: [s] after T in which the reference stays at its last
-        value.
-    costs: name -> term and weight. success: name -> criterion; a motion succeeds when all hold.
-    stages: in order; each changes the weights of the task's costs, and the last one should leave them as they are.
-    robust: None looks for a motion of the nominal model alone.
-    feedback: None runs candidates on perturbed models without feedback.
-    hardware: what a certificate asks for, if searches go on until one passes, as with ``levade solve --hardware``; None for one
-        search.
+    Attributes:
+        name: Name of the task, which also names the directory of its runs.
+        horizon: T [s], or bounds between which the search finds it.
+        costs: Name -> term and weight.
+        success: Name -> criterion; a motion succeeds when all hold.
+        description: What the motion does, in one line.
+        robot: The robot, and its version.
+        scene: The ground, and what stands on it.
+        physics: Engine, time step and contact.
+        start: Where the motion starts.
+        hold: Time after T in which the reference stays at its last value [s].
+        policy: How weights become joint references.
+        stages: Stages of the search, in order. Each changes the weights of the task's costs; the last one should leave them
+            as they are.
+        search: Optimizer, budget and search distribution.
+        robust: Perturbed models that candidates run on. None searches for a motion of the nominal model alone.
+        feedback: Regulator that is on while candidates run on perturbed models. None runs them without feedback.
+        hardware: Demands of a certificate: searches go on until a motion passes, as with ``levade solve --hardware``. None
+            makes one search.
+
+    Raises:
+        LevadeError: If a value makes no sense, or two do not go together.
     """
 
     name: str
@@ -68,7 +82,14 @@ class Task:
         check_feedback(self.feedback, self.robust, self.horizon)
 
     def changed(self, change: Change) -> Task:
-        """The same task with one more change of its weights; it replaces factors that it names in the same generation."""
+        """Make the same task with one more change of its weights.
+
+        Args:
+            change: The change. It replaces factors that an earlier change of the same generation gives to the same costs.
+
+        Returns:
+            The changed task.
+        """
         before = {c.generation: c for c in self.search.changes}
         factors = before[change.generation].factors if change.generation in before else {}
         before[change.generation] = Change(change.generation, {**factors, **change.factors})
@@ -77,26 +98,27 @@ class Task:
 
     @property
     def good_enough(self) -> Mapping[str, Criterion]:
-        """Name -> criterion: what a perturbed model has to meet."""
+        """Criteria that a motion has to meet on a perturbed model, by name."""
         return self.success if self.robust is None or self.robust.success is None else self.robust.success
 
     @property
     def clearance(self) -> float | None:
-        """Distance [m] up to which parts of the robot count as near each other; None if no cost or criterion looks at it."""
+        """Distance up to which two parts of the robot count as near [m]; None if no cost or criterion looks at it."""
         looking = [*(cost.term for cost in self.costs.values()), *self.success.values(), *self.good_enough.values()]
         return clearance_of(looking)
 
     @property
     def usual_horizon(self) -> float:
-        """T [s]; where a search for it begins, if it is free."""
+        """T [s]; if it is free, the one with which a search begins."""
         return self.horizon.begin if isinstance(self.horizon, HorizonRange) else self.horizon
 
     @property
     def horizon_steps(self) -> int:
-        """Rows up to the horizon; up to the longest where the search finds it."""
+        """Rows up to the horizon; up to the longest one if the search finds it."""
         longest = self.horizon.maximum if isinstance(self.horizon, HorizonRange) else self.horizon
         return max(1, round(longest / self.physics.timestep))
 
     @property
     def hold_steps(self) -> int:
+        """Rows of the hold, after the horizon."""
         return round(self.hold / self.physics.timestep)

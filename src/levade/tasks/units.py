@@ -1,6 +1,6 @@
 """Numbers with units in task files: ``pitch: -60 deg``, ``horizon: 300 ms``, ``z: 1.5 heights``. Plain numbers are SI.
 
-A task in units of the robot means the same on every robot; they are `levade.robots.Dimensions`, one or many of them:
+A task in units of the robot means the same on every robot. These units are `levade.robots.Dimensions`, in singular or plural:
 ``1 height``, ``0.5 legs``, ``2 trunks``, ``6 falls``, ``0.2 heights/fall``.
 """
 
@@ -27,7 +27,7 @@ UNITS: dict[str, tuple[str, float]] = {
     "rad/s": ("an angular speed", 1.0),
     "deg/s": ("an angular speed", math.pi / 180),
 }
-"""Unit -> what it measures, and its size in SI."""
+"""Unit -> kind of quantity, and size in SI."""
 
 ROBOT_UNITS: dict[str, tuple[str, Callable[[Dimensions], float]]] = {
     "height": ("a length", lambda robot: robot.height),
@@ -37,7 +37,7 @@ ROBOT_UNITS: dict[str, tuple[str, Callable[[Dimensions], float]]] = {
     "height/fall": ("a speed", lambda robot: robot.height / robot.fall),
     "rad/fall": ("an angular speed", lambda robot: 1.0 / robot.fall),
 }
-"""Unit of the robot -> what it measures, and its size in SI."""
+"""Unit of the robot -> kind of quantity, and size in SI."""
 
 PLURALS = {  # of units of the robot
     "heights": "height",
@@ -74,11 +74,19 @@ _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-z
 def to_si(
     content: Any, *, where: str, measures: str | None = None, robot: Callable[[], Dimensions] | None = None
 ) -> Any:
-    """The same tables and lists with every "number unit" turned into a number in SI units.
+    """Turn every "number unit" in tables and lists into a number in SI units.
 
-    measures: what a bare value at this place stands for ("an angle", ...); None where no unit has a place.
-    robot: called for the size of the robot, if a number is in units of it; without, these are refused.
-    Raises LevadeError for a unit that does not exist or does not fit the key.
+    Args:
+        content: A table, a list or a value.
+        where: Place of the content, for messages.
+        measures: Kind of quantity of a bare value here ("an angle", ...); None where no unit is allowed.
+        robot: Finds the size of the robot; called only if a number is in units of the robot. None refuses these units.
+
+    Returns:
+        The same content with numbers in SI.
+
+    Raises:
+        LevadeError: If a unit does not exist or does not fit the key.
     """
     if isinstance(content, Mapping):
         table = {}
@@ -116,7 +124,7 @@ def to_si(
         raise LevadeError(f"{where}: unknown unit {unit!r} in {content!r}; {hint}")
     kind = kinds[name]
     if measures is None:
-        raise LevadeError(f"{where}: {content!r}, but this number takes no unit; give it in SI, without one")
+        raise LevadeError(f"{where}: {content!r} has a unit, but this number takes none; give it in SI, without one")
     if kind != measures:
         raise LevadeError(f"{where}: {content!r} is {kind}, but this is {measures}; units here: {', '.join(fitting)}")
     if name in UNITS:
@@ -126,7 +134,14 @@ def to_si(
 
 
 def is_number(text: str) -> bool:
-    """Whether a text is a number without a unit: in 1e3 the e is none."""
+    """Find out whether a text is a number without a unit, such as 1e3.
+
+    Args:
+        text: The text.
+
+    Returns:
+        Whether Python reads it as a number.
+    """
     try:
         float(text)
     except ValueError:
@@ -135,19 +150,35 @@ def is_number(text: str) -> bool:
 
 
 def measure_of(criterion: Any) -> str | None:
-    """What a criterion's numbers stand for ("a length", ...); None without a unit, or if it is none."""
+    """Find the kind of quantity of a criterion's numbers.
+
+    Args:
+        criterion: Table of the criterion.
+
+    Returns:
+        The kind ("a length", ...); None if the numbers take no unit, or it is not a criterion.
+    """
     quantity = criterion.get("quantity") if isinstance(criterion, Mapping) else None
     unit = QUANTITIES.get(quantity) if isinstance(quantity, str) else None
     return UNITS[unit][0] if unit in UNITS else None
 
 
 def measured(key: str, siblings: Mapping[str, Any]) -> str | None:
+    """Find the kind of quantity of a key's value.
+
+    Args:
+        key: The key.
+        siblings: The table that the key is in.
+
+    Returns:
+        The kind ("an angle", ...); None if the value takes no unit.
+    """
     term = str(siblings.get("term"))
     if key in _BOUNDS and (kind := measure_of(siblings)):
         return kind
     if key == "tolerance" and siblings.get("term") in ("orientation", "position"):
         return "an angle" if siblings["term"] == "orientation" else "a length"
-    # terms that aim at a velocity name their components x, y, z too
+    # terms that aim at a velocity also name their components x, y, z
     if term in _VELOCITIES and key in ("x", "y", "z", "tolerance", "velocity"):
         return _VELOCITIES[term]
     if key == "position" and term == "posture":

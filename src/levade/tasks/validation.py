@@ -1,6 +1,6 @@
-"""Whether the parts of a task make sense together: one clear line for each mistake.
+"""Check that the parts of a task fit together, with one clear line for each mistake.
 
-Every function raises LevadeError that begins with the key of the task which is wrong.
+Every function raises `LevadeError` with a message that begins with the wrong key of the task.
 """
 
 from __future__ import annotations
@@ -16,24 +16,47 @@ from levade.tasks.regulation import Regulation
 from levade.tasks.robust import Robust
 
 LONGEST = 120.0
-"""[s], of horizon and hold together."""
+"""[s]: longest horizon and hold together."""
 
 
 def looks_at_hold(term: object) -> bool:
-    """Whether a term or criterion needs the rows after the horizon. One that looks at the largest or smallest value of
-    all takes what there is.
+    """Find out whether a term or criterion needs the rows after the horizon.
+
+    A term that looks at the largest or smallest value of all rows does not need them: it uses the rows that there are.
+
+    Args:
+        term: A term, or a criterion.
+
+    Returns:
+        Whether it needs them.
     """
     return getattr(term, "at", "horizon") in ("end", "hold") or getattr(term, "over", "horizon") == "all"
 
 
 def check_name(name: str) -> None:
-    """A task's name names the directory of its runs."""
+    """Check that a task's name can name the directory of its runs.
+
+    Args:
+        name: The name.
+
+    Raises:
+        LevadeError: If it cannot.
+    """
     if not name.strip(". ") or "/" in name or "\\" in name or not name.isprintable():
-        raise LevadeError(f"name: {name!r} should be a word or two that can name a directory")
+        raise LevadeError(f"name: {name!r} should be a word or two that can name a directory, such as my-task")
 
 
 def check_durations(horizon: float | HorizonRange, hold: float, timestep: float) -> None:
-    """Horizon, hold and time step [s]."""
+    """Check the durations of a task.
+
+    Args:
+        horizon: T [s], or bounds of it.
+        hold: Time after T [s].
+        timestep: Time step of the physics [s].
+
+    Raises:
+        LevadeError: If one is not positive or too long.
+    """
     if isinstance(horizon, HorizonRange):
         check_durations(horizon.minimum, hold, timestep)
         horizon = horizon.maximum
@@ -46,15 +69,21 @@ def check_durations(horizon: float | HorizonRange, hold: float, timestep: float)
 
 
 def check_policy(policy: PolicyChoice) -> None:
-    """What no robot decides."""
+    """Check the parts of a policy that do not depend on the robot.
+
+    Args:
+        policy: The task's policy.
+
+    Raises:
+        LevadeError: If a value is out of range, or two do not go together.
+    """
     if policy.goal_is_free and policy.settle == 0:
         raise LevadeError(
-            "policy.goal: it is free, but no reference settles there; give policy.settle a share of the horizon, such as 0.3"
+            "policy.goal: is free, but no reference settles there; set policy.settle to a share of the horizon, such as 0.3"
         )
     if policy.through and policy.initial != "interpolate":
         raise LevadeError(
-            f"policy.through: the search begins with initial: {policy.initial}, which goes through no posture; say"
-            " initial: interpolate"
+            f"policy.through: initial: {policy.initial} does not use these postures; set policy.initial to interpolate"
         )
     if not 1 <= policy.kernels <= 1000:
         raise LevadeError(f"policy.kernels: {policy.kernels} should be 1 to 1000; the paper has 16")
@@ -65,9 +94,18 @@ def check_policy(policy: PolicyChoice) -> None:
 
 
 def check_costs(costs: Mapping[str, Cost], success: Mapping[str, Criterion], hold: float) -> None:
-    """Costs and criteria, each by itself."""
+    """Check the costs and criteria of a task, each by itself.
+
+    Args:
+        costs: Name -> term and weight.
+        success: Name -> criterion.
+        hold: Time after the horizon [s].
+
+    Raises:
+        LevadeError: If there are no costs, a weight is not finite, or one looks at a hold that the task does not have.
+    """
     if not costs:
-        raise LevadeError("costs: there are none; at least one term says what to look for")
+        raise LevadeError("costs: there are none; give at least one, such as costs: {effort: {weight: 1}}")
     for name, cost in costs.items():
         if not math.isfinite(cost.weight):
             raise LevadeError(f"costs.{name}.weight: {cost.weight} is not a number")
@@ -84,19 +122,32 @@ def check_stages(
     hold: float,
     hold_steps: int,
 ) -> None:
-    """Stages, each against the task's costs, criteria and hold; and that every cost counts in one of them."""
+    """Check the stages of a task, and that every cost counts in one of them.
+
+    Args:
+        stages: The stages, in order.
+        costs: Name -> term and weight.
+        success: Name -> criterion.
+        hold: Time after the horizon [s].
+        hold_steps: Time steps of the hold.
+
+    Raises:
+        LevadeError: If a stage does not fit the task's costs, criteria or hold, or a cost counts nowhere.
+    """
     if not stages:
         raise LevadeError("stages: there are none; leave the key out for a single one")
     for i, stage in enumerate(stages):
         where = f"stages.{i}"
         _check_names(where, stage, costs, success)
         if stage.trials is not None and stage.trials < 1:
-            raise LevadeError(f"{where}.trials: {stage.trials} should be at least 1; leave it out for all that is left")
+            raise LevadeError(
+                f"{where}.trials: {stage.trials} should be at least 1; leave it out to use all that is left"
+            )
         if not 0 <= stage.hold <= max(hold, 1):
             raise LevadeError(f"{where}.hold: {stage.hold} should be true, false, or at most the task's {hold} s")
         if hold_steps and not stage.hold and all(looks_at_hold(cost.term) for cost in costs.values()):
             raise LevadeError(
-                f"{where}.hold: {stage.hold}, but every cost of the task looks at the hold; say hold: true"
+                f"{where}.hold: {stage.hold}, but every cost of the task looks at the hold; set hold: true"
             )
         if not (math.isfinite(stage.step) and stage.step > 0):
             raise LevadeError(f"{where}.step: {stage.step} should be a positive factor on the step size")
@@ -104,13 +155,21 @@ def check_stages(
         for name, cost in costs.items():
             if looks_at_hold(cost.term):
                 raise LevadeError(
-                    f"costs.{name}: looks at the hold, which no stage simulates, and so counts nowhere; let it look at"
-                    " the horizon (at: horizon or over: horizon), or give a stage hold: true or a number of seconds"
+                    f"costs.{name}: looks at the hold, which no stage simulates, so it counts nowhere; let it look at"
+                    " the horizon (at: horizon or over: horizon), or set the hold of a stage to true or a number of seconds"
                 )
 
 
 def check_starts(robust: Robust | None, stages: Sequence[Stage]) -> None:
-    """Several motions to start robust stages from need stages of both kinds."""
+    """Check that a task with several starts has stages with and without perturbed models.
+
+    Args:
+        robust: How candidates run on perturbed models; None if they do not.
+        stages: The stages, in order.
+
+    Raises:
+        LevadeError: If it lacks one kind.
+    """
     if robust is None or robust.starts == 1:
         return
     kinds = [stage.robust for stage in stages]
@@ -123,38 +182,63 @@ def check_starts(robust: Robust | None, stages: Sequence[Stage]) -> None:
 
 
 def check_good_enough(robust: Robust | None, success: Mapping[str, Criterion], hold: float) -> None:
-    """What is good enough on perturbed models are criteria of the task."""
+    """Check that the criteria for perturbed models are criteria of the task.
+
+    Args:
+        robust: How candidates run on perturbed models; None if they do not.
+        success: Name -> criterion of the task.
+        hold: Time after the horizon [s].
+
+    Raises:
+        LevadeError: If one is not.
+    """
     for name, criterion in ({} if robust is None else robust.success or {}).items():
         if name not in success:
             hint = did_you_mean(name, success) if success else "the task has none"
-            raise LevadeError(f"robust.success.{name}: is no criterion of the task; {hint}")
+            raise LevadeError(f"robust.success.{name}: is not a criterion of the task; {hint}")
         _check_hold(f"robust.success.{name}", criterion, hold)
 
 
 def check_feedback(feedback: Regulation | None, robust: Robust | None, horizon: float | HorizonRange) -> None:
-    """Feedback needs something to correct."""
+    """Check that feedback has perturbed models to correct, and one horizon.
+
+    Args:
+        feedback: The regulator; None for none.
+        robust: How candidates run on perturbed models; None if they do not.
+        horizon: T [s], or bounds of it.
+
+    Raises:
+        LevadeError: If it has not.
+    """
     if feedback is None:
         return
     if robust is None:
         raise LevadeError(
-            "feedback: is on while candidates run on perturbed models, and the task has none; give robust, such as"
-            " robust: {samples: 8}"
+            "feedback: acts on perturbed models, but the task has none; add robust, such as robust: {samples: 8}"
         )
     if isinstance(horizon, HorizonRange):
         raise LevadeError(
-            f"feedback: its gains are made for one duration, and the horizon is {horizon}; give a number, such as the"
+            f"feedback: needs one horizon for its gains, but the task has {horizon}; give a number, such as the"
             " duration of a motion that a search without feedback found"
         )
 
 
 def check_search(search: Search, costs: Mapping[str, Cost]) -> None:
-    """How to look."""
+    """Check the search settings of a task.
+
+    Args:
+        search: The settings.
+        costs: Name -> term and weight.
+
+    Raises:
+        LevadeError: If a value is out of range, or two do not go together.
+    """
     if isinstance(search.optimizer, str):
         _check_optimizer(search.optimizer, search.settings)
     elif not can_restart(search.optimizer) and search.restart is not None:
         raise LevadeError(
-            "search.restart: a ready optimizer cannot be made again for another attempt; give a class or function, or no"
-            " restart"
+            "search.restart: an optimizer object cannot restart; give its class or a function that makes it, or leave"
+            " restart out"
         )
     if search.trials < 1:
         raise LevadeError(f"search.trials: {search.trials} should be at least 1; the paper has about 3000")
@@ -169,7 +253,7 @@ def check_search(search: Search, costs: Mapping[str, Cost]) -> None:
             f"search.patience: {search.patience} should be at least 1; leave it out to restart in any case"
         )
     if search.patience is not None and search.restart is None:
-        raise LevadeError("search.patience: counts where there is a restart; give search.restart, too")
+        raise LevadeError("search.patience: only works with a restart; set search.restart, too")
     if search.restart is not None and search.restart < 1:
         raise LevadeError(f"search.restart: {search.restart} should be at least 1; leave it out to go on")
     if search.polish is not None and search.polish < 0:
@@ -189,7 +273,7 @@ def _check_optimizer(name: str, given: Mapping[str, float]) -> None:
 
 
 def _check_names(where: str, stage: Stage, costs: Mapping[str, Cost], success: Mapping[str, Criterion]) -> None:
-    """What a stage weighs and promotes is in the task."""
+    """Check that a stage names costs and criteria of the task."""
     valid: Mapping[str, object]
     for key, valid in (("weights", costs), ("promote", success)):
         for name, value in getattr(stage, key).items():
@@ -201,7 +285,7 @@ def _check_names(where: str, stage: Stage, costs: Mapping[str, Cost], success: M
 
 def _check_hold(where: str, term: object, hold: float) -> None:
     if getattr(term, "at", None) == "hold" and hold == 0:
-        raise LevadeError(f"{where}.at: hold, but the task has no hold; give it one (hold: 2.0) or say at: horizon")
+        raise LevadeError(f"{where}.at: hold, but the task has no hold; give it one (hold: 2.0) or set at: horizon")
 
 
 def _check_change(where: str, change: Change, costs: Mapping[str, Cost]) -> None:
