@@ -121,7 +121,7 @@ def run(
             raise LevadeError(f"{directory}: cannot be written ({error.strerror}); give another directory") from None
         stack.enter_context(closing(file))
         with storing(directory / MOTION, then=Remedy("give another directory")):
-            (directory / MOTION).unlink(missing_ok=True)  # only now, so that a full disk does not cost an earlier motion
+            (directory / MOTION).unlink(missing_ok=True)  # only now: a full disk costs no earlier motion
         return _Run(objective, header, directory, file).go([], initial, observe, steer)
 
 

@@ -245,7 +245,7 @@ def promoted(stage: Stage, evaluation: Evaluation) -> NDArray[np.bool_]:
     """
     within = ~evaluation.diverged if stage.promote else np.zeros(len(evaluation.success), dtype=bool)
     for name, tolerance in stage.promote.items():
-        within = within & (np.abs(evaluation.errors[name]) <= tolerance)  # NaN, where nothing was simulated, is never within
+        within = within & (np.abs(evaluation.errors[name]) <= tolerance)  # NaN, if not simulated, is never within
     return within
 
 
