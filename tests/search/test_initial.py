@@ -130,7 +130,7 @@ def test_stopped_before_the_guess_is_told_it_ends_with_the_mean() -> None:
         (np.zeros((0, 6)), 1.0, r"got shape \(0, 6\)"),
         (np.full((2, 6), np.nan), 1.0, r"finite numbers"),
         (np.zeros((1, 6)), 0.0, r"the factor on the step is 0.0; give a positive number"),
-        (np.zeros((1, 6)), np.inf, r"a factor of inf on the step"),
+        (np.zeros((1, 6)), np.inf, r"the factor on the step is inf"),
     ],
 )
 def test_guesses_that_are_wrong(candidates: np.ndarray, step: float, message: str) -> None:

@@ -134,7 +134,7 @@ def pursue(
         minutes: Time for all searches and checks together [min]. They end with the best motion so far, and a later call goes
             on. None sets no limit except the searches' numbers of trials.
         demands: Demands of the certificate. Defaults to the task's, or else to `levade.tasks.Demands`.
-        runs: Most perturbed runs of each certificate. A certificate ends after 100 if the demanded share is out of reach.
+        runs: Most perturbed runs of each certificate. After 100 runs, it ends once the demanded share is out of reach.
         replace: Whether to replace the content of the directory and begin from nothing.
         begin: Called before each search, see `Begin`.
         observe: Called after each generation, see `Observe`.
@@ -149,7 +149,7 @@ def pursue(
             holds something else.
     """
     if minutes is not None and not minutes > 0:
-        raise LevadeError(f"is {minutes:g}, should be a positive number of minutes; 5 is usual", field="minutes")
+        raise LevadeError(f"{minutes:g} should be a positive number of minutes; 5 is usual", field="minutes")
     if robot is None:
         robot = task.robot.load()
     demands = demands or task.hardware or Demands()

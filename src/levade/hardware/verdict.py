@@ -69,9 +69,7 @@ def _of_margin(name: str, margin: Margin, motion: Motion) -> str:
     joints, limits = motion.joint_names, motion.embodiment.limits
     if margin.value is None or margin.least not in joints:
         if name == "self_collision" and margin.value is not None:
-            return (
-                f"{margin.least} overlap by {1000 * margin.value:.0f} mm: try a slower motion, or legs farther apart"
-            )
+            return f"{margin.least} overlap by {1000 * margin.value:.0f} mm: try a slower motion, or legs farther apart"
         return f"{name.replace('_', ' ')}: {margin.least} {margin.value} {margin.unit}"
     joint, required = joints.index(margin.least), margin.required or 0.0
     if name == "power":
@@ -93,7 +91,9 @@ def _of_margin(name: str, margin: Margin, motion: Motion) -> str:
             f"{margin.least} leaves {margin.value:.3g} rad of its range, but {required:.3g} rad should be left: try a wider"
             " range, or a goal that asks for less"
         )
-    return f"{margin.least} leaves {margin.value:.0%} of its {name.replace('_', ' ')} limit{asked}: try a stronger joint"
+    return (
+        f"{margin.least} leaves {margin.value:.0%} of its {name.replace('_', ' ')} limit{asked}: try a stronger joint"
+    )
 
 
 def _of_perturbed(certificate: Certificate) -> str:
