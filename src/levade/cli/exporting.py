@@ -81,7 +81,7 @@ def _uncertified(path: Path, motion: Motion) -> tuple[str, ...]:
     try:
         reason = doubt(beside, motion) if beside.is_file() else f"there is no {beside}"
     except LevadeError:
-        reason = f"{beside} is none"
+        reason = f"{beside} is no certificate"
     if reason is None:
         return ()
     return (f"no certificate says that hardware can do this ({reason}): levade check {path} --out {beside}",)
