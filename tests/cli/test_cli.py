@@ -83,7 +83,7 @@ def test_help_and_version(levade) -> None:
         ),
         (
             "solve --resume here",
-            "here: no run to resume, task.yaml or checkpoint.jsonl is missing; give the directory of a run",
+            "here: holds no run to resume, task.yaml or checkpoint.jsonl is missing; give the directory of a run",
         ),
         (
             "solve rearing --out /proc/none",

@@ -59,8 +59,8 @@ def test_it_writes_beside_the_motion_and_records_the_command(motion: Path, tmp_p
     [
         (["--to", "cvs"], "--to: no format 'cvs'; did you mean csv?"),
         (["--to", "sdf"], "--to: no format 'sdf'; valid names: csv, json, mjcf, mjlab, ros2, unitree, urdf"),
-        ([], "say in which format: --to csv, json, ros2, mjlab, unitree, urdf, mjcf"),
-        (["--to", "csv", "--out", "x.csv"], "--out x.csv: several files are written; give a directory, such as x"),
+        ([], "no format given; add --to csv, json, ros2, mjlab, unitree, urdf, mjcf"),
+        (["--to", "csv", "--out", "x.csv"], "--out x.csv: the export has several files; give a directory, such as x"),
         (["--to", "csv", "--rate", "0"], "--rate: 0.0 should be a positive number of rows per second"),
         (["--to", "csv", "--rate", "fast"], "Invalid value for '--rate'"),
         (["--to", "csv", "--reference", "both"], "--reference: no reference 'both'; valid names: commanded, measured"),

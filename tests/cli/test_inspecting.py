@@ -50,7 +50,7 @@ def test_warnings_come_first_each_with_its_remedy(levade, urdf: Path) -> None:
     warning = out.index("1 warning\n  ! joint ")
     assert warning < out.index(" notes\n  - ")
     assert re.search(
-        r"! joint \w+_kfe: needs 2.48 Nm to stand in the neutral posture; its limit is 2 Nm\n      to mend: ", out
+        r"! joint \w+_kfe: needs 2.48 Nm to stand in the neutral posture; its limit is 2 Nm\n      to fix: ", out
     )
 
 

@@ -34,7 +34,7 @@ def test_a_motion_is_shown_as_its_report(levade) -> None:
     status, out, _ = levade("view", "rearing", "--out", "task.html")
     assert (status, out.splitlines()[0]) == (
         0,
-        "The built-in task; the motion in rearing/ is: levade view rearing/motion.npz",
+        "This is the built-in task. For the motion in rearing/: levade view rearing/motion.npz",
     )
 
 

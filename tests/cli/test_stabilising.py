@@ -89,7 +89,7 @@ def test_mistakes_are_one_line(unmet: Path, levade) -> None:
     for words, message in (
         (["--bound", "9"], "--bound: 9 should be more than 0"),
         (["--out", "/nowhere/motion.npz"], "/nowhere/motion.npz: no such directory"),
-        (["--out", "."], "--out .: is a directory; give a file in it, as motion-stabilised.npz"),
+        (["--out", "."], "--out .: is a directory; give a file in it, such as motion-stabilised.npz"),
         (["--out", str(motion)], "is the motion itself; give another file, or leave it out"),
         (["--perturb", "frction=[1,1]"], "friction"),
     ):

@@ -189,7 +189,7 @@ def test_records_of_other_costs_or_criteria_are_refused() -> None:
         ({**first.terms, "x": first.terms["effort"]}, first.errors),
     ):
         wrong = Record(kept[0].checksum, Evaluation(terms, errors, first.success, first.diverged, first.slack))
-        with pytest.raises(LevadeError, match="record 1 is of another search"):
+        with pytest.raises(LevadeError, match="record 1 belongs to another search"):
             solve(objective, records=[wrong])
 
 

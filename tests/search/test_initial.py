@@ -129,8 +129,8 @@ def test_stopped_before_the_guess_is_told_it_ends_with_the_mean() -> None:
         (np.zeros(6), 1.0, r"finite numbers of shape \(motions, d\), got shape \(6,\)"),
         (np.zeros((0, 6)), 1.0, r"got shape \(0, 6\)"),
         (np.full((2, 6), np.nan), 1.0, r"finite numbers"),
-        (np.zeros((1, 6)), 0.0, r"a factor of 0.0 on the step makes no sense; give a positive number"),
-        (np.zeros((1, 6)), np.inf, r"a factor of inf on the step"),
+        (np.zeros((1, 6)), 0.0, r"the factor on the step is 0.0; give a positive number"),
+        (np.zeros((1, 6)), np.inf, r"the factor on the step is inf"),
     ],
 )
 def test_guesses_that_are_wrong(candidates: np.ndarray, step: float, message: str) -> None:
@@ -139,7 +139,7 @@ def test_guesses_that_are_wrong(candidates: np.ndarray, step: float, message: st
 
 
 def test_a_guess_of_another_size_is_refused_at_once() -> None:
-    with pytest.raises(LevadeError, match=r"initial: weights of shape \(2, 5\), should be \(k, 6\)"):
+    with pytest.raises(LevadeError, match=r"initial: weights have shape \(2, 5\), should be \(k, 6\)"):
         Search(make_task(), SPACE, initial=InitialGuess(np.zeros((2, 5))))
 
 

@@ -75,7 +75,7 @@ def test_a_trial_that_never_fits_is_refused_before_it_is_simulated(
     objective: Objective, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(memory, "free_memory", lambda: 100_000)
-    with pytest.raises(LevadeError, match=r"horizon: a trial of 40 steps needs 0?.* MB, and 0\.1 MB are free"):
+    with pytest.raises(LevadeError, match=r"horizon: a trial of 40 steps needs 0?.* MB, but only half of the 0\.1 MB"):
         objective.with_task(objective.task)
 
 

@@ -331,7 +331,7 @@ def test_records_of_another_seed_are_refused(objective: Objective, tmp_path: Pat
     run(objective, seed=3, directory=tmp_path, observe=stop_after(3))
     checkpoint = read_run(tmp_path)[1]
     checkpoints.begin(tmp_path, dataclasses.replace(checkpoint.header, seed=4), checkpoint.records).close()
-    with pytest.raises(LevadeError, match="record 1 is of another search"):
+    with pytest.raises(LevadeError, match="record 1 belongs to another search"):
         resume(tmp_path)
 
 

@@ -81,7 +81,7 @@ def test_it_asks_for_the_same_until_it_is_told() -> None:
 def test_tell_before_ask_is_refused() -> None:
     search = Search(make_task(), SPACE)
     evaluation = answer(search.task, Trials(np.zeros((POPULATION, 6)), 20))
-    with pytest.raises(RuntimeError, match="no trials to tell about; ask first"):
+    with pytest.raises(RuntimeError, match="no trials were asked for; ask first"):
         search.tell(evaluation)
     search.ask()
     search.tell(evaluation)

@@ -462,9 +462,9 @@ def test_an_interruption_while_the_best_is_simulated_again_keeps_it(staged: Obje
 @pytest.mark.slow
 def test_records_of_another_search_are_refused(staged: Objective) -> None:
     records = recorded(staged, seed=1)[2][3]
-    with pytest.raises(LevadeError, match="record 1 is of another search: the task, the seed or"):
+    with pytest.raises(LevadeError, match="record 1 belongs to another search: the task, the seed or"):
         solve(staged, seed=2, records=records)
-    with pytest.raises(LevadeError, match="record 2 is of another search"):
+    with pytest.raises(LevadeError, match="record 2 belongs to another search"):
         solve(staged, seed=1, records=[records[0], records[2]])
 
 

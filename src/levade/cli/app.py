@@ -44,7 +44,11 @@ _SEVERAL = ("--tasks", "--robots", "--optimizers", "--add")
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run the command line; whatever is wrong with the input is one line on standard error and exit status 2."""
+    """Run the command line. Wrong input gives one line on standard error and exit status 2.
+
+    Args:
+        arguments: Words after the program's name. Defaults to those of the process.
+    """
     if arguments is None:
         _collect_seldom()
     with lasting_output() as output:
@@ -56,14 +60,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def _collect_seldom() -> None:
-    """Have the garbage collector look through the process seldom, and not at its end: both took a quarter of the start-up."""
+    """Let the garbage collector run seldom, and not at the end: both took a quarter of the start-up time."""
     gc.set_threshold(100_000)
     atexit.register(gc.freeze)
 
 
 def _run(arguments: Sequence[str] | None) -> int:
     """Run the command line. Returns the exit status."""
-    # typer names these by its own copy of click since 0.26, by click itself before
+    # since 0.26 these come from typer's own copy of click, before from click itself
     _, usage_error, click_exception, *_ = typer.BadParameter.__mro__
     arguments = _spread(sys.argv[1:] if arguments is None else arguments)
     first = arguments[0] if arguments else ""
@@ -79,7 +83,7 @@ def _run(arguments: Sequence[str] | None) -> int:
         )
     except click_exception as error:  # type: ignore[misc]
         return _failed(" ".join(error.format_message().split()))
-    except OSError as error:  # of a path that the system does not take, such as one of a name that is too long
+    except OSError as error:  # the system refuses a path, for example because its name is too long
         place = error.filename if isinstance(error.filename, str) else "the system"
         return _failed(f"{place}: {error.strerror or error}; give another path")
     except MemoryError as error:
@@ -91,7 +95,7 @@ def _run(arguments: Sequence[str] | None) -> int:
 
 @cache
 def _command(word: str) -> Any:
-    """Make the tree of commands. If the word names a command, it holds that one only, as typer reads the signature of each."""
+    """Make the tree of commands. If the word names a command, the tree holds only that one: typer reads every signature."""
     alone = copy.copy(app)
     alone.registered_commands = [
         one for one in app.registered_commands if one.callback and one.callback.__name__ == word
@@ -101,7 +105,7 @@ def _command(word: str) -> Any:
 
 
 def _spread(arguments: Sequence[str]) -> list[str]:
-    """``bench --tasks A B`` as ``bench --tasks A --tasks B``, which is how typer takes several values."""
+    """Rewrite ``bench --tasks A B`` as ``bench --tasks A --tasks B``, since typer takes several values in this form."""
     if not arguments or arguments[0] != "bench":
         return list(arguments)
     taken: list[str] = []
@@ -253,7 +257,7 @@ def solve(
     from levade.tasks.files import asks_for_hardware
 
     if hardware and robust:
-        raise LevadeError("--robust: --hardware asks for that, too; leave out one of them")
+        raise LevadeError("--robust: --hardware includes it; leave out one of them")
     flag = "--hardware" if hardware else "--robust" if robust else None
     hardware = hardware or (task is not None and asks_for_hardware(task, changed))
     if hardware or robust or (resume is not None and (resume / PURSUIT).is_file()):
@@ -262,7 +266,7 @@ def solve(
         beside = {"--watch": watch, "--from": begin, "--after": after, "--trials": trials, "--optimizer": optimizer}
         if extra := [name for name, value in beside.items() if value]:
             asks = flag or ("--hardware" if resume is not None else "hardware, which the task asks for")
-            raise LevadeError(f"{asks}: makes its own searches; leave out {' and '.join(extra)}")
+            raise LevadeError(f"{asks}: plans its own searches; leave out {' and '.join(extra)}")
         return pursue_and_report(
             task=task,
             robot=robot,
@@ -591,22 +595,23 @@ app.add_typer(_library, name="library")
 
 @_library.command("build")
 def _build_library(
-    task: Annotated[str, typer.Argument(help="What each motion is to do: self-righting, or your own task.")],
-    robot: Annotated[str | None, typer.Option(help="Another robot: its name or file.")] = None,
-    starts: Annotated[int, typer.Option(help="Falls in all; a later build may add some.")] = 100,
-    seed: Annotated[int, typer.Option(min=0, help="Of the falls and of the searches.")] = 0,
-    out: Annotated[Path | None, typer.Option(help="Directory; by default TASK-library.")] = None,
+    task: Annotated[str, typer.Argument(help="Task of each motion: self-righting, or your own task.")],
+    robot: Annotated[str | None, typer.Option(help="Robot instead of the task's: a name or a file.")] = None,
+    starts: Annotated[int, typer.Option(help="Number of falls in all; a later build may add more.")] = 100,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of the falls and of the searches.")] = 0,
+    out: Annotated[Path | None, typer.Option(help="Directory to write; by default TASK-library.")] = None,
     changes: Annotated[
         list[str] | None, typer.Option("--set", metavar="PATH=VALUE", help="Change a value of the task. Repeatable.")
     ] = None,
-    threads: Annotated[int, typer.Option(min=0, help="Engine threads; 0 for one per core.")] = 0,
-    jobs: Annotated[int, typer.Option(min=1, help="Processes side by side, of one thread each.")] = 1,
+    threads: Annotated[int, typer.Option(min=0, help="Number of engine threads; 0 for one per core.")] = 0,
+    jobs: Annotated[int, typer.Option(min=1, help="Number of processes at a time, with one thread each.")] = 1,
     shard: Annotated[
-        str | None, typer.Option(metavar="I/N", help="Only every N-th fall, from I (0 to N - 1) on: see merge.")
+        str | None,
+        typer.Option(metavar="I/N", help="Build only every N-th fall, from fall I (0 to N - 1); see library merge."),
     ] = None,
     as_json: Json = False,
 ) -> int:
-    """Find a motion for each of many falls. Called again, goes on where it stopped.
+    """Find a motion for each of many falls. Called again, it continues where it stopped.
 
     Exit status: 0 every fall is done, 1 it was interrupted, 2 the input is wrong.
     """
@@ -632,7 +637,7 @@ def _merge_library(
     out: Annotated[Path, typer.Option(help="Directory of the library.")],
     as_json: Json = False,
 ) -> int:
-    """Join shards that were built on machines of their own. Build the library once more then.
+    """Join shards that were built on several machines. Then build the library once more.
 
     Exit status: 0 all is joined, 2 the input is wrong.
     """
@@ -646,7 +651,10 @@ def _learn_library(
     library: Annotated[Path, typer.Argument(metavar="DIR", help="A library that is built.")],
     as_json: Json = False,
 ) -> int:
-    """Learn which motion works from where, in several ways, and answer by the best: how often are first answers right?"""
+    """Learn which motion works from which state, in several ways. The library then answers with the best of these.
+
+    It says how often the first answer is right.
+    """
     from levade.cli.librarian import learn_library
 
     return learn_library(library, as_json=as_json)
@@ -655,11 +663,11 @@ def _learn_library(
 @_library.command("export")
 def _export_library(
     library: Annotated[Path, typer.Argument(metavar="DIR", help="A library.")],
-    out: Annotated[Path | None, typer.Option(help="Directory; by default DIR-robot.")] = None,
-    rate: Annotated[float | None, typer.Option(help="Of the rows [Hz]; by default the simulation's.")] = None,
+    out: Annotated[Path | None, typer.Option(help="Directory to write; by default DIR-robot.")] = None,
+    rate: Annotated[float | None, typer.Option(help="Rows per second [Hz]; by default the simulation's.")] = None,
     as_json: Json = False,
 ) -> int:
-    """Write a library for a robot: a folder that asks, plays, looks and asks again, with numpy alone."""
+    """Write a library for a robot: a directory that asks, plays, looks and asks again, and needs only numpy."""
     from levade.cli.librarian import export_the_library
 
     return export_the_library(library, out=out, rate=rate, as_json=as_json)
@@ -669,12 +677,12 @@ def _export_library(
 def _show_library(
     library: Annotated[Path, typer.Argument(metavar="DIR", help="A library.")],
     figures: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Draw how its falls lie, and their cover.")
+        Path | None, typer.Option(metavar="DIR", help="Draw the falls and the motions that cover them, into DIR.")
     ] = None,
-    format: Annotated[str, typer.Option(help="Of the figure: pdf, svg or png.")] = "pdf",
+    format: Annotated[str, typer.Option(help="Format of the figure: pdf, svg or png.")] = "pdf",
     as_json: Json = False,
 ) -> int:
-    """Say what a library has: falls, how each was solved, and how few motions are enough."""
+    """Say what a library holds: its falls, how each was solved, and how few motions are enough."""
     from levade.cli.librarian import show_library
 
     return show_library(library, figures=figures, format=format, as_json=as_json)
@@ -684,15 +692,16 @@ def _show_library(
 def _ask_library(
     library: Annotated[Path, typer.Argument(metavar="DIR", help="A library.")],
     state: Annotated[Path, typer.Option(help="JSON or YAML: attitude (w-x-y-z) or up (in trunk axes), and joints.")],
-    reference: Annotated[Path | None, typer.Option(help="Write what to tell the joints, as CSV.")] = None,
+    reference: Annotated[Path | None, typer.Option(help="Write the joints' references to this file, as CSV.")] = None,
     refine: Annotated[
-        str | None, typer.Option(metavar="TIME", help="Try the answer in simulation, and search on: 1s.")
+        str | None,
+        typer.Option(metavar="TIME", help="Try the answer in simulation, and improve it for this time, such as 1s."),
     ] = None,
     as_json: Json = False,
 ) -> int:
-    """Say which motion most likely works from where the robot lies. No simulator is asked, except to refine.
+    """Say which motion most likely works from the state in which the robot lies. Nothing is simulated, except with --refine.
 
-    Exit status: 0 there is an answer, 1 refined it does not work, 2 the input is wrong.
+    Exit status: 0 there is an answer, 1 it does not work even after --refine, 2 the input is wrong.
     """
     from levade.cli.librarian import ask_library
 
@@ -702,15 +711,16 @@ def _ask_library(
 @_library.command("check")
 def _check_library(
     library: Annotated[Path, typer.Argument(metavar="DIR", help="A library.")],
-    starts: Annotated[int, typer.Option(help="Falls to try.")] = 200,
-    seed: Annotated[int, typer.Option(min=0, help="Of these falls: another than the library's.")] = 1,
+    starts: Annotated[int, typer.Option(help="Number of falls to try.")] = 200,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of these falls; it should differ from the library's.")] = 1,
     refine: Annotated[
-        str | None, typer.Option(metavar="TIME", help="Refine answers that do not work, for as long: 1s.")
+        str | None,
+        typer.Option(metavar="TIME", help="Improve each answer that does not work for this time, such as 1s."),
     ] = None,
-    threads: Annotated[int, typer.Option(min=0, help="Engine threads; 0 for one per core.")] = 0,
+    threads: Annotated[int, typer.Option(min=0, help="Number of engine threads; 0 for one per core.")] = 0,
     as_json: Json = False,
 ) -> int:
-    """Try a library on falls that it has never seen: how often does it get up?
+    """Try a library on new falls, and say how often the robot gets up.
 
     Exit status: 0 all were tried, 1 it was interrupted, 2 the input is wrong.
     """
@@ -779,7 +789,7 @@ def _inspect_robot(
     ] = None,
     as_json: Json = False,
 ) -> None:
-    """Say what is understood of a robot (legs, limits, posture, actuators) and what is suspicious, with remedies.
+    """Say how levade understands a robot (legs, limits, posture, actuators), and what looks suspicious, with remedies.
 
     Exit status: 0 the robot can be used; 2 it cannot, and one line says why.
     """

@@ -1,4 +1,4 @@
-"""``levade bench``: run it, show how far it is, say what came of it."""
+"""``levade bench``: run a comparison, show its progress, and print its results."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from levade.errors import LevadeError
 from levade.report.figures import FORMATS
 
 _PLAIN_EVERY = 30.0
-"""[s], between lines in a pipe."""
+"""Time between lines in a pipe [s]."""
 
 
 def bench_and_report(
@@ -42,7 +42,10 @@ def bench_and_report(
     format: str,
     as_json: bool,
 ) -> int:
-    """Exit status 0 if every case has been run, else 1. options: fields of `Plan`, None where nothing was said."""
+    """Run a comparison and print its results. Returns the exit status: 0 if every case has been run, else 1.
+
+    ``options`` holds fields of `Plan`, None where the option was not given.
+    """
     console = make_console(stderr=as_json)
     if format not in FORMATS:
         raise LevadeError(f"--format {format}: should be one of {', '.join(FORMATS)}")
@@ -69,7 +72,7 @@ def bench_and_report(
         print(json.dumps(content, ensure_ascii=False))
     else:
         for part in tables(summaries):
-            console.print(part, soft_wrap=isinstance(part, Table))  # the words below are broken at words
+            console.print(part, soft_wrap=isinstance(part, Table))  # only the text below wraps, at words
         console.print(f"Written: {escape(str(directory))}/{', '.join(path.name for path in written)}")
         for reason in missing:
             console.print(f"[yellow]Left out[/]: {escape(reason)}")
@@ -81,7 +84,11 @@ def bench_and_report(
 
 
 def tables(summaries: Sequence[Summary]) -> Iterator[Table | Text]:
-    """A table for each task and robot, and what the columns mean."""
+    """Make a table for each task and robot, and a legend of the columns.
+
+    Args:
+        summaries: Results of all cases.
+    """
     for (task, robot), mine in by_case(summaries).items():
         table = Table(
             title=Text(f"{task} on {robot}", style="bold"), title_justify="left", box=None, padding=(0, 1, 0, 0)
@@ -99,7 +106,7 @@ def tables(summaries: Sequence[Summary]) -> Iterator[Table | Text]:
 
 
 def _plan(file: Path | None, directory: Path, options: dict[str, Any], changes: Sequence[str]) -> Plan:
-    """The file's plan, or else the directory's, with what the options change."""
+    """Return the plan of the file, or else of the directory, with the changes of the options."""
     changed = {}
     for change in changes:
         path, equals, value = change.partition("=")
@@ -118,7 +125,7 @@ def _cores() -> int:
 
 
 def _plain(summary: Summary) -> dict[str, Any]:
-    """As JSON has it: null for what is infinite."""
+    """Return the summary for JSON, with null for infinite numbers."""
 
     def known(value: Any) -> Any:
         if isinstance(value, dict):
@@ -134,7 +141,7 @@ def _plain(summary: Summary) -> dict[str, Any]:
 
 
 class _Display:
-    """How far it is. Drawn when something has happened, at most twice a second: the cores are for the runs."""
+    """Shows the progress. It is drawn after an event, at most twice a second, since the cores are for the runs."""
 
     def __init__(self, console: Console, *, quiet: bool) -> None:
         live = console.is_terminal and not quiet

@@ -1,4 +1,4 @@
-"""``levade check``: whether a motion can be trusted."""
+"""``levade check``: say whether a motion can be trusted."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from levade.tasks.units import to_si
 T = TypeVar("T", Perturbation, Demands)
 
 _SHOWN = 6
-"""Parameters in the table of what breaks the motion; all of them are in the JSON."""
+"""Number of parameters in the table of what breaks the motion. The JSON has all of them."""
 
 
 def check_motion(
@@ -47,7 +47,10 @@ def check_motion(
     threads: int,
     as_json: bool,
 ) -> int:
-    """Exit status 0 if the motion meets every demand, else 1. Ctrl-C keeps the runs that were made."""
+    """Check a motion and print its certificate. Returns the exit status: 0 if it meets every demand, else 1.
+
+    Ctrl-C ends the check and keeps the finished runs. The parameters are the options of the command.
+    """
     motion = Motion.load(path)
     perturbation = changed(Perturbation(), perturb, option="--perturb")
     demands = changed(Demands(), demand, option="--demand")
@@ -57,7 +60,7 @@ def check_motion(
     if page is not None:
         check_page(page, instead="give a path that can: --page FILE")
         sheet = writing(page, instead="give a path that can: --page FILE")
-    with place as file, sheet as leaf:  # whatever cannot be written is said before the work
+    with place as file, sheet as leaf:  # fails before the work if something cannot be written
         with stop_between() as stopping:
             certificate = check(
                 motion,
@@ -78,7 +81,7 @@ def check_motion(
         if file is not None:
             file.write_text(json.dumps(content, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
         if leaf is not None:
-            from levade.hardware import certificate_page  # only now: it brings searches and scenes with it
+            from levade.hardware import certificate_page  # only now: it imports searches and scenes
 
             judged = None if task is None else task.success
             leaf.write_text(
@@ -88,7 +91,16 @@ def check_motion(
 
 
 def changed(default: T, changes: Sequence[str], *, option: str) -> T:
-    """The dataclass with values from YAML files and ``name=value`` texts, the later ones counting."""
+    """Change a dataclass by YAML files and ``name=value`` texts. Later changes override earlier ones.
+
+    Args:
+        default: The dataclass to change.
+        changes: Files and texts, in order.
+        option: Option of the command line, for messages.
+
+    Raises:
+        LevadeError: If a change names no field, no file, or a value that does not fit.
+    """
     content: dict[str, Any] = dataclasses.asdict(default)
     for change in changes:
         name, equals, text = change.partition("=")
@@ -111,7 +123,7 @@ def changed(default: T, changes: Sequence[str], *, option: str) -> T:
 
 
 def _like(default: Perturbation | Demands, name: str) -> str:
-    """NAME=VALUE of what is the default, or of what could be."""
+    """Return NAME=VALUE with the default, or with a possible value."""
     value = getattr(default, name)
     if isinstance(default, Demands):
         return f"{name}={'0.1' if value is None else 'true' if value is True else f'{value:g}'}"
@@ -139,7 +151,9 @@ def _tell(console: Console, path: Path, certificate: Certificate, runs: int) -> 
     if failed:
         console.print(f"[red]Fails[/]: {escape(', '.join(failed))}.{unknown and f' Unknown: {unknown}.'}")
     elif unknown:
-        console.print(f"[green]Passes[/] what is known. [yellow]Unknown[/]: {unknown}; robot.yaml, limits, gives them.")
+        console.print(
+            f"[green]Passes[/] what is known. [yellow]Unknown[/]: {unknown}; add them to robot.yaml, under limits."
+        )
     else:
         console.print("[green]Passes[/].")
 
@@ -152,7 +166,11 @@ def _table(*headings: str, right: Sequence[str] = ()) -> Table:
 
 
 def verdict_table(certificate: Certificate) -> Table:
-    """A row per criterion of a certificate."""
+    """Make a table of a certificate, with a row per criterion.
+
+    Args:
+        certificate: The certificate.
+    """
     table = _table("criterion", "", "found", "required")
     for verdict in certificate.verdicts:
         mark = {True: Text("pass", style="green"), False: Text("fail", style="red"), None: Text("-", style="dim")}

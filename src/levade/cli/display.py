@@ -1,4 +1,4 @@
-"""The live display of a solve: on a terminal it stays in place; in a pipe it is a few plain lines."""
+"""Show a solve live: on a terminal the display stays in place, in a pipe it is a few plain lines."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from levade.search import Generation
 from levade.tasks import Task
 
 _PLAIN_EVERY = 10.0
-"""[s], between lines in a pipe."""
+"""Time between lines in a pipe [s]."""
 
 
 class Display:
@@ -46,7 +46,7 @@ class Display:
 
     def update(self, generation: Generation) -> None:
         """Take in a generation; drawing it happens elsewhere, a few times a second."""
-        if self._latest is None and not self._quiet:  # nothing can be wrong with the input any more
+        if self._latest is None and not self._quiet:  # from here on the input is known to be right
             robot = escape(self._task.robot.name)
             budget = self._task.search.trials
             self._console.print(f"[bold]{escape(self._task.name)}[/] on {robot}: up to {budget} trials")

@@ -1,4 +1,4 @@
-"""What a search's summary says next to success: limits that are not known, and motions that live by their numbers alone."""
+"""Say what a search's summary adds to a success: unknown limits, and motions that only work with their own numerics."""
 
 from __future__ import annotations
 
@@ -21,13 +21,19 @@ if TYPE_CHECKING:
     from levade.checks import Numeric
 
 _AT_TORQUE, _AT_SPEED = 0.99, 0.95
-"""Shares of a limit from which on a joint is at it."""
+"""Shares of a limit from which on a joint counts as at the limit."""
 _LONG = 0.5
-"""Share of a motion that a joint spends at a limit that binds; good motions are at one for up to a third, for take-off."""
+"""Share of a motion that a joint spends at a binding limit. Good motions spend up to a third at one, at take-off."""
 
 
 def tell_unknown_limits(console: Console, task: Task, limits: JointLimits) -> None:
-    """One line if the task asks for margins to limits that no file of the robot gives."""
+    """Print a line if the task asks for margins to limits that the robot's files do not give.
+
+    Args:
+        console: Where to print.
+        task: The task.
+        limits: Limits of the robot's joints.
+    """
     unknown = [
         name
         for name, values, assumed in (
@@ -39,12 +45,12 @@ def tell_unknown_limits(console: Console, task: Task, limits: JointLimits) -> No
     if unknown:
         console.print(
             f"[yellow]task: asks for margins to {' and '.join(unknown)} limits that the robot's file does not give[/],"
-            " so success does not mean that the hardware can do it; robot.yaml, limits, gives them"
+            " so success does not mean that the hardware can do it; add them to robot.yaml, under limits"
         )
 
 
 def _asked(task: Task, limit: str) -> bool:
-    """Whether a cost or criterion looks at what is left of the speed, or torque, limits."""
+    """Whether a cost or criterion depends on the slack to the speed, or torque, limits."""
     lines = any(one.quantity == "torque_speed_margin" for one in task.success.values())
     speeds = any(one.quantity == "speed_margin" for one in task.success.values())
     terms = [cost.term for cost in task.costs.values() if isinstance(cost.term, Margins)]
@@ -54,22 +60,33 @@ def _asked(task: Task, limit: str) -> bool:
 
 
 def in_other_numbers(motion: Motion) -> dict[str, Numeric]:
-    """A motion that succeeds, at half the time step and with the other contact cone: name -> what came of it.
+    """Simulate a motion that succeeds at half the time step and with the other contact cone.
 
-    Nothing of one that does not succeed, or that another engine than MuJoCo made.
+    Args:
+        motion: The motion.
+
+    Returns:
+        Name -> result. Empty if the motion does not succeed, or another engine than MuJoCo made it.
     """
     if not motion.result.success or motion.task.physics.engine != "mujoco":
         return {}
-    from levade.checks.numerics import QUICK, numerics  # only now: a search begins without the room of checks
+    from levade.checks.numerics import QUICK, numerics  # only now: a search starts faster without checks
 
     try:
         return numerics(RecordedSimulation(motion, threads=1), QUICK)
-    except LevadeError:  # the search has succeeded, and its motion is written: nothing here may make it fail
+    except LevadeError:  # the search succeeded and its motion is written, so nothing here may fail
         return {}
 
 
 def tell_numerics(console: Console, found: Mapping[str, Numeric], motion: Motion, directory: Path) -> None:
-    """Whether the motion succeeds in other numbers, too, and what to do if it does not."""
+    """Print whether the motion also succeeds with other numerics, and what to do if it does not.
+
+    Args:
+        console: Where to print.
+        found: Result of `in_other_numbers`.
+        motion: The motion.
+        directory: Directory of its run.
+    """
     failed = [name for name, one in found.items() if not one.success]
     if not found:
         return
@@ -83,9 +100,12 @@ def tell_numerics(console: Console, found: Mapping[str, Numeric], motion: Motion
 
 
 def binding_limits(motion: Motion) -> list[str]:
-    """The joint that is longest at its speed limit, and at its torque limit, if that is half of the motion or more.
+    """Name the joints that are longest at their speed limit and at their torque limit, if for half of the motion or more.
 
-    At the speed limit is also a drive on its torque-speed line, which leaves it no more torque at its speed.
+    A drive on its torque-speed line counts as at the speed limit, since it has no more torque at its speed.
+
+    Args:
+        motion: The motion.
     """
     limits, rows = motion.embodiment.limits, slice(0, motion.horizon_steps)
     torque, speed = motion["joint_torque"][rows], motion["joint_velocity"][rows]
@@ -113,13 +133,13 @@ def _listed(names: Sequence[str]) -> str:
 
 
 def _next(motion: Motion, directory: Path) -> str:
-    """The command that looks for a motion that hardware can do, or looks closer at this one."""
+    """Return the command that searches for a motion that hardware can do, or that checks this one."""
     task, robot = motion.task_name, motion.task.robot.name
     if task not in builtin_tasks():
         return f"levade check {shlex.quote(str(directory / 'motion.npz'))}"
     words = ["levade", "solve", task, "--hardware"]
     if robot != load_task(task).robot.name:
         words += ["--robot", robot]
-    if directory == Path(task):  # where this run is, and the pursuit would go
+    if directory == Path(task):  # the pursuit would use the directory of this run
         words += ["--out", f"{task}-hardware"]
     return shlex.join(words)

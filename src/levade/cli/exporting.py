@@ -1,4 +1,4 @@
-"""``levade export``: a motion in the formats of other tools and of robots."""
+"""``levade export``: write a motion in the formats of other tools and of robots."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from levade.exports import FORMATS, Exported, export
 from levade.motions import Motion
 
 _TO_ROBOTS = ("csv", "json", "ros2", "unitree")
-"""Formats that a robot plays; the others are for simulators."""
+"""Formats that a robot plays. The others are for simulators."""
 
 _FILES = (".csv", ".json", ".npz", ".mcap", ".yaml", ".py")
 
@@ -34,11 +34,13 @@ def export_motion(
     certificate: Path | None,
     as_json: bool,
 ) -> int:
-    """Exit status 0: it was written."""
+    """Write a motion in a format. Returns the exit status: 0 if it was written."""
     if to is None:
-        raise LevadeError(f"export {path}: say in which format: --to {', '.join(FORMATS)}")
+        raise LevadeError(f"export {path}: no format given; add --to {', '.join(FORMATS)}")
     if directory is not None and directory.suffix in _FILES:
-        raise LevadeError(f"--out {directory}: several files are written; give a directory, such as {directory.stem}")
+        raise LevadeError(
+            f"--out {directory}: the export has several files; give a directory, such as {directory.stem}"
+        )
     motion = Motion.load(path)
     if certificate is not None and (reason := doubt(certificate, motion)) is not None:
         raise LevadeError(f"--certificate {certificate}: {reason}; nothing is written. levade check says what to fix")
@@ -74,12 +76,12 @@ def export_motion(
 
 
 def _uncertified(path: Path, motion: Motion) -> tuple[str, ...]:
-    """What to say of a motion that goes to a robot without a passing certificate next to it."""
+    """Return a note for a motion that goes to a robot without a passing certificate next to it."""
     beside = path.with_name(CERTIFICATE)
     try:
         reason = doubt(beside, motion) if beside.is_file() else f"there is no {beside}"
     except LevadeError:
-        reason = f"{beside} is none"
+        reason = f"{beside} is no certificate"
     if reason is None:
         return ()
     return (f"no certificate says that hardware can do this ({reason}): levade check {path} --out {beside}",)

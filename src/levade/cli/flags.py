@@ -1,4 +1,4 @@
-"""Library errors speak of fields and of plain actions; here they are turned into options and commands."""
+"""Turn the fields and actions that library errors name into options and commands."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ ACTIONS = {
     "name tasks": "--tasks rearing",
     "give a plan": "levade bench FILE",
 }
-"""`levade.errors.Remedy.action` -> what to type. ``{at}`` is the file or directory that it is done to."""
+"""`levade.errors.Remedy.action` -> what to type. ``{at}`` is the file or directory that the action applies to."""
 
 
 def in_flags(error: LevadeError, command: Any, arguments: Sequence[str]) -> str:
-    """Say an error in the words of the command line.
+    """Write an error in the words of the command line.
 
     Args:
-        error: The error. Its field becomes the option whose parameter has the same name; other fields stay as they are.
+        error: The error. Its field becomes the option whose parameter has the same name. Other fields stay as they are.
         command: The command line, a click group.
-        arguments: Its arguments, which name the command.
+        arguments: Arguments of the command line, which name the command.
 
     Returns:
         The message.
@@ -41,13 +41,13 @@ def _begin(field: str | None, command: Any, arguments: Sequence[str]) -> str:
     for parameter in _command(command, arguments).params:
         option = max(parameter.opts, key=len, default="")
         if parameter.name == field and option.startswith("--"):
-            # one that can be repeated is followed by which of its values is wrong: --set horizon
+            # after a repeatable option comes the value that is wrong: --set horizon
             return f"{option} " if getattr(parameter, "multiple", False) else f"{option}: "
     return f"{field}: "
 
 
 def _command(command: Any, arguments: Sequence[str]) -> Any:
-    """The command that the arguments name, such as ``tasks show``."""
+    """Return the command that the arguments name, such as ``tasks show``."""
     for word in arguments:
         if word not in getattr(command, "commands", {}):
             break

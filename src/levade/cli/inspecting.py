@@ -1,4 +1,4 @@
-"""``levade robots``: which there are; ``levade robots inspect``: what was understood of one, and what is suspicious."""
+"""``levade robots`` lists the robots; ``levade robots inspect`` says how one is understood, and what looks suspicious."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from levade.robots.findings import Finding, counted, some
 
 
 def inspect_robot(name: str, *, picture: Path | None, as_json: bool) -> None:
-    """Print what was understood. Raises LevadeError where the robot is refused, before a picture is drawn."""
+    """Print how a robot is understood. Raises LevadeError if it is refused, before a picture is drawn."""
     robot = load_robot(name)
     findings = inspect(robot)
     if picture is not None:
@@ -62,7 +62,7 @@ def list_robots(*, as_json: bool) -> None:
 
 
 def tell_warnings(console: Console, robot: Robot, name: str) -> None:
-    """One line if there are warnings, which names the limits that are assumed."""
+    """Print a line if there are warnings. It names the limits that are assumed."""
     number = sum(finding.kind == "warning" for finding in inspect(robot))
     if number:
         made_up = [
@@ -115,7 +115,7 @@ def _report(robot: Robot, findings: list[Finding]) -> Iterator[RenderableType]:
 
 
 def _moving(robot: Robot) -> str:
-    """Which limbs move beside the legs."""
+    """Name the limbs that move, apart from the legs."""
     others = [leg.name for leg in robot.legs if not leg.stands]
     return f"; {some(others)} {'moves' if len(others) == 1 else 'move'}, too" if others else ""
 
@@ -204,11 +204,11 @@ def _findings(findings: list[Finding]) -> Iterator[RenderableType]:
             line.append(f": {finding.what}", style="not dim default")
             yield line
             if finding.remedy:
-                yield Text(f"      {'to mend: ' if kind == 'warning' else ''}{finding.remedy}", style="dim")
+                yield Text(f"      {'to fix: ' if kind == 'warning' else ''}{finding.remedy}", style="dim")
 
 
 def _content(robot: Robot, findings: list[Finding]) -> dict[str, Any]:
-    """What ``--json`` prints, SI; null for what has no limit."""
+    """Return what ``--json`` prints, in SI, with null where there is no limit."""
     patient, size = Patient(robot), dimensions(robot)
     limits, actuation = robot.limits, robot.actuation
     legs = []

@@ -1,4 +1,4 @@
-"""Standard output and error that nobody reads, that are full, or that are closed: a command does its work all the same."""
+"""Let a command do its work even if standard output or error is closed, full, or not read."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _UNREAD = (errno.EPIPE, errno.ESHUTDOWN)
 
 
 class Output:
-    """A stream that takes whatever is written. What the system refuses is dropped, and all that follows.
+    """A stream that accepts every text. After the system refuses one, it drops this text and all later ones.
 
     Attributes:
         refused: What the system said first, or None. That nobody reads any more is not counted.
@@ -33,13 +33,13 @@ class Output:
                 self._stream.write(text)
             except OSError as error:
                 self._drop(error)
-            except UnicodeEncodeError:  # characters that the stream's encoding has not
+            except UnicodeEncodeError:  # characters that the stream's encoding lacks
                 encoding = getattr(self._stream, "encoding", None) or "ascii"
                 return self.write(text.encode(encoding, "backslashreplace").decode(encoding))
         return len(text)
 
     def flush(self) -> None:
-        """Write what is held back, or drop it."""
+        """Write the buffered text, or drop it."""
         if not self._gone:
             try:
                 self._stream.flush()
@@ -51,7 +51,7 @@ class Output:
         if error.errno not in _UNREAD:
             self.refused = error
         with suppress(OSError, ValueError):
-            # Python tries again at its end to write what the stream holds back, and would complain
+            # at its end Python tries again to write the buffered text, and would complain
             nowhere = os.open(os.devnull, os.O_WRONLY)
             os.dup2(nowhere, self._stream.fileno())
             os.close(nowhere)
@@ -60,7 +60,7 @@ class Output:
 
 @contextmanager
 def lasting_output() -> Iterator[Output]:
-    """Let commands print within the context whatever becomes of the streams. Yields standard output."""
+    """Let commands print within the context, whatever happens to the streams. Yields standard output."""
     before = sys.stdout, sys.stderr
     _open_closed()
     out, err = (Output(stream or open(os.devnull, "w", encoding="utf-8")) for stream in before)  # noqa: SIM115
@@ -74,7 +74,7 @@ def lasting_output() -> Iterator[Output]:
 
 
 def _open_closed() -> None:
-    """Put a sink where a standard stream is closed: a file of levade's would take its number, and get what is printed."""
+    """Replace a closed standard stream by a sink. Otherwise a file of levade's would get its number and the printed text."""
     for number in (0, 1, 2):
         try:
             os.fstat(number)

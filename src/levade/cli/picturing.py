@@ -1,4 +1,4 @@
-"""The pictures of ``levade show``: figures, strip and video, of one motion or of several side by side."""
+"""Draw the pictures of ``levade show``: figures, strip and video, of one motion or of several side by side."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from levade.motions import Motion
 
 @dataclass(frozen=True)
 class Pictures:
-    """What to draw, as the options say it; None where nothing was said."""
+    """What the options ask to draw. None where an option was not given."""
 
     figures: Path | None = None
     format: str | None = None
@@ -35,11 +35,11 @@ class Pictures:
             ("--camera", self.camera, {"--video FILE": self.video, "--strip FILE": self.strip}),
         ):
             if value is not None and all(wanted is None for wanted in of.values()):
-                raise LevadeError(f"{name} {value}: nothing is drawn that it speaks of; add {' or '.join(of)}")
+                raise LevadeError(f"{name} {value}: draws nothing by itself; add {' or '.join(of)}")
 
 
 def labels(paths: Sequence[Path]) -> list[str]:
-    """A short name for each motion: its file's, or its directory's where all files are called the same."""
+    """Return a short name for each motion: that of its file, or of its directory if all files have the same name."""
     stems = [path.stem for path in paths]
     if len(set(stems)) < len(stems):
         stems = [path.resolve().parent.name for path in paths]
@@ -47,12 +47,12 @@ def labels(paths: Sequence[Path]) -> list[str]:
 
 
 def draw(motions: Mapping[Path, Motion], wanted: Pictures) -> list[Path]:
-    """Draw what is wanted of the motions. Returns what was written."""
+    """Draw the pictures that are wanted. Returns the files that were written."""
     several, names = len(motions) > 1, labels(list(motions))
     camera = _camera(wanted.camera)
     if wanted.video is not None and several:
         raise LevadeError(
-            f"--video {wanted.video}: shows one motion, not {len(motions)}; --strip and --figures compare"
+            f"--video {wanted.video}: shows one motion, not {len(motions)}; use --strip or --figures to compare"
         )
     written: list[Path] = []
     if wanted.figures is not None:
@@ -86,7 +86,7 @@ def draw(motions: Mapping[Path, Motion], wanted: Pictures) -> list[Path]:
 
 
 def progress_beside(path: Path, motion: Motion) -> Path | None:
-    """progress.csv of the motion's search, if it lies next to the motion and is not another search's."""
+    """Return progress.csv of the motion's search, if it is next to the motion and belongs to this search."""
     progress = path.parent / "progress.csv"
     try:
         last = progress.read_text(encoding="utf-8").splitlines()[-1].split(",")
@@ -96,7 +96,7 @@ def progress_beside(path: Path, motion: Motion) -> Path | None:
 
 
 def _camera(text: str | None) -> Any:
-    """AZ,EL or AZ,EL,DIST."""
+    """Read AZ,EL or AZ,EL,DIST."""
     if text is None:
         return None
     from levade.report.rendering import Camera
@@ -113,7 +113,7 @@ def _camera(text: str | None) -> Any:
 
 @contextmanager
 def _bar(path: Path) -> Any:
-    """A progress bar on standard error, gone when done; nothing where that is no terminal."""
+    """Show a progress bar on standard error while drawing, if that is a terminal."""
     console = make_console(stderr=True)
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as progress:

@@ -1,4 +1,4 @@
-"""``levade solve --hardware`` and ``--robust``: search until a certificate passes, or say what is in the way."""
+"""``levade solve --hardware`` and ``--robust``: search until a certificate passes, or say why none does."""
 
 from __future__ import annotations
 
@@ -35,7 +35,10 @@ def pursue_and_report(
     threads: int,
     as_json: bool,
 ) -> int:
-    """Exit status 0 if the certificate passes, else 1. With ``robust``, nothing is demanded of limits."""
+    """Pursue a motion for hardware and print what was found. Returns the exit status: 0 if its certificate passes, else 1.
+
+    With ``robust``, the certificate demands nothing of limits. The parameters are the options of the command.
+    """
     console = make_console(stderr=as_json)
     before: Demands | None = None
     if resume_from is not None:
@@ -75,7 +78,11 @@ def pursue_and_report(
 
 
 def summary(pursued: Pursued) -> dict[str, object]:
-    """The object that ``solve --hardware --json`` prints."""
+    """Return the object that ``solve --hardware --json`` prints.
+
+    Args:
+        pursued: The outcome of the pursuit.
+    """
     motion, certificate = pursued.motion, pursued.certificate
     return {
         "task": motion.task_name,
@@ -123,20 +130,20 @@ class _Showing:
         self.close()
         if self._quiet:
             return
-        found = "it is not within the limits" if part.certificate is None else _found(part.certificate)
+        found = "it does not keep the limits" if part.certificate is None else _found(part.certificate)
         self._console.print(
             f"{part.name}: {part.trials} trials, {part.seconds:.0f} s, T = {part.motion.horizon:.3g} s; {found}"
         )
 
     def close(self) -> None:
-        """Close the display of the search that goes on, if any."""
+        """Close the display of the current search, if any."""
         if self._display is not None:
             self._display.__exit__(None, None, None)
             self._display = None
 
 
 def _found(certificate: Certificate) -> str:
-    """What came of a certificate, in markup."""
+    """Return the outcome of a certificate, in markup."""
     if certificate.interrupted:
         return "the certificate was interrupted"
     if certificate.passed:
@@ -145,10 +152,12 @@ def _found(certificate: Certificate) -> str:
 
 
 def _tell_goal(console: Console, plan: Plan) -> None:
-    """What is asked for that the task does not say itself."""
+    """Print the demands that the task does not state itself."""
     horizon = plan.within_limits().horizon
     if isinstance(horizon, HorizonRange) and horizon != plan.task.horizon:
-        console.print(f"On hardware: T may be {horizon}, within the limits that {escape(plan.robot.name)} has.")
+        console.print(
+            f"On hardware: T may be {horizon}, and the motion has to keep the limits of {escape(plan.robot.name)}."
+        )
     for name, (asked, enough) in plan.loosened.items():
         if asked.tolerance is None or enough.tolerance is None:
             console.print(f"On hardware {escape(name)} is good enough as robust.success of the task says.")
@@ -166,15 +175,15 @@ def _tell(console: Console, pursued: Pursued) -> None:
     if binds := binding(pursued.certificate):
         console.print(f"{escape(binds)}.")
     if pursued.motion.stabiliser is not None:
-        console.print(f"A regulator at {pursued.motion.stabiliser['rate']:g} Hz holds the robot to it.")
+        console.print(f"A regulator at {pursued.motion.stabiliser['rate']:g} Hz keeps the robot close to it.")
     if pursued.passed:
         unknown = ", ".join(pursued.certificate.unknown)
         console.print(f"[green]The certificate passes[/]; {spent}.{escape(unknown and f' Unknown: {unknown}.')}")
     else:
         if pursued.certificate.interrupted:
-            console.print(f"The certificate was interrupted, and so does not pass; {spent}.")
+            console.print(f"The certificate was interrupted and therefore does not pass; {spent}.")
         else:
-            console.print(f"[red]The certificate fails[/] after {spent}. In the way:")
+            console.print(f"[red]The certificate fails[/] after {spent}. The reasons:")
         for text in obstacles(pursued):
             console.print(f"- {escape(text)}")
     if pursued.stopped:

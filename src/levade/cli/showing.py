@@ -1,4 +1,4 @@
-"""``levade show``: what a motion file holds, on the terminal and as a page."""
+"""``levade show``: summarise motion files on the terminal and as a page."""
 
 from __future__ import annotations
 
@@ -16,7 +16,10 @@ from levade.motions import Motion
 
 
 def show_motions(paths: Sequence[Path], pictures: Pictures, *, report: bool, as_json: bool) -> int:
-    """Exit status 0 if all motions meet their success criteria, else 1. report: write the page of each."""
+    """Summarise motions. Returns the exit status: 0 if all of them meet their success criteria, else 1.
+
+    ``report`` says whether to write a page for each.
+    """
     motions = {path: Motion.load(path) for path in paths}
     if as_json:
         written = draw(motions, pictures) + (_reports(motions) if report else [])
@@ -43,12 +46,12 @@ def _listed(paths: Sequence[Path]) -> str:
 
 
 def report_path(motion: Path) -> Path:
-    """Where a motion's page goes: report.html next to motion.npz, best-report.html next to best.npz."""
+    """Return the path of a motion's page: report.html next to motion.npz, best-report.html next to best.npz."""
     return motion.with_name("report.html" if motion.stem == "motion" else f"{motion.stem}-report.html")
 
 
 def _reports(motions: Mapping[Path, Motion]) -> list[Path]:
-    from levade.checks.record import certificate_beside  # only now: a page is not always asked for
+    from levade.checks.record import certificate_beside  # only now: not every call writes a page
     from levade.report.page import write_page
 
     return [

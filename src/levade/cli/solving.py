@@ -1,4 +1,4 @@
-"""``levade solve``: run it, show how it goes, say how it ended."""
+"""``levade solve``: run a search, show its progress, and print its result."""
 
 from __future__ import annotations
 
@@ -48,12 +48,12 @@ def solve_and_report(
     watching: Watching | None,
     as_json: bool,
 ) -> int:
-    """Exit status 0 if the success criteria hold, else 1."""
-    # with --json, standard output is for the one object
+    """Search for a motion and print the result. Returns the exit status: 0 if the success criteria hold, else 1."""
+    # with --json, standard output is only for the one object
     console = make_console(stderr=as_json)
     quiet = as_json and not console.is_terminal
     earlier: list[Motion] = []
-    # whatever is wrong with the input is said before the display opens
+    # errors in the input are raised before the display opens
     if resume_from is not None:
         check_unlocked(resume_from)
         chosen, checkpoint = read_run(resume_from)
@@ -115,19 +115,19 @@ def solve_and_report(
 
 
 def _tell_need(console: Console, objective: Objective) -> None:
-    """Say before a search that a generation does not fit into the memory at once."""
+    """Say before a search if a generation does not fit into memory at once."""
     task = objective.task
     population = make_attempt(task, objective.space, seed=0).population
     need = needed(objective.engine, task.horizon_steps + task.hold_steps)
     if need.at_once is not None and need.at_once < min(population, AT_ONCE):
         console.print(
-            f"A generation of {population} trials needs {in_words(population * need.trial)} of memory, and"
+            f"A generation of {population} trials needs {in_words(population * need.trial)} of memory, but only"
             f" {in_words(need.free or 0)} are free: it is simulated {need.at_once} trials at a time, with the same results."
         )
 
 
 def summary(outcome: Outcome, numerics: Mapping[str, Numeric]) -> dict[str, object]:
-    """The object that ``solve --json`` prints. numerics: what came of the motion in other numbers."""
+    """Return the object that ``solve --json`` prints. ``numerics`` holds the results with other numerics."""
     solution, motion, result = outcome.solution, outcome.motion, outcome.motion.result
     return {
         "task": motion.task_name,
@@ -150,7 +150,7 @@ def summary(outcome: Outcome, numerics: Mapping[str, Numeric]) -> dict[str, obje
 
 
 def _warm(outcome: Outcome, earlier: list[Motion]) -> dict[str, object]:
-    """What ``--json`` says of a search that began around earlier motions."""
+    """Return what ``--json`` adds for a search that began around earlier motions."""
     if not earlier:
         return {}
     took = [motion.result.trials_to_success for motion in earlier]
@@ -158,7 +158,7 @@ def _warm(outcome: Outcome, earlier: list[Motion]) -> dict[str, object]:
 
 
 def _saved(outcome: Outcome, earlier: list[Motion]) -> int | None:
-    """Trials to success that the quickest of the earlier motions took, less those that this search took."""
+    """Return the trials to success of the quickest earlier motion, minus those of this search."""
     took = [trials for motion in earlier if (trials := motion.result.trials_to_success) is not None]
     now = outcome.solution.trials_to_success
     return min(took) - now if took and now is not None else None
@@ -169,7 +169,7 @@ def _tell(console: Console, outcome: Outcome, earlier: list[Motion], numerics: M
     for part in motion_summary(outcome.motion):
         console.print(part)
     if isinstance(outcome.motion.task.horizon, HorizonRange):
-        console.print(f"The search chose T = {outcome.motion.horizon:.3g} s, of {outcome.motion.task.horizon}.")
+        console.print(f"The search chose T = {outcome.motion.horizon:.3g} s from {outcome.motion.task.horizon}.")
     first = solution.trials_to_success
     spent = f"{solution.trials} trials in {outcome.wall:.1f} s"
     if outcome.motion.met_on_the_model_only:
@@ -195,9 +195,9 @@ def _tell(console: Console, outcome: Outcome, earlier: list[Motion], numerics: M
         )
     if (feedback := outcome.motion.stabiliser) is not None:
         console.print(
-            f"A regulator at {feedback['rate']:g} Hz holds the robot to it; levade check says what it is worth."
+            f"A regulator at {feedback['rate']:g} Hz keeps the robot close to it; levade check says how much that helps."
         )
     if solution.diverged:
         broke = counted(solution.diverged, "trial")
-        console.print(f"[yellow]{broke} diverged[/]: their simulations broke down, and rank last.")
+        console.print(f"[yellow]{broke} diverged[/]: their simulations broke down, so they rank last.")
     console.print(f"Written: {directory}/motion.npz, task.yaml, progress.csv, checkpoint.jsonl")

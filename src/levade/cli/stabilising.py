@@ -1,4 +1,4 @@
-"""``levade stabilise``: a motion with feedback."""
+"""``levade stabilise``: add feedback to a motion."""
 
 from __future__ import annotations
 
@@ -32,13 +32,18 @@ def stabilise_motion(
     threads: int,
     as_json: bool,
 ) -> int:
-    """Exit status 0 if a stabiliser is written, 1 if the motion is better without. Ctrl-C keeps the best so far."""
+    """Add a stabiliser to a motion. Returns the exit status: 0 if it is written, 1 if the motion is better without.
+
+    Ctrl-C keeps the best stabiliser so far.
+    """
     motion = Motion.load(path)
     place = out if out is not None else path.with_name(f"{path.stem}-stabilised.npz")
     if not place.parent.is_dir():
         raise LevadeError(f"--out {place}: no such directory; make it, or give another")
     if place.is_dir():
-        raise LevadeError(f"--out {place}: is a directory; give a file in it, as {place / 'motion-stabilised.npz'}")
+        raise LevadeError(
+            f"--out {place}: is a directory; give a file in it, such as {place / 'motion-stabilised.npz'}"
+        )
     if place.exists() and place.samefile(path):
         raise LevadeError(f"--out {place}: is the motion itself; give another file, or leave it out")
     try:

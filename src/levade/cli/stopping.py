@@ -1,4 +1,4 @@
-"""Ctrl-C and SIGTERM while something is being searched for."""
+"""Handle Ctrl-C and SIGTERM during a search or a check."""
 
 from __future__ import annotations
 
@@ -11,9 +11,13 @@ from types import FrameType
 
 @contextmanager
 def stop_between(parts: str = "") -> Iterator[Callable[[], bool]]:
-    """End the search after the part that is being simulated, so that nothing is half done: whether to stop.
+    """Let the work stop after its current part, so that nothing is left half done.
 
-    parts: what the search goes through, as in "generation": whoever asks twice is told what is waited for, if it is named.
+    Args:
+        parts: Name of a part, such as "generation". A second Ctrl-C then prints what the program waits for.
+
+    Yields:
+        A function that says whether to stop.
     """
     asked = False
 

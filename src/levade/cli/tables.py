@@ -1,4 +1,4 @@
-"""Tables about a motion that several commands print."""
+"""Make tables about a motion that several commands print."""
 
 from __future__ import annotations
 
@@ -13,33 +13,33 @@ from levade.costs.success import unit_of
 from levade.motions import Motion
 
 _WIDE = 200
-"""Columns, where the output is no terminal: nothing is wrapped there."""
+"""Number of columns where the output is no terminal, so that nothing wraps there."""
 
 
 def make_console(*, stderr: bool = False) -> Console:
-    """Where to print: styled on a terminal, plain and unwrapped in a pipe."""
+    """Make a console to print on: styled on a terminal, plain and unwrapped in a pipe."""
     console = Console(stderr=stderr, highlight=False, soft_wrap=True)
     return console if console.is_terminal else Console(stderr=stderr, highlight=False, soft_wrap=True, width=_WIDE)
 
 
 def quantity_unit(quantity: str) -> str:
-    """SI unit of a success quantity."""
+    """Return the SI unit of a success quantity."""
     return unit_of(quantity)
 
 
 def signed(value: float) -> str:
-    """Four digits and a sign, lined up under one another."""
+    """Write a number with four digits and a sign, so that columns line up."""
     return f"{value:+.4f}" if abs(value) < 1000 else f"{value:+.3g}"
 
 
 def motion_summary(motion: Motion) -> Iterator[RenderableType]:
-    """Goal against result, and peaks against the limits."""
+    """Make the tables of a motion: goal against result, and peaks against the limits."""
     yield goal_table(motion)
     yield peak_table(motion)
 
 
 def goal_table(motion: Motion) -> Table:
-    """A row per success criterion."""
+    """Make a table with a row per success criterion."""
     table = Table(box=None, padding=(0, 2, 0, 0), header_style="bold")
     for heading in ("criterion", "goal", "result", "error", "allowed", ""):
         justify = "left" if heading in ("criterion", "") else "right"
@@ -71,7 +71,7 @@ def goal_table(motion: Motion) -> Table:
 
 
 def peak_table(motion: Motion) -> Table:
-    """The joint that comes nearest to its limit, or goes furthest beyond, in torque, speed and range."""
+    """Make a table of the joints nearest to their limits, or furthest beyond, in torque, speed and range."""
     limits, names = motion.embodiment.limits, motion.joint_names
     table = Table(box=None, padding=(0, 2, 0, 0), header_style="bold")
     for heading in ("peak", "joint", "value", "limit", "share"):

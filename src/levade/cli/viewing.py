@@ -1,4 +1,4 @@
-"""``levade view``: a page for a motion, a robot or a task; served, or written to a file."""
+"""``levade view``: serve a page for a motion, a robot or a task, or write it to a file."""
 
 from __future__ import annotations
 
@@ -24,14 +24,16 @@ from levade.viewer.subjects import Found, find
 
 
 def view(name: str, *, out: Path | None, host: str | None, port: int | None, browse: bool) -> None:
-    """Serve the page of what the name means until Ctrl-C, or write it."""
+    """Serve the page of a motion, robot or task until Ctrl-C, or write it."""
     if out is not None and (host is not None or port is not None):
         raise LevadeError(f"--out {out}: writes the page instead of serving it; leave out --host and --port")
     console = make_console()
     found = find(name)
     text = _page(found)
     if found.task is not None and name in builtin_tasks() and (Path(name) / "motion.npz").is_file():
-        console.print(f"The built-in task; the motion in {escape(name)}/ is: levade view {escape(name)}/motion.npz")
+        console.print(
+            f"This is the built-in task. For the motion in {escape(name)}/: levade view {escape(name)}/motion.npz"
+        )
     if out is not None:
         path = save_page(text, out, instead="give another file: --out FILE.html")
         console.print(f"To open in a browser: {escape(str(path))}")

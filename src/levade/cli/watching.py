@@ -1,4 +1,4 @@
-"""``levade solve --watch``: the page next to the run."""
+"""``levade solve --watch``: serve a page next to the run."""
 
 from __future__ import annotations
 
@@ -23,7 +23,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Watching:
-    """Options of the page. keep: until Ctrl-C, after the solve has ended. browse: open it in the browser."""
+    """Options of the page.
+
+    Attributes:
+        host: Address to serve at.
+        port: Port to serve at (0: a free one).
+        browse: Whether to open the page in the browser.
+        keep: Whether to serve the page after the search has ended, until Ctrl-C.
+    """
 
     host: str
     port: int
@@ -32,7 +39,7 @@ class Watching:
 
 
 def options(watch: bool, host: str | None, port: int | None, browse: bool, keep: bool) -> Watching | None:
-    """None where no page is asked for; LevadeError if the others only make sense with one."""
+    """Return the options of the page, or None without --watch. Raises LevadeError if others are given without it."""
     given = {"--watch-host": host, "--watch-port": port, "--open": browse or None, "--keep-open": keep or None}
     named = [name for name, value in given.items() if value is not None]
     if named and not watch:
@@ -52,7 +59,7 @@ def watched(
     directory: Path,
     interrupted: Callable[[], bool],
 ) -> Iterator[Watch]:
-    """Serves the page of a run within the context, and says where; lingers at its end if that was chosen."""
+    """Serve the page of a run within the context, and print its address. With ``keep`` it stays until Ctrl-C."""
     from levade.viewer.pages import watch_page
     from levade.viewer.scenes import LiveScenes
     from levade.viewer.server import Server
@@ -67,7 +74,7 @@ def watched(
         try:
             yield watch
         finally:
-            watch.finish(None)  # which changes nothing if it has been told the outcome
+            watch.finish(None)  # changes nothing if it already knows the outcome
         if chosen.keep and not interrupted():
             console.print("The page stays until Ctrl-C.")
             while not interrupted():
@@ -75,7 +82,7 @@ def watched(
 
 
 def tell_where(console: Console, server: Server, what: str) -> None:
-    """A line with the page's address, and another one if others can see it."""
+    """Print the page's address, and a warning if other machines can reach it."""
     console.print(f"{what} [link={server.url}]{escape(server.url)}[/link]")
     if server.public:
         console.print(

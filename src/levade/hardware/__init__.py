@@ -1,9 +1,9 @@
-"""Motions that hardware can do: within every limit, on robots that differ from the model, with a certificate at the end.
+"""Find motions that hardware can do: within every limit, on robots that differ from the model, and with a certificate.
 
 pursued = pursue(load_task("rearing"), seed=0, directory=Path("rearing"))
 pursued.passed                  # what the certificate says
 pursued.motion                  # the motion with the best certificate
-obstacles(pursued)              # what it fails, and what would have to give
+obstacles(pursued)              # which demands it fails, and what could be changed
 """
 
 from levade.hardware.page import certificate_page, write_certificate

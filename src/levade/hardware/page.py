@@ -1,8 +1,8 @@
-"""certificate.html: a certificate on one page that needs no network, with what was tried and the poorest runs to be played.
+"""Write certificate.html: a page that needs no network, with the certificate, its ranges and its poorest runs to play.
 
     write_certificate(motion, certificate, "rearing/certificate.html", source="motion.npz")
 
-The page's script and look are those of `levade.report.page`. The same motion and certificate give the same bytes.
+The page has the script and style of `levade.report.page`. The same motion and certificate give the same bytes.
 """
 
 from __future__ import annotations
@@ -28,13 +28,13 @@ from levade.trajectory import Trajectories
 from levade.version import __version__
 
 _KINDS = ("speed", "torque_speed", "torque", "range")
-"""What the plot of limits shows, in its order."""
+"""Kinds of limits that the plot shows, in its order."""
 
 _SHOWN = 6
-"""Of what a run's robot differs in."""
+"""Number of the shown parameters in which a run's robot differs most."""
 
 _RATE = 60.0
-"""Most poses of a run in a second [Hz]. A page has several runs."""
+"""Most poses of a run per second [Hz]. A page holds several runs."""
 
 
 def write_certificate(
@@ -50,18 +50,18 @@ def write_certificate(
 
     Args:
         motion: The motion.
-        certificate: What `levade.checks.check` said of it.
-        path: Where to write.
-        criteria: What it was judged by. Defaults to what the motion's task calls good enough on perturbed models.
-        source: The motion's file, as the page should call it.
-        instead: What else could be done, for the message of an error.
+        certificate: Its certificate, from `levade.checks.check`.
+        path: File to write.
+        criteria: Criteria of the certificate. Defaults to those that the motion's task calls good enough on perturbed models.
+        source: Name of the motion's file on the page.
+        instead: What to do instead, for an error's message.
 
     Returns:
         The page's path.
 
     Raises:
-        LevadeError: If the certificate is of another motion or by other criteria, or the file cannot be written, or is there
-            and is no page of levade.
+        LevadeError: If the certificate belongs to another motion or other criteria, the file cannot be written, or the path
+            holds a file that is no page of levade.
     """
     text = certificate_page(motion, certificate, criteria=criteria, source=source)
     return save_page(text, path, instead=instead)
@@ -74,7 +74,17 @@ def certificate_page(
     criteria: Mapping[str, Criterion] | None = None,
     source: str | None = None,
 ) -> str:
-    """The page as text. Arguments as in `write_certificate`."""
+    """Return the page as text.
+
+    Args:
+        motion: The motion.
+        certificate: Its certificate.
+        criteria: Criteria of the certificate, as in `write_certificate`.
+        source: Name of the motion's file on the page.
+
+    Raises:
+        LevadeError: If the certificate belongs to another motion or other criteria.
+    """
     data = certificate_data(motion, certificate, criteria=criteria, source=source)
     return assembled(f"Certificate: {certificate.task} on {certificate.robot}", data, "certificate")
 
@@ -86,11 +96,21 @@ def certificate_data(
     criteria: Mapping[str, Criterion] | None = None,
     source: str | None = None,
 ) -> dict[str, Any]:
-    """The page's data, JSON; web/src/certificate.js draws it. Arguments as in `write_certificate`."""
+    """Return the page's data for JSON. web/src/certificate.js draws it.
+
+    Args:
+        motion: The motion.
+        certificate: Its certificate.
+        criteria: Criteria of the certificate, as in `write_certificate`.
+        source: Name of the motion's file on the page.
+
+    Raises:
+        LevadeError: If the certificate belongs to another motion or other criteria.
+    """
     if certificate.checksum != motion.checksum:
-        raise LevadeError("certificate: it is of another motion; give the one that was checked")
+        raise LevadeError("certificate: belongs to another motion; give the motion that was checked")
     if criteria is None and certificate.criteria != certificate.task:
-        raise LevadeError(f"certificate: it is by the criteria of {certificate.criteria}; give these")
+        raise LevadeError(f"certificate: uses the criteria of {certificate.criteria}; give these criteria")
     found = certificate.perturbed
     scene = scene_data(motion, rate=_RATE)
     return {
@@ -125,11 +145,15 @@ def certificate_data(
 
 
 def limits_data(motion: Motion) -> dict[str, Any]:
-    """What is left of each kind of limit over time, of the joint that has least: shares, and the joints' places."""
+    """Return the slack to each kind of limit over time, as a share, and the joint that has the least.
+
+    Args:
+        motion: The motion.
+    """
     limits, names = motion.embodiment.limits, motion.joint_names
     angle, speed, torque = (motion[f"joint_{name}"] for name in ("position", "velocity", "torque"))
     half = (limits.upper - limits.lower) / 2
-    half[~(np.isfinite(half) & (half > 0))] = np.nan  # a share of a range that has one end only means nothing
+    half[~(np.isfinite(half) & (half > 0))] = np.nan  # a range with only one end has no shares
     with np.errstate(invalid="ignore"):
         left: dict[str, Array] = {
             "speed": limits.speed_left(speed),
@@ -154,7 +178,7 @@ def limits_data(motion: Motion) -> dict[str, Any]:
 
 
 def _ranges(certificate: Certificate) -> Iterator[dict[str, Any]]:
-    """What the perturbed runs were drawn from."""
+    """Yield the ranges from which the perturbed runs were drawn."""
     for name, ends in asdict(certificate.ranges).items():
         if ends is not None:
             yield {"name": name, "low": ends[0], "high": ends[1], "unit": PARAMETERS[name].unit}
@@ -163,7 +187,7 @@ def _ranges(certificate: Certificate) -> Iterator[dict[str, Any]]:
 def _poorest(
     motion: Motion, certificate: Certificate, criteria: Mapping[str, Criterion], scene: Mapping[str, Any]
 ) -> Iterator[dict[str, Any]]:
-    """The runs that came out poorest: their scenes, what they missed, and in what their robots differed."""
+    """Yield the poorest runs: their scenes, the criteria that they missed, and how their robots differed."""
     found = certificate.perturbed
     if certificate.interrupted:
         return
@@ -196,7 +220,7 @@ def _poorest(
 def _farthest(
     certificate: Certificate, simulation: RecordedSimulation, values: Mapping[str, Array]
 ) -> list[dict[str, Any]]:
-    """In what a robot differs most, as shares of the ranges: names, values and units."""
+    """Return the parameters in which a robot differs most, by shares of the ranges: names, values and units."""
     found = []
     for name, numbers in values.items():
         ends = getattr(certificate.ranges, name)
@@ -210,7 +234,7 @@ def _farthest(
 
 
 def _recorded(motion: Motion, done: Trajectories, qpos: Array, trial: int, parts: int) -> Motion:
-    """One trial, as if it had been recorded; of rows at shorter time steps, those of the motion."""
+    """Return one trial as if it had been recorded. Of rows at shorter time steps, only those of the motion remain."""
     rows = slice(parts - 1, None, parts)
     assert done.foot_contact_force is not None
     arrays = {

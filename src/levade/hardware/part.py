@@ -1,4 +1,4 @@
-"""What a pursuit makes: its parts, one for each search, and what all of them come to."""
+"""Results of a pursuit: its parts, one for each search, and the outcome of all of them."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from levade.hardware.plan import Plan
 from levade.motions import Motion
 
 _MOST = 1000
-"""Demands that a motion without a certificate counts as failing: more than there are."""
+"""Number of failed demands for a motion without a certificate: more than exist."""
 
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """One search of a pursuit and what came of it.
+    """One search of a pursuit and its result.
 
     Attributes:
-        name: Its directory.
-        motion: What it found.
-        trials: Roll-outs that it made.
-        seconds: Duration of the search and of the check.
-        certificate: Of its motion; None of one that is not within the limits, where other searches go on.
+        name: Name of its directory.
+        motion: The motion that it found.
+        trials: Number of its roll-outs.
+        seconds: Duration of the search and of the check [s].
+        certificate: Certificate of the motion. None if the motion is not within the limits and other searches go on.
     """
 
     name: str
@@ -33,12 +33,12 @@ class Part:
 
     @property
     def met(self) -> bool:
-        """Whether the model does what was searched for: the goal, within the limits."""
+        """Whether the nominal model reaches the goal within the limits."""
         return self.motion.met
 
     @property
     def rank(self) -> tuple[bool, int, float]:
-        """Less is better: a whole certificate first, then what it fails, then the share of perturbed runs that fail."""
+        """The rank, lower is better: a complete certificate, then its failed demands, then its failed perturbed runs."""
         certificate = self.certificate
         if certificate is None:
             return True, _MOST, 0.0
@@ -46,12 +46,15 @@ class Part:
 
     @property
     def share(self) -> float:
-        """Share of the perturbed robots on which it holds; 0 without a certificate."""
+        """The share of the perturbed robots on which it succeeds; 0 without a certificate."""
         return 0.0 if self.certificate is None else self.certificate.perturbed.share
 
     @property
     def sure(self) -> bool:
-        """Whether its certificate passes, and would with other runs: by the lower end of the share's interval, or all do."""
+        """Whether its certificate passes, and would also pass with other perturbed runs.
+
+        It would if the lower end of the share's interval is high enough, or if every run succeeds.
+        """
         found = self.certificate
         if found is None or not found.passed:
             return False
@@ -60,9 +63,10 @@ class Part:
 
     @property
     def near(self) -> bool:
-        """Whether it is within every limit, and the share of perturbed runs is enough, or may yet be, by its interval.
+        """Whether it keeps every limit, and the interval of its share of perturbed runs reaches the demanded share.
 
-        What may be in its way besides is how contact is computed: other motions near it fail with other numbers, or with none.
+        Such a motion may still fail because of how contact is computed. Motions close to it fail with other contact settings,
+        or with none.
         """
         found = self.certificate
         if found is None or any(margin.passed is False for margin in found.margins.values()):
@@ -72,15 +76,15 @@ class Part:
 
 @dataclass(frozen=True, eq=False)
 class Pursued:
-    """What a pursuit came to.
+    """The outcome of a pursuit.
 
     Attributes:
-        plan: What was searched for.
+        plan: The plan of its searches.
         parts: The searches, in order.
         best: The part with the best certificate.
-        directory: Where everything is.
+        directory: Directory that holds everything.
         seed: Seed of the pursuit.
-        stopped: Why it ended before its end: "interrupted", "time", or "" if it did not.
+        stopped: Why it ended early: "interrupted" or "time". "" if it did not.
     """
 
     plan: Plan
@@ -97,7 +101,7 @@ class Pursued:
 
     @property
     def certificate(self) -> Certificate:
-        """Its certificate."""
+        """The best certificate."""
         assert self.best.certificate is not None
         return self.best.certificate
 
@@ -108,5 +112,5 @@ class Pursued:
 
     @property
     def trials(self) -> int:
-        """Roll-outs of all searches."""
+        """The number of roll-outs of all searches."""
         return sum(part.trials for part in self.parts)

@@ -1,12 +1,12 @@
-"""From a task to the searches that make of it a motion for hardware: the same goal, with what hardware needs beside it.
+"""Plan the searches that turn a task into a motion for hardware: the same goal, and what hardware needs in addition.
 
     plan = Plan.of(load_task("rearing"), robot)
     plan.within_limits()            # the nominal model, every limit a criterion, the duration free
     plan.robust(0.42)               # perturbed models too, at the duration that was found
     plan.closed_loop(0.42)          # the same with feedback
 
-All tasks have the same plan; nothing here knows a task by its name. Each success criterion becomes a cost, which is 1 where the
-motion misses by half of what is allowed. These replace the task's costs of the goal. Costs of effort and Python code stay.
+All tasks have the same plan; nothing here depends on a task's name. Each success criterion becomes a cost, which is 1 where the
+motion misses by half of the tolerance. These costs replace the task's costs of the goal. Costs of effort and Python code stay.
 """
 
 from __future__ import annotations
@@ -36,68 +36,71 @@ from levade.robots import Dimensions, Robot, dimensions
 from levade.tasks import Cost, Demands, HorizonRange, PolicyChoice, Regulation, Robust, Search, Stage, Task
 
 LONGEST = 2.5
-"""How many times longer a motion may take, at most, than its task says."""
+"""Longest duration of a motion, as a multiple of its task's duration."""
 
 _BEGIN = 1.4
-"""Where the search for a duration begins, in durations that the task says: slower keeps limits more easily."""
+"""Where the search for a duration begins, as a multiple of the task's duration: slower motions keep limits more easily."""
 
 ROOM = {"angle_margin": 0.0, "speed_margin": 0.01, "torque_speed_margin": 0.01, "self_distance": 0.0}
-"""Quantity -> what the motion has to leave of the limit on the model [rad, shares, m]: the search stops as soon as it does."""
+"""Quantity -> least slack to the limit on the model [rad, shares, m]. The search stops once the motion leaves this much."""
 
 WANTED = {"angle": 0.05, "speed": 0.1, "torque_speed": 0.1, "self_distance": 0.01}
-"""What the cost of margins wants left: more, since a drive, a joint and a shank are never just those of the model."""
+"""Slack that the cost of margins asks for: more, since drives, joints and shanks never equal those of the model."""
 
 _KERNELS, _VARIANCE = 6, 0.02
-"""The most kernels a joint may have, and their variance if the task has more. Smooth motions keep limits more easily:
-rearing met every limit with one of three seeds with its own sixteen kernels, and with three of four with five wide ones.
+"""Most kernels of a joint, and their variance if the task has more. Smooth motions keep limits more easily. With its own
+sixteen kernels rearing met every limit for one of three seeds, with five wide kernels for three of four.
 """
 
 RUN_UP = 1
-"""Number of the search within limits that begins at a rough motion."""
+"""Number of the search within limits that begins around a rough motion."""
 
 _NARROW, _DEPART, _RUN_UP_MARGINS_WEIGHT = (10, 0.004), 0.3, 2.0
-"""There: the most kernels and their variance if the task has more, the least share of the horizon in which references leave
-the start, and the weight of margins. With the start left within a tenth, HyQ2Max jumps at once, from standing, and its knees
-are too slow for that; from a crouch they are not."""
+"""Settings of that search: the most kernels and their variance if the task has more, the least share of the horizon in which
+references leave the start, and the weight of margins. If references leave the start within a tenth, HyQ2Max jumps at once from
+standing, which its knees are too slow for. From a crouch they are fast enough."""
 
 _DURATION_WEIGHT = 0.5
-"""Of a duration as long as the task says: what is quick leaves a robot that differs from the model less time to fall."""
+"""Cost of a duration as long as the task's: in a quick motion, a robot that differs from the model has less time to fall."""
 
 _MARGINS_WEIGHT, _ROBUST_MARGINS_WEIGHT = 0.5, 0.2
-"""On the nominal model, and on perturbed ones. Margins weigh so much that a search keeps to the limits on its way to the goal:
-one that finds the goal first, beyond them, seldom comes back."""
+"""Weights of margins on the nominal model, and on perturbed ones. They are so large that a search keeps the limits on its way
+to the goal: a search that first reaches the goal beyond the limits seldom comes back."""
 
 _GOALS = (Orientation, Position, Posture, LinearVelocity, AngularVelocity, Miss, Margins)
-"""Terms that the criteria, and the margins, replace."""
+"""Terms that the plan replaces by costs of the criteria and of margins."""
 
 _REFERENCES_ROOM = 0.2
-"""[rad] that references leave to the ends of ranges: a joint that is pushed gives way, at its torque limit by as much."""
+"""Distance of references from the ends of ranges [rad]: a joint that is pushed gives way, by this much at its torque limit."""
 
 _NEAR = 0.3
-"""Factor on the step of a search around a motion that is nearly within the limits."""
+"""Factor on the step of a search around a motion that nearly keeps the limits."""
 
 _FINER, _FINER_VALIDATION, _FINER_TRIALS = 0.1, 120, 4000
-"""Factor on the step, perturbed models to judge on, and trials, of a search around a motion that holds on most of them."""
+"""Settings of a search around a motion that succeeds on most perturbed models: factor on the step, models to judge on, and
+trials."""
 
 _SOFTNESS = (0.8, 2.0)
-"""Softness of contacts there, if a certificate fails with softer or stiffer ones. Usual time steps resolve nothing stiffer."""
+"""Softness of contacts there, if a certificate fails with softer or stiffer ones. Usual time steps cannot resolve stiffer
+contacts."""
 
 _SMOOTHNESS = 0.15
-"""Correlation length of neighbouring kernels, as in tasks with few of them."""
+"""Correlation length of neighbouring kernels, as in tasks with few kernels."""
 
 _HELD = 0.3
-"""[s] of the hold that candidates are simulated through: who falls over begins to by then. Successes are through all of it."""
+"""Part of the hold that candidates are simulated through [s]: a robot that falls over has begun to by then. A success is
+simulated through the whole hold."""
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What to search for, on a task's robot.
+    """The searches for a task on a robot.
 
     Attributes:
-        task: The task as it was asked for.
+        task: The task as the user gave it.
         robot: Its robot.
-        goal: Criterion -> what is good enough on hardware: the task's own, and not tighter than `tolerance`.
-        limits: Criterion -> what has to be left of each kind of limit that the robot has, and what the task asks of them.
+        goal: Criterion -> what is good enough on hardware: the task's own criterion, with a tolerance of at least `tolerance`.
+        limits: Criterion -> the slack to keep for each kind of limit that the robot has, or what the task itself asks for.
     """
 
     task: Task
@@ -107,12 +110,12 @@ class Plan:
 
     @classmethod
     def of(cls, task: Task, robot: Robot, demands: Demands | None = None) -> Plan:
-        """The plan for a task.
+        """Make the plan for a task.
 
         Args:
-            task: The task. What it calls good enough on perturbed models counts on the nominal one, too.
+            task: The task. Its criteria for perturbed models also hold on the nominal model.
             robot: Its robot.
-            demands: What a certificate will ask for. Defaults to what the task says, or else to `levade.tasks.Demands`.
+            demands: Demands of the certificate. Defaults to the task's, or else to `levade.tasks.Demands`.
         """
         size, own = dimensions(robot), {**task.success, **task.good_enough}
         goal = {name: _good_enough(one, size) for name, one in own.items() if one.quantity not in ROOM}
@@ -127,23 +130,23 @@ class Plan:
 
     @property
     def on_others(self) -> Mapping[str, Criterion]:
-        """Of the goal, what perturbed models have to meet."""
+        """The part of the goal that perturbed models have to meet."""
         return {name: one for name, one in self.goal.items() if name in self.task.good_enough}
 
     @property
     def loosened(self) -> Mapping[str, tuple[Criterion, Criterion]]:
-        """Criterion -> the task's, and what is asked for instead, where these differ."""
+        """Criterion -> the task's own, and the one that replaces it, where these differ."""
         pairs = {name: (self.task.success[name], one) for name, one in self.goal.items() if name in self.task.success}
         return {name: pair for name, pair in pairs.items() if pair[0] != pair[1]}
 
     def within_limits(self, number: int = 0) -> Task:
-        """The task on the nominal model, with limits as criteria, and its duration free up to `LONGEST` if there are any.
+        """Make the task on the nominal model, with limits as criteria. If there are any, its duration is free up to `LONGEST`.
 
         Args:
-            number: Which of the searches for it, from 0. The second one is for what takes a run-up: narrow kernels, the start
-                left slowly, limits that weigh more; it begins at a rough motion (`levade.hardware.starts`). It and the third
-                one aim no candidates where the task's own search does, and the other way round: aimed ones find short
-                motions sooner, and are in the way where one takes long to find.
+            number: Number of the search, from 0. The second search is for motions that need a run-up: it has narrow kernels,
+                leaves the start slowly, weighs limits more, and begins around a rough motion (`levade.hardware.starts`). The
+                second and third search aim candidates only where the task's own search does not. Aimed candidates find short
+                motions sooner, but hinder searches that take long.
         """
         run_up = number == RUN_UP
         horizon = self.task.horizon
@@ -171,7 +174,12 @@ class Plan:
         )
 
     def nearer(self, number: int, horizon: float) -> Task:
-        """As `within_limits`, around a motion of that search that nearly is, of this duration [s]."""
+        """Make the task of `within_limits` for a search around a motion that nearly keeps the limits.
+
+        Args:
+            number: Number of the search that found the motion.
+            horizon: Duration of the motion [s].
+        """
         task = self.within_limits(number)
         free = task.horizon
         if isinstance(free, HorizonRange):
@@ -184,11 +192,11 @@ class Plan:
         )
 
     def robust(self, horizon: float, policy: PolicyChoice | None = None) -> Task:
-        """The task on perturbed models: they reach the goal, the nominal model keeps the limits, too.
+        """Make the task on perturbed models. They have to reach the goal; the nominal model also has to keep the limits.
 
         Args:
             horizon: Duration [s].
-            policy: That of the motion to begin around. Defaults to that of the first search within limits.
+            policy: Policy of the motion to begin around. Defaults to the policy of the first search within limits.
         """
         search, demanding = self.task.search, self._demanding(_ROBUST_MARGINS_WEIGHT)
         return replace(
@@ -217,19 +225,24 @@ class Plan:
         )
 
     def closed_loop(self, horizon: float, policy: PolicyChoice | None = None) -> Task:
-        """The same, with feedback while perturbed models are simulated."""
+        """Make the task of `robust` with feedback on the perturbed models.
+
+        Args:
+            horizon: Duration [s].
+            policy: Policy of the motion to begin around, as in `robust`.
+        """
         return replace(self.robust(horizon, policy), feedback=Regulation())
 
     def finer(
         self, horizon: float, policy: PolicyChoice | None = None, *, feedback: bool, softness: bool = False
     ) -> Task:
-        """As one of these, in small steps and judged on more models: what tells 93 % from 97 %.
+        """Make one of these tasks with small steps and more models, which distinguish 93 % from 97 %.
 
         Args:
             horizon: Duration [s].
-            policy: That of the motion to begin around.
-            feedback: Whether feedback is on.
-            softness: Whether contacts differ, too.
+            policy: Policy of the motion to begin around.
+            feedback: Whether to use feedback.
+            softness: Whether to perturb the softness of contacts, too.
         """
         task = (self.closed_loop if feedback else self.robust)(horizon, policy)
         assert task.robust is not None
@@ -245,11 +258,15 @@ class Plan:
 
     @property
     def perturb(self) -> Perturbation:
-        """How far robots may differ from the model."""
+        """The ranges in which robots may differ from the model."""
         return Perturbation() if self.task.robust is None else self.task.robust.perturb
 
     def certifiable(self, motion: Motion) -> Motion:
-        """A motion whose task says what is good enough on robots that differ from the model, as those of robust searches do."""
+        """Add to a motion's task what is good enough on perturbed models, as the tasks of robust searches say it.
+
+        Args:
+            motion: A motion of one of the plan's searches.
+        """
         if motion.task.robust is not None:
             return motion
         task = replace(motion.task, robust=Robust(success=self.on_others, perturb=self.perturb))
@@ -298,11 +315,11 @@ _OF_MARGINS = {
     "torque_speed_margin": "torque_speed",
     "self_distance": "self_distance",
 }
-"""Quantity -> the same in `levade.costs.Margins`."""
+"""Quantity -> its name in `levade.costs.Margins`."""
 
 
 def _other(search: Search) -> Search:
-    """The same without aimed candidates if it has some, and with the usual ones if it has none."""
+    """Return the search without aimed candidates if it has some, and with the usual number if it has none."""
     if search.optimizer != "cma-aimed":
         return search
     aimed = search.settings.get("aimed", 1)
@@ -311,7 +328,7 @@ def _other(search: Search) -> Search:
 
 
 def _with_run_up(own: PolicyChoice, smooth: PolicyChoice) -> PolicyChoice:
-    """Narrow kernels, for quick moves in the middle of a long motion; what leaves the start soon is a quick move, too."""
+    """Return narrow kernels, for quick moves in the middle of a long motion. Leaving the start early is a quick move, too."""
     kernels, variance = _NARROW
     if own.time == "normalised" and own.kernels <= kernels:
         kernels, variance = own.kernels, own.variance
@@ -320,7 +337,7 @@ def _with_run_up(own: PolicyChoice, smooth: PolicyChoice) -> PolicyChoice:
 
 
 def _smooth(policy: PolicyChoice) -> PolicyChoice:
-    # a straight line begins where the joints are; what weak servos were told last is a blow to strong ones
+    # a straight line begins at the joints' positions; the last command of weak servos would jolt strong ones
     if policy.initial == "interpolate":
         policy = replace(policy, depart=0.0)
     policy = replace(policy, room=_REFERENCES_ROOM if policy.room is None else policy.room)
@@ -330,7 +347,7 @@ def _smooth(policy: PolicyChoice) -> PolicyChoice:
 
 
 def _limits(robot: Robot, demands: Demands) -> dict[str, Criterion]:
-    """A criterion for each kind of limit that the robot has and of which something is demanded."""
+    """Return a criterion for each kind of limit that the robot has and the demands name."""
     limits = robot.limits
     demanded = {
         "angle_margin": demands.position,
@@ -352,7 +369,15 @@ def _limits(robot: Robot, demands: Demands) -> dict[str, Criterion]:
 
 
 def tolerance(unit: str, size: Dimensions) -> float:
-    """What is good enough on hardware [SI] for a target in a unit: 0.1 rad, a twelfth of the robot's height, 0 of others."""
+    """Return the tolerance that is good enough on hardware [SI].
+
+    Args:
+        unit: Unit of the criterion's target.
+        size: Dimensions of the robot.
+
+    Returns:
+        0.1 rad for angles, a twelfth of the robot's height for lengths, and 0 for other units.
+    """
     return {"rad": 0.1, "m": size.height / 12}.get(unit, 0.0)
 
 
@@ -363,11 +388,11 @@ def _good_enough(criterion: Criterion, size: Dimensions) -> Criterion:
 
 
 class MissOfCode(Miss):
-    """A miss of a measure that is Python code, and so is code itself: a file names it without holding it."""
+    """A miss of a measure that is Python code. It counts as code itself: files hold its name only."""
 
 
 def _miss(criterion: Criterion, size: Dimensions) -> Miss:
-    """A criterion as a cost, 1 for a miss of half of what is allowed, or at a bound, with nothing farther inside."""
+    """Turn a criterion into a cost: 1 for a miss of half the tolerance, or at a bound, and 0 some way inside the bound."""
     kind = MissOfCode if isinstance(criterion.quantity, Measure) else Miss
     same = {"quantity": criterion.quantity, "at": criterion.at, "legs": criterion.legs}
     if criterion.target is not None:

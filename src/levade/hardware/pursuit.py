@@ -1,4 +1,4 @@
-"""The pursuit of a motion for hardware: searches one after another, each begun around the last, until a certificate passes.
+"""Pursue a motion for hardware: make one search after another, each around the last, until a certificate passes.
 
     pursued = pursue(load_task("rearing"), seed=0, directory=Path("rearing"))
     pursued.passed, pursued.certificate.verdicts
@@ -6,18 +6,21 @@
 
 DIR/motion.npz          the motion with the best certificate so far
 DIR/certificate.json    its certificate
-DIR/certificate.html    the same to look at, with the runs that came out poorest
+DIR/certificate.html    the certificate as a page, with the poorest runs to play
 DIR/task.yaml           its task, with every default filled in
-DIR/hardware.json       what was asked for, and which search is gone on from: by it, the pursuit goes on where it stopped
+DIR/hardware.json       the arguments, and the search that later ones begin around: a later call goes on from here
 DIR/limits-1, ...       the searches, each a run of its own (`levade.search.run`)
-DIR/again-1, ...        the same once more with another seed, if no certificate passed while there was time left
+DIR/again-1, ...        the same once more with another seed, if no certificate passed and time was left
 
-First motions of the nominal model within its limits, several, since motions that look alike there differ widely on other
-robots: the second search begins at the best of many rough motions, and the third is around the nearest motion, if none is
-within the limits. While the best motion holds on few robots, the search that found it is made again with other random numbers.
-Around the motion that holds on most robots goes a robust search, and around what that finds one with feedback; at once, where
-open loop holds on few. What then holds on nearly enough robots, or on so few more that other ones could say otherwise, or fails
-for how contact is computed, is searched around again, finely. A search that is needed no more is not made.
+The first searches look for motions of the nominal model within its limits. There are several, since motions that look alike
+there differ widely on other robots. The second search begins around the best of many rough motions. The third one begins around
+the nearest motion, if none keeps the limits. While the best motion succeeds on few robots, the search that found it is repeated
+with other random numbers.
+
+A robust search follows around the motion that succeeds on most robots, and a search with feedback around the result. Where few
+robots succeed in open loop, the search with feedback follows at once. Fine searches then begin around a motion if it succeeds
+on nearly enough robots, if its lead is so small that other robots could change the verdict, or if it fails because of how
+contact is computed. Searches that are no longer needed are left out.
 """
 
 from __future__ import annotations
@@ -64,34 +67,34 @@ from levade.tasks import Demands, Task, task_to_dict, task_to_yaml
 from levade.writing import write_text
 
 _ON_LIMITS = (0.25, 0.6, 1.0)
-"""Shares of the time after which searches within limits, in order, end if they have not met them."""
+"""Shares of the time after which searches within limits, in order, end if they have no success."""
 
 _ENOUGH = 0.4
-"""Share of the time after which no further one is begun, and one that has not met them ends, once another has."""
+"""The same share once another search has succeeded. No further search within limits begins after it."""
 
 _GOOD = 0.9
-"""Share of perturbed robots on which a motion to begin the robust searches around holds, so that no other is looked for."""
+"""Share of perturbed robots that makes a motion good enough to begin the robust searches around."""
 
 _ON_ROBUST = 0.7
-"""Share of the time after which a robust search ends that has not met its demands, where one with feedback can follow."""
+"""Share of the time after which a robust search without success ends, if a search with feedback can follow."""
 
 _BALANCED = 0.25
-"""Share of perturbed robots, below which no motion is robust by itself: one that falls over needs feedback, and at once."""
+"""Share of perturbed robots below which no motion becomes robust in open loop: it needs feedback at once."""
 
 _FEW = 100
-"""Perturbed runs that a certificate has at least: it ends once they leave no hope for the share that is demanded."""
+"""Least number of perturbed runs of a certificate. It ends after them if the demanded share is out of reach."""
 
 _CONTACTS = {"softer contact", "stiffer contact"}
-"""Variants of which a motion that fails one is searched around on models whose contacts differ, too."""
+"""Variants of the contact model. If a motion fails one, the search around it also perturbs contacts."""
 
 _APART = 1000
-"""Between the seeds of searches that differ in nothing else."""
+"""Distance between the seeds of searches that differ in nothing else."""
 
 _AGAIN = 0.2
-"""Share of the time that has to be left for all searches to be made again, with another seed."""
+"""Share of the time that has to be left to repeat all searches with another seed."""
 
 _FAR_APART = 100_000
-"""Between the seeds of these."""
+"""Distance between the seeds of these repetitions."""
 
 Begin = Callable[[str, Task], object]
 """Called before each search with its name and its task."""
@@ -122,24 +125,28 @@ def pursue(
     """Search for a motion that hardware can do, and certify it.
 
     Args:
-        task: What the motion is to do. Its stages, search settings and costs of the goal are the plan's business.
-        robot: The robot, instead of the one that the task names.
+        task: What the motion is to do. The plan replaces its stages, search settings and costs of the goal.
+        robot: A robot to use instead of the task's.
         seed: Seed of all random numbers.
-        threads: Engine threads; 0 for one per core.
-        directory: Where to write, and to go on: searches that are there already, of the same task and seed, are not made again.
-        minutes: Time for all of it; the searches end with the best so far, and a later call goes on. None gives all the time
-            that their trials take.
-        demands: What the certificate asks for. Defaults to what the task says, or else to `levade.tasks.Demands`.
-        runs: Perturbed runs of each certificate, at most: one is over after `_FEW` that leave no hope.
-        replace: Whether to replace what the directory holds, and begin from nothing.
-        begin: See `Begin`.
-        observe: See `Observe`.
-        tell: See `Tell`.
-        stopping: Asked on the way; once it says so, searches and checks end with what there is.
+        threads: Number of engine threads (0: one per core).
+        directory: Where to write. Finished searches of the same task and seed in this directory are used again, and
+            unfinished ones go on.
+        minutes: Time for all searches and checks together [min]. They end with the best motion so far, and a later call goes
+            on. None sets no limit except the searches' numbers of trials.
+        demands: Demands of the certificate. Defaults to the task's, or else to `levade.tasks.Demands`.
+        runs: Most perturbed runs of each certificate. After 100 runs, it ends once the demanded share is out of reach.
+        replace: Whether to replace the content of the directory and begin from nothing.
+        begin: Called before each search, see `Begin`.
+        observe: Called after each generation, see `Observe`.
+        tell: Called with each finished part, see `Tell`.
+        stopping: Called on the way. Once it returns true, searches and checks end with the results so far.
+
+    Returns:
+        All searches, and the motion with the best certificate.
 
     Raises:
-        LevadeError: If the task has no criteria or does not fit together, or the directory cannot be written or holds something
-            else.
+        LevadeError: If the task has no criteria or its parts do not fit together, or if the directory cannot be written or
+            holds something else.
     """
     if minutes is not None and not minutes > 0:
         raise LevadeError(f"{minutes:g} should be a positive number of minutes; 5 is usual", field="minutes")
@@ -148,7 +155,7 @@ def pursue(
     demands = demands or task.hardware or Demands()
     plan = Plan.of(task, robot, demands)
     if not plan.goal:
-        raise LevadeError(f"hardware: the task {task.name} has no success criteria to certify; give it some")
+        raise LevadeError(f"hardware: the task {task.name} has no success criteria to certify; add some to the task")
     check_page(directory / PAGE, instead="give another directory")
     with storing(directory / ASKED, then=Remedy("give another directory")):
         directory.mkdir(parents=True, exist_ok=True)
@@ -174,7 +181,7 @@ def pursue(
 
 
 def _again(first: _Pursuit, directory: Path, number: int) -> Pursued:
-    """The same searches with another seed."""
+    """Repeat the searches with another seed."""
     known = first.state
     with storing(directory, then=Remedy("make room, then go on", "resume", known.directory)):
         directory.mkdir(exist_ok=True)
@@ -206,28 +213,38 @@ class _Pursuit:
         self._began = time.monotonic()
         self._parts: list[Part] = []
         self._kinds: dict[str, int] = {}  # which of the plan's searches within limits each is
-        self._share = 1.0  # of the time, for a search that meets nothing
+        self._share = 1.0  # share of the time for a search without success
         self._stopped = ""
 
     @property
     def state(self) -> State:
-        """What is asked for, and where."""
+        """The arguments of the pursuit, and its directory."""
         return self._state
 
     def like(self, state: State, prefix: str) -> _Pursuit:
-        """The same pursuit with another seed, elsewhere. prefix: of the names of its searches, for those who are told."""
+        """Make the same pursuit with another seed in another directory.
+
+        Args:
+            state: Its arguments, and its directory.
+            prefix: Prefix of its searches' names in reports.
+        """
         how = (self._end, self._demands, self._runs, self._begin, self._observe, self._tell, self._stopping)
         return _Pursuit(self._plan, state.seed, self._threads, state, *how, prefix)
 
     def joined(self, found: Pursued, other: Pursued) -> Pursued:
-        """What has been found so far and what another pursuit found; the better motion is kept here."""
+        """Join the result so far with that of another pursuit, and keep the better motion in this directory.
+
+        Args:
+            found: Result so far.
+            other: Result of the other pursuit.
+        """
         best = min(found.best, other.best, key=lambda part: part.rank)
         if best is other.best and best.certificate is not None and not self._better_there(best):
             self._keep(best, best.certificate)
         return replace(found, parts=(*found.parts, *other.parts), best=best, stopped=other.stopped)
 
     def go(self) -> Pursued:
-        """Make the searches that are needed, in order."""
+        """Make the searches that are needed, in order, and return their result."""
         self._keep_to_limits()
         self._share = 1.0
         if any(part.met for part in self._parts) and not self._stopped:
@@ -256,7 +273,7 @@ class _Pursuit:
                 break
 
     def _hold_on_others(self) -> None:
-        """Search around the motion that holds on most perturbed robots, without feedback and with it."""
+        """Search around the motion that succeeds on most perturbed robots, without feedback and with it."""
         plan, closing = self._plan, self._plan.can_close_the_loop
         around = max((part for part in self._parts if part.met), key=lambda part: (part.sure, part.share))
         self._choose(around)
@@ -273,7 +290,7 @@ class _Pursuit:
         self._share = 1.0
 
     def _refine(self) -> None:
-        """Search around the best motion in small steps, where little stands in its way."""
+        """Search around the best motion in small steps, if it nearly passes."""
         for number, name in enumerate(FINER, start=1):
             best = self._best
             if self._stopped or best.sure or not best.near:
@@ -290,11 +307,11 @@ class _Pursuit:
 
     @property
     def _wants_another(self) -> bool:
-        """Whether another motion to begin the robust searches around is worth the time: the best one is not good enough yet."""
+        """Whether to look for another motion to begin the robust searches around: the best one is not good enough yet."""
         return max(part.share for part in self._parts if part.met) < _GOOD
 
     def _within_limits(self, name: str, number: int) -> tuple[Task, Motion | None]:
-        """A search within limits, and what it begins around: the one that is there already, if it is of this plan."""
+        """Return a search within limits and the motion to begin around. A search of this plan that exists already goes on."""
         plan, last = self._plan, len(LIMITS) - 1
         directory, met = self._directory / name, [part for part in self._parts if part.met]
         if number < last:
@@ -308,11 +325,11 @@ class _Pursuit:
                     if task_to_dict(task, code=True) == content:
                         self._kinds[name] = kind
                         return task, None
-        if number == last and self._parts and not met:  # it is worth more around the nearest than anywhere else
+        if number == last and self._parts and not met:  # the nearest motion is the best place to begin
             near = self._parts[self._nearest]
             self._kinds[name] = self._kinds[near.name]
             return plan.nearer(self._kinds[name], near.motion.horizon), near.motion
-        # with other random numbers, what has come out best
+        # repeat the best search with other random numbers
         self._kinds[name] = self._kinds[max(met, key=lambda part: part.share).name] if number > last and met else last
         return plan.within_limits(self._kinds[name]), None
 
@@ -332,11 +349,11 @@ class _Pursuit:
         return min(self._parts, key=lambda part: part.rank)
 
     def _search(self, name: str, task: Task, around: Motion | None, *, seed: int) -> Part:
-        """Make one search, or go on with it, or take what it has come to already; and certify its motion."""
+        """Make one search, go on with it, or take its earlier result; then certify its motion."""
         began = time.monotonic()
         outcome = self._run(name, task, around, seed)
         motion = self._plan.certifiable(outcome.motion)
-        # what is not within the limits would only fail; the last that there is is certified all the same
+        # a motion beyond the limits would only fail; if there is no other, the nearest one is certified in the end
         hopeless = name in self._kinds and not motion.met
         part = Part(name, motion, outcome.solution.trials, time.monotonic() - began, None)
         if not hopeless:
@@ -351,7 +368,7 @@ class _Pursuit:
 
     @property
     def _nearest(self) -> int:
-        """Which of the parts came nearest to the goal within the limits, by the costs of the first search."""
+        """The index of the part that came nearest to the goal within the limits, by the costs of the first search."""
         weights = {name: cost.weight for name, cost in self._plan.within_limits().costs.items()}
 
         def cost(i: int) -> float:
@@ -361,13 +378,13 @@ class _Pursuit:
         return min(range(len(self._parts)), key=cost)
 
     def _certify_best(self) -> None:
-        """Certify the motion that comes nearest, where none is within the limits."""
+        """Certify the nearest motion, if no motion keeps the limits."""
         nearest = self._nearest
         self._parts[nearest] = self._certified(self._parts[nearest])
         self._tell_of(self._parts[nearest])
 
     def _certified(self, part: Part) -> Part:
-        """The part with its certificate; written, if it is the best."""
+        """Add a certificate to a part, and write both if they are the best so far."""
         began = time.monotonic()
         certificate = check(
             part.motion,
@@ -387,7 +404,7 @@ class _Pursuit:
         return part
 
     def _hopeless(self, successes: int, runs: int) -> bool:
-        """Whether perturbed runs say that more of them would not bring the share that is demanded."""
+        """Whether further perturbed runs cannot reach the demanded share any more."""
         share = self._demands.share
         return share is not None and runs >= _FEW and wilson(successes, runs)[1] < share
 
@@ -427,7 +444,7 @@ class _Pursuit:
         return wish
 
     def _better_there(self, part: Part) -> bool:
-        """Whether an earlier call left a motion with a better certificate, by the same demands."""
+        """Whether an earlier call left a motion with a better certificate for the same demands."""
         place = self._directory / CERTIFICATE
         if not place.is_file() or not (self._directory / MOTION).is_file():
             return False

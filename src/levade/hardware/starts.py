@@ -1,9 +1,10 @@
-"""Where a search within limits may begin: at the best of many rough motions through postures of the legs.
+"""Find a start for a search within limits: the best of many rough motions through postures of the legs.
 
-    guess = rough_start(objective, seed=0)      # an InitialGuess: the search tries nothing of it again but the best
+    guess = rough_start(objective, seed=0)      # an InitialGuess with the best motion only
 
-A search around standing finds what is near to standing. A jump begins with a crouch, which costs before it gains: no small step
-leads there. So the legs are shortened and stretched at random, to each kernel's own length, over durations at random.
+A search around standing finds motions near to standing. A jump begins with a crouch, which raises the cost before it lowers it,
+so no small step leads there. Rough motions therefore shorten and stretch the legs to random lengths, a new one for each kernel,
+and have random durations.
 """
 
 from __future__ import annotations
@@ -20,24 +21,24 @@ from levade.search.evaluation import Trials
 from levade.search.initial import AROUND, InitialGuess
 
 ROUGH = 120
-"""Rough motions to choose from; half of them are drawn as a search from nothing draws its first candidates."""
+"""Number of rough motions to choose from. Half of them are drawn as the first candidates of a usual search are."""
 
 _SPREAD = 0.1
-"""[rad] Standard deviation of what is added to postures."""
+"""Standard deviation of the noise that is added to postures [rad]."""
 
 _TAG = 1_919_907_432
-"""Keeps its random numbers apart from those of the search."""
+"""Separates its random numbers from those of the search."""
 
 
 def rough_start(objective: Objective, *, seed: int) -> InitialGuess:
     """Try rough motions and return the best.
 
     Args:
-        objective: Of the search that is to begin there.
+        objective: Objective of the search that is to begin there.
         seed: Seed of that search.
 
     Returns:
-        The best one's weights, shape (1, d).
+        A guess with the decisions of the best motion, shape (1, d).
     """
     generator = np.random.default_rng((seed, _TAG))
     space = objective.space
@@ -50,18 +51,18 @@ def rough_start(objective: Objective, *, seed: int) -> InitialGuess:
 
 
 def through_postures(policy: JointPolicy, robot: Robot, n: int, generator: np.random.Generator) -> Array | None:
-    """Decisions of motions whose legs are as long at each kernel as chance says, between crouched and stretched.
+    """Draw decisions of motions whose legs have a random length at each kernel, between crouched and stretched.
 
-    In half of them all legs that have weights of their own are equally long.
+    In half of the motions all legs have equal lengths.
 
     Args:
-        policy: What turns decisions into references.
+        policy: Policy that turns decisions into references.
         robot: Its robot.
-        n: How many.
-        generator: Of random numbers.
+        n: Number of motions.
+        generator: Source of random numbers.
 
     Returns:
-        Decisions, shape (n, d). None if the policy has no kernels or the robot no such postures.
+        Decisions, shape (n, d). None if the policy has no kernels or the robot has no such postures.
     """
     inner = policy.policy if isinstance(policy, FreePolicy) else policy
     if not isinstance(inner, Policy) or not {"crouched", "stretched"} <= set(robot.postures):
@@ -71,7 +72,7 @@ def through_postures(policy: JointPolicy, robot: Robot, n: int, generator: np.ra
     kernels = inner.kernels.kernels
     length = generator.uniform(-1.0, 1.0, (n, len(inner.groups), kernels))
     length[: n // 2] = length[: n // 2, :1]
-    extended = length[:, group]  # (n, independent joints, kernels), from -1, crouched, over 0, neutral, to 1, stretched
+    extended = length[:, group]  # (n, independent joints, kernels): -1 is crouched, 0 is neutral, 1 is stretched
     towards = np.where(extended < 0, (crouched - neutral)[:, None], (stretched - neutral)[:, None])
     weights = neutral[:, None] + np.abs(extended) * towards + _SPREAD * generator.standard_normal(extended.shape)
     flat = weights.reshape(n, inner.size)

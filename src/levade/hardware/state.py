@@ -1,4 +1,4 @@
-"""What a pursuit's directory says of it: what was asked for, which search is gone on from; and how it is forgotten."""
+"""Read, write and discard the state of a pursuit: its arguments, and the search that later ones begin around."""
 
 from __future__ import annotations
 
@@ -19,17 +19,24 @@ ASKED, PAGE = PURSUIT, CERTIFICATE_PAGE
 LIMITS, ROBUST, CLOSED = ("limits-1", "limits-2", "limits-3"), "robust", "feedback"
 FINER = ("finer-1", "finer-2", "finer-3")
 MORE = ("limits-4", "limits-5", "limits-6", "limits-7", "limits-8")
-"""Searches within limits that may follow those in `LIMITS`, each with other random numbers."""
+"""Searches within limits that may follow those in `LIMITS`. Each has other random numbers."""
 
 AGAIN = "again"
-"""Begin of the names of directories in which the searches are made again, with another seed: ``again-1``, ..."""
+"""Prefix of the directories for searches that are repeated with another seed: ``again-1``, ..."""
 
 
 @dataclass
 class State:
-    """What hardware.json says: what was asked for, and which search within limits was chosen to go on from, by these demands.
+    """The content of hardware.json: the arguments of a pursuit, and the search within limits that later ones begin around.
 
-    A later call goes on from the same one, so that nothing that began around it is made again.
+    A later call with the same demands keeps this search, so that no search around its motion is repeated.
+
+    Attributes:
+        directory: Directory of the pursuit.
+        task: What the motion is to do.
+        seed: Seed of the pursuit.
+        demands: Demands of the certificate.
+        chosen: Name of the search within limits that later ones begin around. None while there is none.
     """
 
     directory: Path
@@ -40,7 +47,14 @@ class State:
 
     @classmethod
     def of(cls, directory: Path, task: Task, seed: int, demands: Demands) -> State:
-        """The state of a pursuit, which may have begun in an earlier call."""
+        """Return the state of a pursuit, which may have begun in an earlier call.
+
+        Args:
+            directory: Directory of the pursuit.
+            task: What the motion is to do.
+            seed: Seed of the pursuit.
+            demands: Demands of the certificate.
+        """
         state = cls(directory, task, seed, demands)
         if is_pursuit(directory):
             content = read_yaml(directory / ASKED)
@@ -49,6 +63,11 @@ class State:
         return state
 
     def write(self) -> None:
+        """Write hardware.json.
+
+        Raises:
+            LevadeError: If the file cannot be written.
+        """
         content = {
             "task": task_to_dict(self.task, code=True),
             "seed": self.seed,
@@ -60,10 +79,16 @@ class State:
 
 
 def read_pursuit(directory: Path) -> tuple[Task, int, Demands | None]:
-    """What a pursuit in a directory was asked for: task, seed and demands; None for the usual ones.
+    """Read the arguments of the pursuit in a directory.
+
+    Args:
+        directory: Directory of the pursuit.
+
+    Returns:
+        Task, seed and demands. The demands are None for the usual ones.
 
     Raises:
-        LevadeError: If there is none.
+        LevadeError: If the directory holds no pursuit.
     """
     content, where = read_yaml(directory / ASKED), str(directory / ASKED)
     try:
@@ -74,24 +99,36 @@ def read_pursuit(directory: Path) -> tuple[Task, int, Demands | None]:
             None if demands is None else build(Demands, demands, where=f"{where}.demands"),
         )
     except (KeyError, TypeError, ValueError):
-        raise LevadeError(f"{where}: is not what a pursuit wrote; start again") from None
+        raise LevadeError(f"{where}: was not written by a pursuit; start again") from None
 
 
 def is_pursuit(directory: Path) -> bool:
-    """Whether a directory holds a pursuit."""
+    """Tell whether a directory holds a pursuit.
+
+    Args:
+        directory: The directory.
+    """
     return (directory / ASKED).is_file()
 
 
 def again(directory: Path, number: int) -> Path:
-    """Where the searches of a pursuit are made again for the first, second, ... time."""
+    """Return the directory in which the searches of a pursuit are repeated.
+
+    Args:
+        directory: Directory of the pursuit.
+        number: Number of the repetition, from 1.
+    """
     return directory / f"{AGAIN}-{number}"
 
 
 def discard(directory: Path) -> None:
-    """Forget the run or the searches that a directory holds, so that a new pursuit, or run, begins from nothing.
+    """Discard the run or the searches that a directory holds, so that a new run or pursuit begins from nothing.
+
+    Args:
+        directory: Directory of the run or the pursuit.
 
     Raises:
-        LevadeError: If one of them goes on.
+        LevadeError: If one of them is still running.
     """
     searches = [directory, *(directory / name for name in (*LIMITS, *MORE, ROBUST, CLOSED, *FINER))]
     for search in searches:
@@ -103,14 +140,23 @@ def discard(directory: Path) -> None:
     with storing(directory, then=Remedy("give another directory")):
         for search in searches:
             (search / CHECKPOINT).unlink(missing_ok=True)
-        if (directory / CERTIFICATE).exists():  # and the motion that it is of
+        if (directory / CERTIFICATE).exists():  # and the motion that it certifies
             (directory / MOTION).unlink(missing_ok=True)
         for name in (CERTIFICATE, PAGE, ASKED):
             (directory / name).unlink(missing_ok=True)
 
 
 def check_same(directory: Path, task: Task, seed: int) -> None:
-    """Raise LevadeError if a directory holds another pursuit, a run, or files of neither."""
+    """Check that a directory is free for a pursuit or holds the same one.
+
+    Args:
+        directory: The directory.
+        task: What the motion is to do.
+        seed: Seed of the pursuit.
+
+    Raises:
+        LevadeError: If it holds another pursuit, a run, or other files that would be overwritten.
+    """
     remedies = (Remedy("write elsewhere", "elsewhere"), Remedy("replace it", "replace"))
     if is_pursuit(directory):
         known, began, _ = read_pursuit(directory)

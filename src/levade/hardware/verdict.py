@@ -1,4 +1,4 @@
-"""What stands between a motion and the hardware, in words: which limit binds, what fails, and what would have to give."""
+"""Say in words what keeps a motion from the hardware: which limit binds, what fails, and what could be changed."""
 
 from __future__ import annotations
 
@@ -11,7 +11,14 @@ _SHARES = {"speed": "speed limit", "torque_speed": "torque-speed line", "linkage
 
 
 def binding(certificate: Certificate) -> str:
-    """Which limit a motion comes nearest to, and by how much it is not there; "" if no limit is known."""
+    """Name the limit that a motion comes nearest to, and the slack that is left.
+
+    Args:
+        certificate: Certificate of the motion.
+
+    Returns:
+        A sentence. "" if no limit is known.
+    """
     left = {
         name: margin
         for name, margin in certificate.margins.items()
@@ -26,7 +33,14 @@ def binding(certificate: Certificate) -> str:
 
 
 def obstacles(pursued: Pursued) -> list[str]:
-    """What the best certificate fails, one line each, with what would have to give."""
+    """List the demands that the best certificate fails, and what could be changed.
+
+    Args:
+        pursued: The outcome of a pursuit.
+
+    Returns:
+        A line for each.
+    """
     part, certificate = pursued.best, pursued.certificate
     failed = set(certificate.failed)
     said = [
@@ -43,7 +57,7 @@ def obstacles(pursued: Pursued) -> list[str]:
         said.append(_of_perturbed(certificate))
     others = [name for name in sorted(failed) if name != "perturbed" and name not in _names(certificate)]
     if others and not (missed and within_limits):
-        said.append(f"it does not succeed with: {', '.join(others)}; its success depends on how contact is computed")
+        said.append(f"the motion fails with {', '.join(others)}: its success depends on how contact is computed")
     return said
 
 
@@ -55,31 +69,31 @@ def _of_margin(name: str, margin: Margin, motion: Motion) -> str:
     joints, limits = motion.joint_names, motion.embodiment.limits
     if margin.value is None or margin.least not in joints:
         if name == "self_collision" and margin.value is not None:
-            return (
-                f"{margin.least} are {1000 * margin.value:.0f} mm in each other: a slower motion, or legs farther apart"
-            )
+            return f"{margin.least} overlap by {1000 * margin.value:.0f} mm: try a slower motion, or legs farther apart"
         return f"{name.replace('_', ' ')}: {margin.least} {margin.value} {margin.unit}"
     joint, required = joints.index(margin.least), margin.required or 0.0
     if name == "power":
-        return f"{margin.least} takes {margin.value:.0f} W, and {required:.0f} are allowed: a slower motion"
-    asked = f", and {required:.0%} of it are to be left" * (required > 0)
+        return f"{margin.least} takes {margin.value:.0f} W, but only {required:.0f} W are allowed: try a slower motion"
+    asked = f", but {required:.0%} should be left" * (required > 0)
     if name == "speed":
         needed = limits.velocity[joint] * (1 - margin.value) / max(1 - required, 1e-2)
         return (
-            f"{margin.least} reaches {1 - margin.value:.2f} of its speed limit{asked}: a joint of {needed:.3g} rad/s would"
-            " do, or a slower motion, or a goal that asks for less"
+            f"{margin.least} reaches {1 - margin.value:.2f} of its speed limit{asked}: try a joint with {needed:.3g} rad/s,"
+            " a slower motion, or a goal that asks for less"
         )
     if name == "torque_speed":
         return (
-            f"{margin.least} leaves {margin.value:.0%} of its stall torque to its torque-speed line{asked}: a stronger joint, a"
-            " slower motion, or a goal that asks for less"
+            f"{margin.least} leaves {margin.value:.0%} of its stall torque to its torque-speed line{asked}: try a stronger"
+            " joint, a slower motion, or a goal that asks for less"
         )
     if name == "position":
         return (
-            f"{margin.least} leaves {margin.value:.3g} rad of its range, and {required:.3g} rad are to be left: a wider range,"
-            " or a goal that asks for less"
+            f"{margin.least} leaves {margin.value:.3g} rad of its range, but {required:.3g} rad should be left: try a wider"
+            " range, or a goal that asks for less"
         )
-    return f"{margin.least} leaves {margin.value:.0%} of its {name.replace('_', ' ')} limit{asked}: a stronger joint"
+    return (
+        f"{margin.least} leaves {margin.value:.0%} of its {name.replace('_', ' ')} limit{asked}: try a stronger joint"
+    )
 
 
 def _of_perturbed(certificate: Certificate) -> str:
@@ -88,6 +102,6 @@ def _of_perturbed(certificate: Certificate) -> str:
     breaks = found.sensitivity[0].parameter if found.sensitivity else ""
     wanted = certificate.demands.share or 0.0
     return (
-        f"it succeeds on {found.share:.1%} of perturbed robots, and {wanted:.0%} are asked for: {worst} is missed most"
-        f"{breaks and f', {breaks} matters most'}; a wider tolerance of {worst}, or a robot that is known better"
+        f"the motion succeeds on {found.share:.1%} of perturbed robots, but {wanted:.0%} are demanded: {worst} is missed most"
+        f"{breaks and f', {breaks} matters most'}; try a wider tolerance of {worst}, or measure the robot more precisely"
     )

@@ -1,4 +1,4 @@
-"""The search: a task, an engine and a method come together and give a solution.
+"""Search for a motion: a task, an engine and an optimizer together give a solution.
 
 solution = solve(load_task("rearing"), seed=0)
 """

@@ -1,13 +1,13 @@
-"""The checkpoint of a run: a header, then a line for each evaluation, so that an interrupted run loses none.
+"""Checkpoint of a run: a header, then a line for each evaluation, so that an interrupted run loses none.
 
     {"task": "rearing", "seed": 0, "versions": {...}, "task_checksum": 123, "format": 3, "running": 789}
     {"checksum": 456, "terms": {...}, "errors": {...}, "success": [...], ..., "running": 790}
     ...
     {"finished": true, "running": 791}
 
-A resumed run answers its search from these lines without simulating, to exactly the state where it stopped. A last line that
-was cut off is no damage: its trials are simulated again. ``running`` is the CRC-32 of everything before it in the file, without
-the earlier ones: a line that was changed, moved or lost is found, and so are all after it.
+A resumed run answers its search from these lines without simulating, up to exactly the state where it stopped. A last line that
+was cut off does not count as damage: its trials are simulated again. ``running`` is the CRC-32 of everything before it in the
+file, without the earlier checksums. It reveals a line that was changed, moved or lost, and every line after it.
 """
 
 from __future__ import annotations
@@ -27,26 +27,26 @@ from levade.writing import write_text
 CHECKPOINT = "checkpoint.jsonl"
 
 FORMAT = 3
-"""Version of the layout; raised when a reader of the old one would be wrong.
+"""Version of the layout. It increases when a reader of the old layout would be wrong.
 
-2: without ``running``; read, and written again in this one when the run goes on.
-3: with it.
+2: without ``running``. It can be read; a resumed run writes the file again in layout 3.
+3: with ``running``.
 """
 
 _END, _FINISHED = {"finished": True}, '{"finished": true'
-"""Last line of a run that came to its end, and how it begins."""
+"""Last line of a finished run, and how it begins."""
 
 _RUNNING = ', "running": '
 
 _UNREADABLE = (ValueError, LookupError, TypeError, AttributeError, ArithmeticError, RecursionError)
-"""What comes of a line that is damaged."""
+"""Exceptions that a damaged line causes."""
 
 
 class LayoutError(LevadeError):
-    """Another version of levade wrote the checkpoint.
+    """Says that another version of levade wrote the checkpoint.
 
     Attributes:
-        finished: Whether the run came to its end.
+        finished: Whether the run finished.
     """
 
     def __init__(self, message: str, *, finished: bool = False) -> None:
@@ -61,9 +61,9 @@ class Header:
     Attributes:
         task: Name of the task.
         seed: Seed of the run.
-        versions: Versions that decide its bits.
-        task_checksum: Checksum of the task without the changes that a run makes on the way.
-        initial: What the search began around, as `InitialGuess.to_json` has it. None for nothing.
+        versions: Versions of the libraries that decide its bits.
+        task_checksum: Checksum of the task without the changes that a run makes to it on the way.
+        initial: The initial guess, as `InitialGuess.to_json` returns it. None if the search began without one.
     """
 
     task: str
@@ -73,19 +73,19 @@ class Header:
     initial: Mapping[str, Any] | None = None
 
     def to_json(self) -> dict[str, Any]:
-        """As in the file."""
+        """Return the header as it stands in the file."""
         return {**vars(self), "format": FORMAT}
 
 
 @dataclass(frozen=True, eq=False)
 class Checkpoint:
-    """What a checkpoint says.
+    """The content of a checkpoint.
 
     Attributes:
         header: Its first line.
         records: The evaluations up to the first line that cannot be read.
-        finished: Whether the run came to its end.
-        damage: What cannot be read, in words. None if nothing.
+        finished: Whether the run finished.
+        damage: A message that says what cannot be read. None if everything can.
     """
 
     header: Header
@@ -95,29 +95,43 @@ class Checkpoint:
 
 
 class Writer:
-    """A checkpoint that is open for more.
+    """Appends lines to an open checkpoint.
 
     Args:
-        file: The file, at its end.
-        running: CRC-32 of what is in it, without the checksums themselves.
+        file: The file, positioned at its end.
+        running: CRC-32 of the file's content, without the checksums themselves.
     """
 
     def __init__(self, file: IO[str], running: int) -> None:
         self._file, self._running = file, running
 
     def add(self, content: Mapping[str, Any]) -> None:
-        """Write a line. Raises OSError."""
+        """Write a line.
+
+        Args:
+            content: What the line says, without its checksum.
+
+        Raises:
+            OSError: If the file cannot be written.
+        """
         line, self._running = _line(content, self._running)
         self._file.write(line)
         self._file.flush()
 
     def close(self) -> None:
-        """Close the file. Raises OSError."""
+        """Close the file.
+
+        Raises:
+            OSError: If the file cannot be written.
+        """
         self._file.close()
 
 
 def read(directory: Path) -> Checkpoint:
     """Read the checkpoint in a directory.
+
+    Args:
+        directory: Directory of the run.
 
     Raises:
         LevadeError: If its header cannot be read.
@@ -133,7 +147,7 @@ def read(directory: Path) -> Checkpoint:
     finished = len(lines) > 2 and lines[-2].startswith(_FINISHED)
     if layout is not None and layout not in (2, FORMAT):
         raise LayoutError(
-            f"{path}: layout {layout}, but this levade reads layout {FORMAT}; start again, or use the levade that wrote it",
+            f"{path}: has layout {layout}, but this levade reads layout {FORMAT}; start again, or use the levade that wrote it",
             finished=finished,
         )
     if finished:
@@ -142,7 +156,7 @@ def read(directory: Path) -> Checkpoint:
         first, *rest = _contents(lines, checked=layout == FORMAT)
         header = _header(first)
     except (*_UNREADABLE, LevadeError):
-        raise LevadeError(f"{path}: damaged, its first line is no header; start again") from None
+        raise LevadeError(f"{path}: is damaged, its first line is no header; start again") from None
     records = list(_records(rest))
     whole = len(lines) - 2  # without the header, and what is after the last line end
     damage = None
@@ -153,7 +167,16 @@ def read(directory: Path) -> Checkpoint:
 
 
 def begin(directory: Path, header: Header, records: list[Record] | None = None) -> Writer:
-    """Write a checkpoint's header, and records that are kept, and open it for more. Raises OSError."""
+    """Write a checkpoint's header and the records to keep, and open it for more.
+
+    Args:
+        directory: Directory of the run.
+        header: The first line.
+        records: Records that the checkpoint keeps. None for a new run.
+
+    Raises:
+        OSError: If the file cannot be written.
+    """
     lines, running = [], 0
     for content in (header.to_json(), *(record.to_json() for record in records or ())):
         line, running = _line(content, running)
@@ -163,24 +186,39 @@ def begin(directory: Path, header: Header, records: list[Record] | None = None) 
 
 
 def add(file: Writer, record: Record) -> None:
-    """Add a record. Raises OSError."""
+    """Add a record.
+
+    Args:
+        file: The open checkpoint.
+        record: The record to append.
+
+    Raises:
+        OSError: If the file cannot be written.
+    """
     file.add(record.to_json())
 
 
 def finish(file: Writer) -> None:
-    """Say that the run came to its end. Raises OSError."""
+    """Record that the run finished.
+
+    Args:
+        file: The open checkpoint.
+
+    Raises:
+        OSError: If the file cannot be written.
+    """
     file.add(_END)
 
 
 def _line(content: Mapping[str, Any], running: int) -> tuple[str, int]:
-    """A line with the running checksum, and that checksum. running: of the lines before."""
+    """Return a line with the running checksum, and that checksum. ``running`` is the checksum of the lines before."""
     text = json.dumps(content)
     running = zlib.crc32(text.encode(), running)
     return f"{text[:-1]}{_RUNNING}{running}}}\n", running
 
 
 def _contents(lines: list[str], *, checked: bool) -> Iterator[dict[str, Any]]:
-    """What the lines hold, up to the first that is not whole. checked: whether they have running checksums."""
+    """Yield what the lines hold, up to the first damaged one. ``checked`` says whether they have running checksums."""
     running = 0
     for line in lines:
         head, _, told = line.rpartition(_RUNNING) if checked else (line[:-1], "", "")
@@ -198,7 +236,7 @@ def _contents(lines: list[str], *, checked: bool) -> Iterator[dict[str, Any]]:
 
 
 def _layout(line: str) -> int | None:
-    """The layout that a header tells, whatever else it has; None if it is no header of any layout."""
+    """Return the layout that a header names, whatever else it contains; None if it is no header of any layout."""
     try:
         content = json.loads(line)
         layout, seed, versions = content.get("format", 1), content["seed"], content["versions"]
@@ -208,7 +246,7 @@ def _layout(line: str) -> int | None:
 
 
 def _header(content: dict[str, Any]) -> Header:
-    """The header that a line holds. Raises TypeError and the like if it is none."""
+    """Return the header that a line holds. Raises TypeError and the like if it holds none."""
     header = Header(**{key: value for key, value in content.items() if key != "format"})
     versions = header.versions
     texts = [header.task, *versions, *versions.values()]
@@ -223,7 +261,7 @@ def _header(content: dict[str, Any]) -> Header:
 
 
 def _records(contents: list[dict[str, Any]]) -> Iterator[Record]:
-    """The records up to the first that is not whole."""
+    """Yield the records up to the first damaged one."""
     for content in contents:
         try:
             yield Record.from_json(content)

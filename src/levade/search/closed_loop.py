@@ -1,10 +1,10 @@
-"""The closed loop of a search: gains along its motions, and what each candidate senses on the nominal model.
+"""Closed loop of a search: gains along its motions, and what each candidate senses on the nominal model.
 
     closed = ClosedLoop(task.feedback, task, engine, start)
     closed.feedback(weights, reference, seed=0)         # gains along a motion
-    closed.sensed(reference)                            # (n, ticks, sensed): what perturbed models are held to
+    closed.sensed(reference)                            # (n, ticks, sensed): the reference for perturbed models
 
-All of it follows from what is asked for; what is kept saves time only.
+Everything follows from the arguments. The caches only save time.
 """
 
 from __future__ import annotations
@@ -19,23 +19,23 @@ from levade.tasks import Regulation, Task
 from levade.trajectory import JointReference, Trajectories
 
 _LEARNING, _SENSING = 1_279_610_446, 1_397_050_190
-"""Keep what the gains are learned from, and the sensors' errors, apart from what else is drawn with the same seed."""
+"""Separate the random numbers for learning gains, and for sensor errors, from others drawn with the same seed."""
 
 _KEPT = 1024
-"""References of which is kept what was sensed."""
+"""Number of references whose sensed values are cached."""
 
 
 class ClosedLoop:
     """Makes the feedback of a task.
 
     Args:
-        regulation: What the task asks for.
-        task: The task, which has perturbed models.
-        engine: Simulates it.
-        start: Where it starts, one row.
+        regulation: The feedback that the task asks for.
+        task: The task, which needs perturbed models.
+        engine: The engine that simulates it.
+        start: The state where roll-outs start, one row.
 
     Raises:
-        LevadeError: If the engine simulates no feedback.
+        LevadeError: If the engine cannot simulate feedback.
     """
 
     def __init__(self, regulation: Regulation, task: Task, engine: Engine, start: State) -> None:
@@ -49,16 +49,16 @@ class ClosedLoop:
         self._errors: dict[tuple[int, int], Array] = {}
 
     def feedback(self, along: Array, reference: JointReference, seed: int) -> Feedback:
-        """The feedback with gains along a motion, holding the robot to that motion.
+        """Make feedback with gains along a motion, which keeps the robot close to that motion.
 
         Args:
             along: Weights of the motion, shape (d,).
-            reference: What it asks of the joints, of one trial with the whole hold.
+            reference: Joint reference of the motion: one trial with the whole hold.
             seed: Seed of the search.
         """
         key = (seed, along.tobytes())
         if key not in self._made:
-            from levade.regulators import Design, linearised  # of a task with feedback only
+            from levade.regulators import Design, linearised  # only tasks with feedback need it
 
             robust, regulation, engine = self._task.robust, self._regulation, self._engine
             assert robust is not None
@@ -74,10 +74,10 @@ class ClosedLoop:
         return self._made[key]
 
     def sensed(self, reference: JointReference) -> Array:
-        """What candidates sense on the nominal model, shape (n, ticks, sensed).
+        """Return what candidates sense on the nominal model, shape (n, ticks, sensed).
 
         Args:
-            reference: What they ask of the joints, n rows.
+            reference: Joint references of the candidates, n rows.
         """
         keys = _keys(reference)
         missing = [i for i, key in enumerate(keys) if key not in self._sensed]
@@ -87,7 +87,11 @@ class ClosedLoop:
         return np.stack([self._sensed[key] for key in keys])
 
     def remember(self, trajectories: Trajectories) -> None:
-        """Keep what trials on the nominal model sensed."""
+        """Cache what trials on the nominal model sensed.
+
+        Args:
+            trajectories: The trials, n rows.
+        """
         rows = slice(self._period - 1, trajectories.steps - 1, self._period)
         later = sensed(
             trajectories.trunk_quaternion[:, rows],
@@ -102,7 +106,13 @@ class ClosedLoop:
             self._sensed = dict(list(self._sensed.items())[-max(_KEPT // 2, trajectories.n) :])
 
     def sensor_errors(self, seed: int, draw: int, models: int) -> Array:
-        """Errors of the sensors of each of a draw's models, shape (models, ticks, sensed)."""
+        """Draw the sensor errors of each perturbed model, shape (models, ticks, sensed).
+
+        Args:
+            seed: Seed of the search.
+            draw: Number of the draw of perturbed models.
+            models: Number of models in the draw.
+        """
         key = (seed, draw)
         if key not in self._errors:
             drawn = SensorErrors().draw(
@@ -114,5 +124,5 @@ class ClosedLoop:
 
 
 def _keys(reference: JointReference) -> list[bytes]:
-    """What identifies each trial: all that the engine is asked for."""
+    """Return a key for each trial: the bytes of its reference."""
     return [row.tobytes() for row in reference.position]

@@ -1,11 +1,11 @@
-"""What a search asks for, and what came of it: `Trials` go to an objective, an `Evaluation` comes back.
+"""Questions and answers of a search: `Trials` go to an objective, an `Evaluation` comes back.
 
     trials = search.ask()                       # Trials: candidates, each on the nominal model or on perturbed ones
-    evaluation = objective.evaluate(trials)     # Evaluation: one row a roll-out
+    evaluation = objective.evaluate(trials)     # Evaluation: one row per roll-out
     search.tell(evaluation)
 
-Both are immutable; an evaluation's arrays are read-only. An evaluation of a whole generation also has `Samples`: what its
-candidates did on perturbed models.
+Both are immutable; an evaluation's arrays are read-only. For a robust task, the evaluation of a generation also has `Samples`:
+the results of its candidates on perturbed models.
 """
 
 from __future__ import annotations
@@ -29,20 +29,20 @@ Mask = NDArray[np.bool_]
 
 @dataclass(frozen=True, eq=False)
 class Trials:
-    """Roll-outs that a search asks for.
+    """The roll-outs that a search asks for.
 
     Attributes:
-        weights: Candidates: policy weights [rad], shape (k, d).
-        hold_steps: How many steps of the hold to simulate.
-        seed: Seed of the search, from which perturbed models follow.
-        draw: Which perturbed models: None for the nominal model alone, 0 for the models that stay the same, g for those
-            drawn for generation g.
-        pairs: With a draw, the candidate and the model of each roll-out, both of shape (n,). Without, each candidate is
-            one roll-out.
+        weights: Policy weights of the candidates [rad], shape (k, d).
+        hold_steps: Number of steps of the hold to simulate.
+        seed: Seed of the search, which determines the perturbed models.
+        draw: Which perturbed models to use: None for the nominal model alone, 0 for the models that stay the same, g for the
+            models drawn for generation g.
+        pairs: With a draw, the candidate and the model of each roll-out, both of shape (n,). Without a draw, each candidate
+            is one roll-out.
         along: With a draw, the weights of the motion along which the gains of the task's feedback are made, shape (d,). None
-            is without feedback.
-        closing: Whether this is asked for at the end of the search. What comes of it is not recorded, since a resumed
-            search goes on instead.
+            simulates without feedback.
+        closing: Whether the search asks for this at its end. The answer is not recorded, since a resumed search goes on
+            instead.
     """
 
     weights: Array
@@ -54,7 +54,7 @@ class Trials:
     closing: bool = False
 
     def __getitem__(self, rows: slice) -> Trials:
-        """Some of the roll-outs."""
+        """Return some of the roll-outs."""
         if self.pairs is None:
             return replace(self, weights=self.weights[rows])
         candidates, models = self.pairs
@@ -63,12 +63,12 @@ class Trials:
 
     @property
     def n(self) -> int:
-        """Number of roll-outs."""
+        """The number of roll-outs."""
         return len(self.weights) if self.pairs is None else len(self.pairs[0])
 
     @property
     def checksum(self) -> int:
-        """Identifies what is asked for."""
+        """The checksum that identifies what is asked for."""
         of = zlib.crc32(np.ascontiguousarray(self.weights).tobytes())
         for part in self.pairs or ():
             of = zlib.crc32(np.ascontiguousarray(part, dtype=np.int64).tobytes(), of)
@@ -79,12 +79,12 @@ class Trials:
 
 @dataclass(frozen=True, eq=False)
 class Samples:
-    """What n candidates did on m perturbed models; meaningless where ``known`` is false.
+    """The results of n candidates on m perturbed models. They mean nothing where ``known`` is false.
 
     Attributes:
         terms: Cost -> unweighted terms, shape (n, m).
-        success: Shape (n, m).
-        diverged: Shape (n, m).
+        success: Which roll-outs succeeded, shape (n, m).
+        diverged: Which simulations broke down, shape (n, m).
         known: Which pairs were simulated, shape (n, m).
     """
 
@@ -95,12 +95,23 @@ class Samples:
 
     @classmethod
     def none(cls, terms: Mapping[str, Any], candidates: int, models: int) -> Samples:
-        """Samples of which nothing is known yet."""
+        """Make samples of which nothing is known yet.
+
+        Args:
+            terms: Names of the costs.
+            candidates: Number of candidates.
+            models: Number of perturbed models.
+        """
         shape = (candidates, models)
         return cls({name: np.full(shape, np.nan) for name in terms}, *np.zeros((3, *shape), dtype=bool))
 
     def updated(self, pairs: tuple[Index, Index], evaluation: Evaluation) -> Samples:
-        """The same samples with the roll-outs of some pairs filled in."""
+        """Return the same samples with the roll-outs of some pairs filled in.
+
+        Args:
+            pairs: The candidate and the model of each roll-out, both of shape (k,).
+            evaluation: Their results, k rows.
+        """
 
         def filled(whole: NDArray[Any], part: NDArray[Any] | bool) -> NDArray[Any]:
             whole = whole.copy()
@@ -118,28 +129,29 @@ class Samples:
 
     @property
     def share(self) -> Array:
-        """Successes as a share of all m models, shape (n,); what was not simulated counts as a failure."""
+        """The successes as a share of all m models, shape (n,); pairs that were not simulated count as failures."""
         return (self.success & self.known).mean(axis=1)
 
     @property
     def attainable(self) -> Array:
-        """The share if everything that was not simulated succeeds, shape (n,)."""
+        """The share if every pair that was not simulated succeeds, shape (n,)."""
         return (self.success | ~self.known).mean(axis=1)
 
 
 @dataclass(frozen=True, eq=False)
 class Evaluation:
-    """What n trials achieved. Values are NaN where they look at a hold that was not simulated.
+    """The results of n trials. Values that depend on a hold are NaN where that was not simulated.
 
     Attributes:
         terms: Cost -> unweighted terms, shape (n,).
         errors: Criterion -> errors [SI], shape (n,).
         success: Which trials meet every criterion, shape (n,). With samples, also on enough of the perturbed models.
         diverged: Which simulations broke down, shape (n,).
-        slack: Criterion with bounds -> what is left to the nearer one [SI], negative beyond it, shape (n,).
-        samples: What the trials did on perturbed models, if they were tried on any.
-        verified: With samples, roll-outs beyond these that it took to tell which trials succeed.
-        met: With samples, where less is asked of perturbed models: which trials do on the nominal one all that is asked there.
+        slack: Criterion with bounds -> slack to the nearer bound [SI], negative beyond it, shape (n,).
+        samples: Results of the trials on perturbed models, if they were tried on any.
+        verified: With samples, the number of further roll-outs that it took to find out which trials succeed.
+        met: With samples, which trials meet every criterion of the nominal model, shape (n,). None if the criteria of
+            perturbed models are the same.
     """
 
     terms: Mapping[str, Array]
@@ -159,18 +171,26 @@ class Evaluation:
 
     @property
     def trials(self) -> int:
-        """Number of roll-outs that were made."""
+        """The number of roll-outs made."""
         return len(self.success) + (0 if self.samples is None else int(self.samples.known.sum()) + self.verified)
 
     def with_success(self, success: Mask) -> Evaluation:
-        """The same evaluation with other successes, shape (n,)."""
+        """Return the same evaluation with other successes.
+
+        Args:
+            success: Which trials succeed, shape (n,).
+        """
         return replace(self, success=success.copy())
 
     def cost(self, weights: Mapping[str, float], robust: Robust | None = None) -> Array:
-        """The cost of each trial, shape (n,): the weighted sum of its terms (eq. 5).
+        """Return the cost of each trial, shape (n,): the weighted sum of its terms (eq. 5).
 
-        Terms that look at the hold are left out if it was not simulated. For trials that were tried on perturbed models,
-        the cost is the measure that ``robust`` names of all their roll-outs.
+        Terms that depend on the hold are left out if it was not simulated.
+
+        Args:
+            weights: Cost -> weight.
+            robust: Names the measure that combines all roll-outs of a trial that was tried on perturbed models. None ignores
+                these roll-outs.
         """
         terms = {name: values for name, values in self.terms.items() if not np.isnan(values).any()}
         cost = total(terms, {name: weights[name] for name in terms})
@@ -187,13 +207,18 @@ class Evaluation:
 
 @dataclass(frozen=True, eq=False)
 class Record:
-    """An evaluation with the checksum of the trials that it answers: a line of a checkpoint."""
+    """An evaluation with the checksum of the trials that it answers: a line of a checkpoint.
+
+    Attributes:
+        checksum: `Trials.checksum` of the trials.
+        evaluation: Their results, without samples.
+    """
 
     checksum: int
     evaluation: Evaluation
 
     def to_json(self) -> dict[str, Any]:
-        """Plain lists; floats survive JSON to the bit."""
+        """Return plain lists; floats survive JSON to the bit."""
         of = self.evaluation
         tables = {
             key: {name: [None if np.isnan(v) else v for v in values.tolist()] for name, values in table.items()}
@@ -204,11 +229,14 @@ class Record:
 
     @classmethod
     def from_json(cls, content: Mapping[str, Any]) -> Record:
-        """The record that `to_json` wrote.
+        """Read the record that `to_json` wrote.
+
+        Args:
+            content: What a line of a checkpoint holds.
 
         Raises:
             ValueError: If something is missing, of another kind, or of another number of trials than the rest. LookupError,
-                TypeError, AttributeError and OverflowError, too.
+                TypeError, AttributeError and OverflowError mean the same.
         """
         success, diverged = (_flags(content[key]) for key in ("success", "diverged"))
         n = len(success)
@@ -222,14 +250,14 @@ class Record:
 
 
 def _flags(values: list[bool]) -> Mask:
-    """An array of a list. Raises ValueError if it holds anything but true and false."""
+    """Make an array of a list. Raises ValueError if it holds anything except true and false."""
     if not isinstance(values, list) or not all(isinstance(value, bool) for value in values):
         raise ValueError
     return np.array(values, dtype=bool)
 
 
 def _numbers(values: list[float | None], n: int) -> Array:
-    """An array of a list, NaN for None. Raises ValueError if it is not of n numbers."""
+    """Make an array of a list, NaN for None. Raises ValueError if it does not hold n numbers."""
     if not isinstance(values, list) or any(type(value) not in (float, int, type(None)) for value in values):
         raise ValueError
     array = np.array(values, dtype=float)

@@ -1,12 +1,12 @@
-"""Driving searches to their end: `solve` one, `solve_many` several in lockstep.
+"""Drive searches to their end: `solve` one, `solve_many` several in lockstep.
 
     solution = solve(load_task("rearing"), seed=0)
     solution.success, solution.trials_to_success, solution.best.errors
 
-Everything is deterministic: the same task, seed and versions give the same solution to the bit, for any number of threads, and
-in lockstep with any other searches. Weights that a caller changes on the way (``steer``) are part of the solution, as
-`levade.tasks.Change`: a task with these changes gives it again. Given the records of an interrupted solve, the loop answers the
-search from these first, and goes on to the same end.
+Everything is deterministic. The same task, seed and versions give the same solution to the bit, for any number of threads and
+in lockstep with any other searches. A caller may change weights on the way (``steer``). The solution lists these changes as
+`levade.tasks.Change`, and a task with these changes gives the same solution again. Given the records of an interrupted solve,
+the loop first answers the search from these, and then goes on to the same end.
 """
 
 from __future__ import annotations
@@ -43,18 +43,21 @@ def solve(
     """Search for a motion that does the task.
 
     Args:
-        task: The task, or an objective that was made of one.
+        task: The task, or an objective made from one.
         seed: Seed of all random numbers.
-        threads: Engine threads; 0 for one per core. Results do not depend on it.
+        threads: Number of engine threads (0: one per core). Results do not depend on it.
         initial: Weights to begin around.
-        observe: See `Observe`. Ctrl-C ends the search in the same way.
-        steer: See `levade.search.search.Steer`. Not called for generations that records answer.
-        records: Records of an earlier solve of the same task and seed, in order; the search goes on after them.
+        observe: Called after each generation, see `Observe`. Ctrl-C ends the search in the same way.
+        steer: Changes cost weights, see `levade.search.search.Steer`. It is not called for generations that records answer.
+        records: Records of an earlier solve of the same task and seed, in order. The search goes on after them.
         keep: Called with each new record.
 
+    Returns:
+        The best trial, and what it took to find it.
+
     Raises:
-        LevadeError: If the task does not fit together, the records are not of this search, or ``steer`` names a cost that
-            the task does not have.
+        LevadeError: If the parts of the task do not fit together, the records belong to another search, or ``steer`` names a
+            cost that the task does not have.
     """
     objective = task if isinstance(task, Objective) else make_objective(task, threads=threads)
     answers = _Answers(objective, records, keep)
@@ -80,16 +83,20 @@ def solve_many(
     initial: Sequence[InitialGuess | None] | None = None,
     observe: Callable[[int, Generation], Stopped | None] | None = None,
 ) -> list[Solution]:
-    """Drive several searches in lockstep: the trials that they ask for are simulated in common batches.
+    """Drive several searches in lockstep and simulate their trials in common batches.
 
     Args:
-        objectives: What to search for; those of one simulation share batches, from whatever starts.
+        objectives: What to search for. Objectives of one engine share batches, even from different starts.
         seeds: Seed of each search. Defaults to 0 for all.
-        initial: Weights that each begins around, if any.
-        observe: Called with the number of a search and each of its generations; may end that search. Ctrl-C ends them all.
+        initial: Weights that each search begins around, if any.
+        observe: Called with the number of a search and each of its generations. Like `Observe`, it may end that search.
+            Ctrl-C ends all of them.
 
     Returns:
         A solution for each objective, with the same bits as `solve` gives for it alone.
+
+    Raises:
+        LevadeError: If the numbers of objectives, seeds and initial guesses differ.
     """
     n = len(objectives)
     seeds, initial = seeds or [0] * n, initial or [None] * n
@@ -126,7 +133,7 @@ def solve_many(
 
 
 def _observed(search: Search, generation: Generation | None, answers: _Answers, observe: Observe | None) -> None:
-    """Show a generation to the observer, if one is complete, and do what it wants."""
+    """Show a generation to the observer, if one is complete, and stop the search if the observer says so."""
     if generation is None:
         return
     generation, answers.fresh = replace(generation, replayed=not answers.fresh), False
@@ -141,7 +148,7 @@ def _observed(search: Search, generation: Generation | None, answers: _Answers, 
 
 
 class _Answers:
-    """Answers from records, in order, while there are any; new ones are handed to ``keep``."""
+    """Answers from records, in order, while any are left. Hands new records to ``keep``."""
 
     def __init__(
         self, objective: Objective, records: Iterable[Record], keep: Callable[[Record], object] | None
@@ -152,26 +159,26 @@ class _Answers:
         self._keep, self._count = keep, 0
 
     def recorded(self, trials: Trials) -> Evaluation | None:
-        """The record that answers trials, if any is left."""
+        """Return the record that answers trials, if any is left."""
         if trials.closing or not self.left:
             return None
         record = self.left.popleft()
         self._count += 1
         if record.checksum != trials.checksum or not self._fits(record.evaluation, trials):
             raise LevadeError(
-                f"record {self._count} is of another search: the task, the seed or a library has changed since;"
+                f"record {self._count} belongs to another search: the task, the seed or a library has changed since;"
                 " start again in an empty directory"
             )
         return record.evaluation
 
     def _fits(self, evaluation: Evaluation, trials: Trials) -> bool:
-        """Whether an evaluation has the task's costs and criteria, and a row for each of the trials."""
+        """Whether an evaluation has the task's costs and criteria, and a row for each trial."""
         bounded = {name for name, criterion in self._criteria.items() if criterion.target is None}
         names = (evaluation.terms.keys(), evaluation.errors.keys(), evaluation.slack.keys())
         return len(evaluation.success) == trials.n and names == (self._terms, self._criteria.keys(), bounded)
 
     def kept(self, trials: Trials, evaluation: Evaluation) -> Evaluation:
-        """A new evaluation, recorded."""
+        """Record a new evaluation and return it."""
         self.fresh = True
         if self._keep is not None and not trials.closing:
             self._keep(Record(trials.checksum, evaluation))

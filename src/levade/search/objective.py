@@ -1,8 +1,8 @@
-"""From weights to what they achieve: a `Simulation` is built once, an `Objective` is a simulation and a task.
+"""Evaluate policy weights: a `Simulation` is built once, an `Objective` is a simulation and a task.
 
     objective = make_objective(load_task("rearing"))
     evaluation = objective.evaluate(Trials(weights, hold_steps=0))
-    other = objective.with_task(task)               # the same simulation, other costs or policy: cheap
+    other = objective.with_task(task)               # cheap: the same simulation with other costs or another policy
 
 `evaluate_many` evaluates the trials of several objectives of one simulation in common batches.
 """
@@ -43,10 +43,10 @@ from levade.tasks.reach import check_clearance, check_reach
 from levade.trajectory import JointReference, Trajectories
 
 AT_ONCE = 128
-"""Roll-outs in one batch: what they record has to fit into memory."""
+"""Most roll-outs in one batch: their records have to fit into memory."""
 
 _TAG = 1_380_930_130
-"""Keeps perturbed models apart from those that `levade check` draws with the same seed."""
+"""Separates the perturbed models from those that `levade check` draws with the same seed."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,8 +55,8 @@ class Simulation:
 
     Attributes:
         robot: The robot.
-        engine: The engine, which has the scene in its model.
-        start: Where roll-outs start.
+        engine: The engine, whose model includes the scene.
+        start: State where roll-outs start.
     """
 
     robot: Robot
@@ -68,12 +68,12 @@ class Simulation:
         """Build the simulation of a task.
 
         Args:
-            task: Names the robot, scene, physics and start.
-            robot: The robot, instead of the one that the task names.
-            threads: Engine threads; 0 for one per core. Results do not depend on it.
+            task: The task, which names the robot, scene, physics and start.
+            robot: A robot to use instead of the task's.
+            threads: Number of engine threads (0: one per core). Results do not depend on it.
 
         Raises:
-            LevadeError: If they do not fit together, or the robot cannot be put down where the start says.
+            LevadeError: If these do not fit together, or the robot cannot be placed as the start says.
         """
         if robot is None:
             robot = task.robot.load()
@@ -81,13 +81,17 @@ class Simulation:
         return cls(robot, engine, start_state(engine, robot, task.scene, task.start.choice))
 
     def starting(self, start: State) -> Simulation:
-        """The same simulation from another start."""
+        """Return the same simulation with another start.
+
+        Args:
+            start: State where roll-outs start.
+        """
         return replace(self, start=start)
 
 
 @dataclass(frozen=True, eq=False)
 class Rollouts:
-    """What an engine is asked to simulate: `levade.engines.Engine.rollout` says what each is."""
+    """The roll-outs that an engine is to simulate. `levade.engines.Engine.rollout` describes each field."""
 
     starts: State
     reference: JointReference
@@ -97,7 +101,7 @@ class Rollouts:
 
     def __getitem__(self, rows: slice) -> Rollouts:
         if rows == slice(0, len(self.reference.position)):
-            return self  # a search starts all its trials from one state, which the engine knows again
+            return self  # a search starts all its trials from one state, which the engine recognises
         starts = self.starts if len(self.starts) == 1 else self.starts[rows]
         models = None if self.models is None else self.models[rows]
         if self.feedback is None or self.sensor_errors is None:
@@ -107,7 +111,11 @@ class Rollouts:
 
     @classmethod
     def joined(cls, parts: Sequence[Rollouts]) -> Rollouts:
-        """Several, one after another; all on perturbed models, or none, and none under feedback unless it is the only one."""
+        """Join several, one after another.
+
+        Args:
+            parts: Either all of them or none use perturbed models. One with feedback has to be alone.
+        """
         first = parts[0]
         if len(parts) == 1:
             return first
@@ -122,15 +130,15 @@ class Rollouts:
 
 
 class Objective:
-    """A task on a simulation: policy, roll-out and costs.
+    """A task on a simulation: policy, roll-outs and costs.
 
     Args:
-        simulation: Built for a task with the same robot, scene, physics and start.
-        task: What to achieve.
-        policy: A policy of one's own, instead of the task's: see `levade.policies.JointPolicy`.
+        simulation: Simulation of a task with the same robot, scene, physics and start.
+        task: The task to achieve.
+        policy: A custom policy to use instead of the task's: see `levade.policies.JointPolicy`.
 
     Raises:
-        LevadeError: If they do not fit together.
+        LevadeError: If these do not fit together.
     """
 
     def __init__(self, simulation: Simulation, task: Task, policy: JointPolicy | None = None) -> None:
@@ -146,13 +154,17 @@ class Objective:
         self._closed = None if task.feedback is None else ClosedLoop(task.feedback, task, self.engine, self.state)
 
     def with_task(self, task: Task) -> Objective:
-        """Another task with the same robot, scene, physics and start, on the same simulation."""
+        """Make an objective of another task on the same simulation.
+
+        Args:
+            task: A task with the same robot, scene, physics and start.
+        """
         own = None if isinstance(self.policy, Policy | FreePolicy) else self.policy
         return Objective(self.simulation, task, own)
 
     @cached_property
     def space(self) -> SearchSpace:
-        """Where the task's search begins."""
+        """The search space: where the task's search begins."""
         return search_space(self.task, self.robot, self.policy, self.state)
 
     def rollout(self, weights: Array, *, hold_steps: int | None = None, feet: bool = False) -> Trajectories:
@@ -160,7 +172,7 @@ class Objective:
 
         Args:
             weights: Policy weights [rad], shape (n, d).
-            hold_steps: How many steps of the hold to simulate. None for all of it.
+            hold_steps: Number of steps of the hold to simulate. None simulates all of it.
             feet: Whether to record the contact forces on the feet.
         """
         reference = self.policy.reference(weights, hold_steps=hold_steps)
@@ -171,15 +183,15 @@ class Objective:
         """Simulate trials and judge them.
 
         Args:
-            trials: What a search asks for; or policy weights [rad], shape (n, d), to be tried on the nominal model through the
-                whole hold.
+            trials: The trials that a search asks for; or policy weights [rad], shape (n, d), to try on the nominal model
+                through the whole hold.
         """
         if not isinstance(trials, Trials):
             trials = Trials(trials, self.task.hold_steps)
         return evaluate_many([(self, trials)])[0]
 
     def check(self) -> None:
-        """Simulate one trial, so that terms which cannot be evaluated say so now.
+        """Simulate one trial, so that terms which cannot be evaluated raise their error now.
 
         Raises:
             LevadeError: If a term cannot be evaluated.
@@ -187,13 +199,17 @@ class Objective:
         self.evaluate(self.space.mean[None])
 
     def rollouts(self, trials: Trials) -> Rollouts:
-        """What an engine needs to simulate trials, one row a roll-out."""
+        """Prepare what an engine needs to simulate trials, one row per roll-out.
+
+        Args:
+            trials: The trials that a search asks for.
+        """
         reference = self.policy.reference(trials.weights, hold_steps=trials.hold_steps)
         if trials.draw is None or trials.pairs is None:
             return Rollouts(self.state, reference, None)
         candidates, models = trials.pairs
         starts, drawn = self._models(trials.seed, trials.draw)
-        # perturbed models have latency: until the first reference arrives, the joints have what they were commanded last
+        # perturbed models have latency: until the first reference arrives, the joints keep their last command
         each = replace(reference[candidates], before=self.state.joint_reference[0])
         made = Rollouts(starts[models], each, drawn[models])
         if trials.along is None or self._closed is None:
@@ -204,7 +220,7 @@ class Objective:
         return replace(made, feedback=feedback, sensor_errors=errors[models])
 
     def regulator(self, along: Array, *, seed: int) -> Feedback:
-        """The feedback of the task, with gains made along a motion, which holds the robot to that motion.
+        """Make the task's feedback with gains along a motion. It keeps the robot close to that motion.
 
         Args:
             along: Weights of the motion, shape (d,).
@@ -214,35 +230,43 @@ class Objective:
             LevadeError: If the task has no feedback.
         """
         if self._closed is None:
-            raise LevadeError("feedback: the task has none; give feedback: {}")
+            raise LevadeError("feedback: the task has none; add feedback: {} to the task")
         reference = self.policy.reference(along[None], hold_steps=self.task.hold_steps)
         return self._closed.feedback(along, reference, seed)
 
     def sensed(self, weights: Array) -> Array:
-        """What a motion senses on the nominal model at the ticks of the task's feedback, shape (ticks, sensed).
+        """Return what a motion senses on the nominal model at the ticks of the task's feedback, shape (ticks, sensed).
 
         Args:
-            weights: Its weights, shape (d,).
+            weights: Weights of the motion, shape (d,).
         """
         assert self._closed is not None
         reference = self.policy.reference(weights[None], hold_steps=self.task.hold_steps)
         return self._closed.sensed(reference)[0]
 
     def remember(self, trials: Trials, trajectories: Trajectories) -> None:
-        """Keep what trials on the nominal model sensed, if the task has feedback: it holds perturbed models to that.
+        """Cache what trials on the nominal model sensed, if the task has feedback. It is the reference on perturbed models.
 
-        It is simulated again where it is not kept.
+        Where it is not cached, it is simulated again.
+
+        Args:
+            trials: The trials that were simulated.
+            trajectories: Their trajectories.
         """
         if self._closed is not None and trials.draw is None:
             self._closed.remember(trajectories)
 
     def judge(self, trajectories: Trajectories, hold_steps: int, *, perturbed: bool = False) -> Evaluation:
-        """Judge trajectories of which ``hold_steps`` of the hold were simulated.
+        """Judge trajectories by the task's costs and criteria.
 
-        On perturbed models, what is good enough there counts, and the errors of criteria that are not asked for are NaN.
+        Without any of the hold, values that depend on it are NaN. With part of it, they use that part. Criteria on a speed at
+        the end need the whole hold, since a robot comes to rest during it.
 
-        Without any of the hold, values that look at it are NaN. With part of it, they use that part, except speeds at the
-        end, which are for the whole hold only: a robot comes to rest on the way there.
+        Args:
+            trajectories: Trajectories of n trials.
+            hold_steps: Number of steps of the hold that were simulated.
+            perturbed: Whether the trials ran on perturbed models. The criteria that are good enough there then count, and the
+                errors of the others are NaN.
         """
         terms, n = self.terms, trajectories.n
         criteria = self.task.good_enough if perturbed else self.task.success
@@ -266,7 +290,7 @@ class Objective:
         )
 
     def _models(self, seed: int, draw: int) -> tuple[State, Models]:
-        """A draw of perturbed models and where each starts. The latest is kept, and the models that stay the same."""
+        """Return a draw of perturbed models and the start of each. Caches the latest draw and the models that stay the same."""
         robust, engine, key = self.task.robust, self.engine, (seed, draw)
         assert robust is not None
         if key not in self._drawn:
@@ -288,31 +312,35 @@ def make_objective(
 
     Args:
         task: The task.
-        robot: The robot, instead of the one that the task names.
-        policy: A policy, or a function that makes one for the task and the robot, instead of the task's.
-        threads: Engine threads; 0 for one per core.
+        robot: A robot to use instead of the task's.
+        policy: A policy to use instead of the task's, or a function that makes one for the task and the robot.
+        threads: Number of engine threads (0: one per core).
 
     Raises:
-        LevadeError: For whatever does not fit together.
+        LevadeError: If the parts of the task do not fit together.
     """
     simulation = Simulation.of(task, robot=robot, threads=threads)
     made = policy(task, simulation.robot) if policy is not None and not isinstance(policy, JointPolicy) else policy
     objective = Objective(simulation, task, made)
     objective.check()
-    make_attempt(task, objective.space, seed=0)  # settings that its optimizer does not take say so now
+    make_attempt(task, objective.space, seed=0)  # raises now if its optimizer does not take the settings
     return objective
 
 
 def evaluate_many(asked: Sequence[tuple[Objective, Trials]]) -> list[Evaluation]:
-    """Evaluate the trials of several objectives; those of one engine that last as long share batches.
+    """Evaluate the trials of several objectives. Trials of one engine and of one length share batches.
 
-    Each has the same bits as alone.
+    Args:
+        asked: Objectives, each with the trials to evaluate.
+
+    Returns:
+        An evaluation for each, with the same bits as `Objective.evaluate` gives for it alone.
     """
     found: list[Evaluation | None] = [None] * len(asked)
     together: dict[tuple[int, int, bool, tuple[str, ...], int], list[int]] = {}
     for i, (objective, trials) in enumerate(asked):
         steps = objective.policy.horizon_steps + trials.hold_steps
-        alone = -1 if trials.along is None else i  # under gains of its own
+        alone = -1 if trials.along is None else i  # it has its own gains
         key = (id(objective.engine), steps, trials.draw is None, objective.recorded, alone)
         together.setdefault(key, []).append(i)
     for members in together.values():
@@ -322,7 +350,7 @@ def evaluate_many(asked: Sequence[tuple[Objective, Trials]]) -> list[Evaluation]
 
 
 def _evaluate_in_parts(asked: Sequence[tuple[Objective, Trials]]) -> Iterable[Evaluation]:
-    """As `_evaluate_together`, in parts that fit into the memory if all do not fit at once."""
+    """Evaluate as `_evaluate_together` does, in parts that fit into memory if not all trials fit at once."""
     objective, trials = asked[0]
     steps = objective.policy.horizon_steps + trials.hold_steps
     fit = needed(objective.engine, steps).at_once
@@ -379,7 +407,7 @@ def _joined(parts: Sequence[Evaluation]) -> Evaluation:
 
 
 def _recorded(task: Task, simulation: Simulation) -> tuple[str, ...]:
-    """What else has to be recorded for the task's costs and criteria: distances, and bodies' contact forces."""
+    """Return what else to record for the task's costs and criteria: distances, and contact forces on bodies."""
     named: set[str] = set()
     for name, cost in task.costs.items():
         for body in getattr(cost.term, "bodies", ()):
@@ -393,6 +421,6 @@ def _recorded(task: Task, simulation: Simulation) -> tuple[str, ...]:
     if measured is None or measured < task.clearance:
         raise LevadeError(
             f"self_distance: the task asks for {task.clearance:g} m between the robot's parts, but the simulation measures"
-            f" {'none' if measured is None else f'up to {measured:g} m'}; build the simulation for this task"
+            f" {'no distance' if measured is None else f'up to {measured:g} m'}; build the simulation for this task"
         )
     return (SELF_DISTANCE, *sorted(named))

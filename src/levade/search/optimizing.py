@@ -1,4 +1,4 @@
-"""The optimizer of each attempt of a search."""
+"""Make the optimizer of each attempt of a search."""
 
 from __future__ import annotations
 
@@ -9,18 +9,21 @@ from levade.optimizers import Optimizer, SearchSpace, make_optimizer, settings
 from levade.tasks import Task
 
 _AROUND = 1
-"""Keeps the numbers drawn around a motion to start from apart from those of the next attempt."""
+"""Separates the numbers drawn around a motion to start from, from those of the next attempt."""
 
 
 def make_attempt(task: Task, space: SearchSpace, *, seed: int, attempt: int = 0, around: bool = False) -> Optimizer:
     """Make the optimizer of an attempt.
 
     Args:
-        task: Names the optimizer and its settings.
-        space: Where it begins.
+        task: The task, which names the optimizer and its settings.
+        space: Where the optimizer begins.
         seed: Seed of the search.
-        attempt: Number of the attempt; each draws other numbers.
-        around: Whether it begins around a motion to start robust stages from, for which it draws others again.
+        attempt: Number of the attempt. Each attempt draws other random numbers.
+        around: Whether the attempt begins the robust stages around a motion. It then draws yet other random numbers.
+
+    Raises:
+        LevadeError: If the optimizer does not take the settings.
     """
     search = task.search
     own: dict[str, Any] = dict(search.settings)

@@ -1,4 +1,4 @@
-"""What a search has found: trials, the state after each generation, and the solution."""
+"""Results of a search: trials, the state after each generation, and the solution."""
 
 from __future__ import annotations
 
@@ -12,32 +12,32 @@ from levade.tasks import Change
 
 
 class Stopped(StrEnum):
-    """Why a search ended."""
+    """The reason why a search ended."""
 
     SUCCESS = "success"
     """A motion succeeded and was polished for as long as the task says."""
     BUDGET = "budget"
-    """The task's trials were spent."""
+    """The search used up the task's trials."""
     INTERRUPTED = "interrupted"
     """An observer, Ctrl-C or an error ended it."""
     RUNNING = "running"
-    """It has not ended: an interim solution."""
+    """It has not ended: the solution is an interim one."""
 
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """One trial and what it achieved.
+    """One trial and its results.
 
     Attributes:
-        weights: The policy's weights [rad], shape (d,).
-        cost: By the task's own cost weights, as changed so far.
+        weights: Policy weights [rad], shape (d,).
+        cost: Cost by the task's own cost weights, with the changes so far.
         terms: Cost -> unweighted term.
         errors: Criterion -> error [SI].
-        success: Whether it meets every criterion, for a robust task also on enough of the perturbed models.
-        share: Share of the perturbed models that it succeeds on. None if it was not tried on any.
-        along: Weights of the motion along which the gains were made of the feedback that it had there, shape (d,). None if it
-            had none.
-        met: Whether it does on the nominal model all that is asked there, where less is asked of perturbed ones.
+        success: Whether it meets every criterion. For a robust task also on enough of the perturbed models.
+        share: Share of the perturbed models on which it succeeds. None if it was not tried on any.
+        along: Weights of the motion along which the gains of its feedback were made, shape (d,). None if it had no feedback.
+        met: Whether it meets every criterion of the nominal model. This matters where the criteria of perturbed models ask
+            for less.
     """
 
     weights: Array
@@ -51,7 +51,15 @@ class Trial:
 
     @classmethod
     def of(cls, weights: Array, cost: float, evaluation: Evaluation, i: int, along: Array | None = None) -> Trial:
-        """Row ``i`` of an evaluation. weights, along: shape (d,)."""
+        """Make a trial of one row of an evaluation.
+
+        Args:
+            weights: Policy weights [rad], shape (d,).
+            cost: Its cost.
+            evaluation: The evaluation.
+            i: Row of the evaluation.
+            along: Weights of the motion along which gains were made, shape (d,).
+        """
         return cls(
             weights=weights.copy(),
             cost=cost,
@@ -65,12 +73,17 @@ class Trial:
 
     @property
     def rank(self) -> tuple[bool, bool, float, float]:
-        """Less is better: success first, then what the model does, then the share of perturbed models, then cost."""
+        """The rank, lower is better: success, then success on the nominal model, share of perturbed models, and cost."""
         return not self.success, not self.met, -(self.share or 0.0), self.cost
 
 
 def better(one: Trial | None, other: Trial) -> Trial:
-    """The better of two trials; the other one if they rank the same."""
+    """Return the better of two trials; the other one if they rank the same.
+
+    Args:
+        one: A trial, or None.
+        other: Another trial.
+    """
     return other if one is None or other.rank <= one.rank else one
 
 
@@ -79,25 +92,25 @@ class Generation:
     """The state of a search after a generation.
 
     Attributes:
-        generation: Its number, from 1.
+        generation: Number of the generation, from 1.
         stage: Number of its stage, from 0.
-        stage_name: The stage's name.
+        stage_name: Name of its stage.
         trials: Trials spent so far.
         cost: Costs of its candidates by the stage's cost weights, shape (candidates,).
-        step: The optimizer's step size after it.
-        diverged: How many of its candidates broke down.
+        step: Step size of the optimizer after the generation.
+        diverged: Number of its candidates whose simulation broke down.
         best: Best trial of all generations and stages.
         trials_to_success: Trials spent when one first met every criterion. None while there is none.
         cost_weights: Cost -> weight in ``best.cost``.
-        changes: Changes of the cost weights that hold or are still to come.
-        starts: Shares of the models that stay the same on which the motions to start from succeed, of those that were
-            found and not yet started from in vain.
-        evaluation: What its candidates achieved.
-        validated: What its contender achieved on the models that stay the same: the candidate, or the mean, that may become
-            the best of a robust search, or a motion to start one from. None where there is none.
-        total_diverged: How many trials of the whole search broke down so far.
-        initial: How many motions or weights the search began around.
-        replayed: Whether all of it came from records, nothing from simulation.
+        changes: Changes of the cost weights, both past and still to come.
+        starts: For each motion found to start the robust stages from, the share of the models that stay the same on which it
+            succeeds. Motions from which these stages already failed are left out.
+        evaluation: Results of its candidates.
+        validated: Results of its contender on the models that stay the same. The contender is the candidate, or the mean, that
+            may become the best of a robust search, or a motion to start one from. None without a contender.
+        total_diverged: Number of trials of the whole search so far whose simulation broke down.
+        initial: Number of motions or weights that the search began around.
+        replayed: Whether records answered the whole generation, so that nothing was simulated.
     """
 
     generation: int
@@ -119,7 +132,7 @@ class Generation:
     replayed: bool = False
 
     def solution(self) -> Solution:
-        """The solution so far."""
+        """Return the solution so far."""
         return Solution(
             best=self.best,
             trials=self.trials,
@@ -135,18 +148,18 @@ class Generation:
 
 @dataclass(frozen=True, eq=False)
 class Solution:
-    """The outcome of a search: the best trial, and what it took.
+    """The outcome of a search: the best trial, and what it took to find it.
 
     Attributes:
         best: The best trial.
-        trials: Trials spent.
-        generations: Generations told.
+        trials: Number of trials spent.
+        generations: Number of completed generations.
         trials_to_success: Trials spent when one first met every criterion. None if none did.
-        diverged: How many trials broke down.
+        diverged: Number of trials whose simulation broke down.
         stopped: Why the search ended.
         cost_weights: Cost -> weight in ``best.cost``.
-        changes: Changes of the cost weights on the way; a task with these gives the same solution again.
-        initial: How many motions or weights the search began around; 0 if it began from nothing.
+        changes: Changes of the cost weights on the way. A task with these changes gives the same solution again.
+        initial: Number of motions or weights that the search began around (0: none).
     """
 
     best: Trial

@@ -1,4 +1,4 @@
-"""progress.csv: a line per generation."""
+"""Write progress.csv: a line per generation."""
 
 from __future__ import annotations
 
@@ -16,7 +16,15 @@ PROGRESS = "progress.csv"
 
 
 class Progress:
-    """Writes progress.csv; a context manager. Raises OSError."""
+    """Writes progress.csv; a context manager.
+
+    Args:
+        task: The task, whose costs and criteria become columns.
+        directory: Directory of the run.
+
+    Raises:
+        OSError: If the file cannot be written.
+    """
 
     def __init__(self, task: Task, directory: Path) -> None:
         self._terms, self._criteria = list(task.costs), list(task.success)
@@ -39,7 +47,14 @@ class Progress:
             self._file.close()
 
     def write(self, g: Generation) -> None:
-        """Add a line: costs of the generation as its stage weighs them, the best trial so far by the task's own weights."""
+        """Add a line: costs of the generation by its stage's weights, and the best trial so far by the task's own weights.
+
+        Args:
+            g: The generation.
+
+        Raises:
+            OSError: If the file cannot be written.
+        """
         numbers = [g.best.cost, g.cost.min(), np.median(g.cost), g.cost.max(), g.step]
         own = [*(g.best.terms[name] for name in self._terms), *(g.best.errors[name] for name in self._criteria)]
         self._table.writerow(

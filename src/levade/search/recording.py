@@ -1,4 +1,4 @@
-"""From a solution to a motion: the best trial is simulated once more, with everything recorded."""
+"""Turn a solution into a motion: simulate the best trial once more and record everything."""
 
 from __future__ import annotations
 
@@ -18,7 +18,16 @@ from levade.tasks import holds_code, task_to_dict
 
 
 def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
-    """Simulate the best trial of a solution once more, with everything recorded."""
+    """Simulate the best trial of a solution once more and record everything.
+
+    Args:
+        objective: Objective of the search.
+        solution: What the search found.
+        seed: Seed of the search.
+
+    Returns:
+        The motion, with the feedback of the search if the trial had any.
+    """
     engine, state = objective.engine, objective.state
     policy, weights = objective.policy, solution.best.weights
     trajectories = objective.rollout(weights[None], feet=True).alone(0)
@@ -64,7 +73,7 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
         "timestep": task.physics.timestep,
         "horizon": trajectories.horizon_steps * task.physics.timestep,
         "horizon_steps": trajectories.horizon_steps,
-        # for a robust search also on enough of its perturbed models, which only the search can tell
+        # in a robust search a success also needs enough of the perturbed models, and only the search knows these
         "success": met and (task.robust is None or solution.best.success),
         "diverged": bool(trajectories.diverged[0]),
         "errors": {name: float(error[0]) for name, error in errors(task.success, trajectories).items()},

@@ -1,10 +1,10 @@
-"""How candidates are judged: on the nominal model, and on perturbed models where the task asks for it.
+"""Judge candidates: on the nominal model, and on perturbed models where the task asks for it.
 
     judge = Judge(task, seed=0)
     evaluation = yield from judge.evaluate(candidates, level, generation=3, racing=weights)
 
-The methods are generators: they yield the `Trials` that they need and are sent the `Evaluation` of each, so that who drives
-them decides how roll-outs are made, one search at a time or hundreds in one batch. A judge keeps no state.
+The methods are generators: they yield the `Trials` that they need, and the caller sends the `Evaluation` of each. The caller
+therefore decides how to simulate: one search at a time, or hundreds in one batch. A judge keeps no state.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from levade.tasks import Robust, Task
 Judging = Generator[Trials, Evaluation, Evaluation]
 
 _AT_ONCE = 20
-"""Models together on which a candidate is simulated through the hold: no more of them than it takes to tell."""
+"""Models in one batch when a candidate is verified through the hold. Batches end once the answer is known."""
 
 FIXED = 0
 """Number of the draw of perturbed models that stay the same."""
@@ -34,9 +34,10 @@ class Judge:
 
     Attributes:
         task: The task.
-        seed: Seed of the search, from which perturbed models follow.
+        seed: Seed of the search, which determines the perturbed models.
         closing: Whether this judges at the end of the search: see `Trials`.
-        along: Weights of the motion along which the gains of the task's feedback are made, shape (d,). None judges without.
+        along: Weights of the motion along which the gains of the task's feedback are made, shape (d,). None judges without
+            feedback.
     """
 
     task: Task
@@ -57,13 +58,17 @@ class Judge:
         Args:
             candidates: Policy weights [rad], shape (n, d).
             level: How to simulate.
-            generation: Generation whose perturbed models to use; `FIXED` for the models that stay the same.
-            racing: Cost weights by which candidates are left behind after a few of the models. None runs all on all.
+            generation: Generation whose perturbed models to use. `FIXED` uses the models that stay the same.
+            racing: Cost weights that decide which candidates drop out after the first few models. None runs all candidates on
+                all models.
+
+        Returns:
+            Their evaluation, n rows.
         """
         robust = self.task.robust
         if robust is None:
             return (yield from self.nominal(candidates, level.hold_steps, verify=True))
-        if not level.robust:  # what is yet to be tried on perturbed models has not succeeded
+        if not level.robust:  # a candidate that was not tried on perturbed models has not succeeded
             evaluation = yield from self.nominal(candidates, level.hold_steps, verify=False)
             return evaluation.with_success(np.zeros(len(candidates), dtype=bool))
         # only candidates on models that stay the same may count as successes
@@ -75,8 +80,14 @@ class Judge:
     def nominal(self, candidates: Array, hold_steps: int, *, verify: bool) -> Judging:
         """Judge candidates on the nominal model.
 
-        With less than the whole hold, trials that meet every criterion so far are simulated again through all of it to see
-        whether they succeed; without ``verify`` none does.
+        Args:
+            candidates: Policy weights [rad], shape (n, d).
+            hold_steps: Number of steps of the hold to simulate.
+            verify: With less than the whole hold, whether to simulate trials that meet every criterion so far again through
+                all of it. Only these can then succeed. Without, none succeeds.
+
+        Returns:
+            Their evaluation, n rows.
         """
         evaluation = yield self._trials(candidates, hold_steps)
         if hold_steps >= self.task.hold_steps:
@@ -90,11 +101,16 @@ class Judge:
         return replace(evaluation.with_success(success), verified=verified)
 
     def most(self, population: int, level: Level) -> int:
-        """Roll-outs that a generation may take, and looking at the best trial once more after it."""
+        """Count the most roll-outs of a generation, with those for judging the best trial once more after it.
+
+        Args:
+            population: Candidates of a generation.
+            level: How to simulate them.
+        """
         robust = self.task.robust
         if robust is None:
             return population
-        if self.task.feedback is not None and level.robust:  # the best once more, with other gains
+        if self.task.feedback is not None and level.robust:  # judges the best once more, with other gains
             others = replace(self, task=replace(self.task, feedback=None)).most(population, level)
             return others + (1 + robust.fixed) * (1 + (level.hold_steps < self.task.hold_steps))
         validated = 1 + robust.fixed
@@ -119,7 +135,7 @@ class Judge:
         draw: int,
         racing: Mapping[str, float] | None,
     ) -> Judging:
-        """Try the same candidates on perturbed models, too."""
+        """Also try the candidates on perturbed models."""
         models = robust.samples if draw else robust.fixed
         columns, everyone = np.arange(models), np.arange(len(candidates))
         samples = Samples.none(nominal.terms, len(candidates), models)
@@ -140,7 +156,7 @@ class Judge:
     def _verify(
         self, robust: Robust, candidates: Array, draw: int, trial: int, columns: Index, terms: Iterable[str]
     ) -> Generator[Trials, Evaluation, tuple[bool, int]]:
-        """Whether a candidate succeeds on enough models through the whole hold, and how many roll-outs it took to tell."""
+        """Return whether a candidate succeeds on enough models through the whole hold, and the roll-outs that this took."""
         whole, made = Samples.none(dict.fromkeys(terms), len(candidates), len(columns)), 0
         for first in range(0, len(columns), _AT_ONCE):
             part = columns[first : first + _AT_ONCE]
@@ -153,7 +169,7 @@ class Judge:
     def _run(
         self, samples: Samples, candidates: Array, hold_steps: int, draw: int, rows: Index, columns: Index
     ) -> Generator[Trials, Evaluation, Samples]:
-        """Roll out every one of some candidates on every one of some models, and add what came of it to the samples."""
+        """Simulate some candidates on some models, every one on every one, and add the results to the samples."""
         if not (len(rows) and len(columns)):
             return samples
         rows_of, columns_of = (axis.ravel() for axis in np.meshgrid(np.arange(len(rows)), columns, indexing="ij"))

@@ -1,15 +1,15 @@
-"""A run: a search that keeps a directory, so that nothing it computed is lost.
+"""Run searches that write to a directory, so that nothing they computed is lost.
 
 outcome = run(load_task("rearing"), seed=0, directory=Path("rearing"))
 outcome = resume(Path("rearing"))
 
-DIR/task.yaml         the task with every default filled in, and what was changed on the way; solving it again with the
+DIR/task.yaml         the task with every default filled in, and the changes made on the way; solving it again with the
                       same seed gives the same motion
-DIR/motion.npz        the best motion: written at the end, and on the way whenever there is a better one (at most every
+DIR/motion.npz        the best motion: written at the end, and on the way when a better one is found (at most every
                       few seconds)
 DIR/progress.csv      a line per generation
 DIR/checkpoint.jsonl  a line per evaluation: see `levade.search.checkpoint`
-DIR/.levade-lock      while the run goes on: see `levade.locking`
+DIR/.levade-lock      exists while the run goes on: see `levade.locking`
 """
 
 from __future__ import annotations
@@ -43,23 +43,23 @@ from levade.writing import write_text
 TASK, MOTION = "task.yaml", "motion.npz"
 
 PURSUIT = "hardware.json"
-"""In a directory that holds several runs and no run itself: see `levade.hardware`."""
+"""File in a directory that holds several runs but is no run itself: see `levade.hardware`."""
 
 _SAVE_EVERY = 5.0
-"""[s], between motions that are written on the way."""
+"""Least time between motions that are written on the way [s]."""
 
 _REPLACE, _ELSEWHERE = Remedy("replace it", "replace"), Remedy("write elsewhere", "elsewhere")
 
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """What a run came to.
+    """The outcome of a run.
 
     Attributes:
-        objective: What was searched.
+        objective: Objective of the search.
         solution: What the search found.
         motion: The best motion, as written.
-        directory: Where it was written.
+        directory: Directory of the run.
         seed: Seed of the run.
         wall: Duration of the search alone [s].
     """
@@ -82,19 +82,22 @@ def run(
     observe: Observe | None = None,
     steer: Steer | None = None,
 ) -> Outcome:
-    """Search for a motion and keep everything in a directory, which is made if need be. It replaces an earlier run there.
+    """Search for a motion and keep everything in a directory. This replaces an earlier run there.
 
     Args:
-        task: The task, or an objective that was made of one.
+        task: The task, or an objective made from one.
         seed: Seed of all random numbers.
-        threads: Engine threads; 0 for one per core.
-        directory: Where to write.
+        threads: Number of engine threads (0: one per core).
+        directory: Where to write. The directory is made if it does not exist.
         initial: Weights to begin around.
-        observe: As in `solve`.
-        steer: As in `solve`. task.yaml takes in what it changes, before that is simulated.
+        observe: Called after each generation, as in `solve`.
+        steer: Changes cost weights, as in `solve`. A change is written to task.yaml before it takes effect.
+
+    Returns:
+        The solution, its motion, and where they were written.
 
     Raises:
-        LevadeError: Before anything is written, if the task does not fit together or the directory cannot be written.
+        LevadeError: If the parts of the task do not fit together or the directory cannot be written. Nothing is written then.
     """
     objective = task if isinstance(task, Objective) else make_objective(task, threads=threads)
     task = objective.task
@@ -118,7 +121,7 @@ def run(
             raise LevadeError(f"{directory}: cannot be written ({error.strerror}); give another directory") from None
         stack.enter_context(closing(file))
         with storing(directory / MOTION, then=Remedy("give another directory")):
-            (directory / MOTION).unlink(missing_ok=True)  # only now: a full disk has not cost an earlier motion
+            (directory / MOTION).unlink(missing_ok=True)  # only now: a full disk costs no earlier motion
         return _Run(objective, header, directory, file).go([], initial, observe, steer)
 
 
@@ -130,18 +133,21 @@ def resume(
     observe: Observe | None = None,
     steer: Steer | None = None,
 ) -> Outcome:
-    """Go on with a run that was interrupted, to exactly the motion that it would have come to.
+    """Go on with an interrupted run. It ends with exactly the motion that it would have found without the interruption.
 
     Args:
-        directory: Where the run is.
+        directory: Directory of the run.
         objective: An objective of the run's task, if there is one already.
-        threads: Engine threads; 0 for one per core.
-        observe: As in `solve`.
-        steer: As in `solve`.
+        threads: Number of engine threads (0: one per core).
+        observe: Called after each generation, as in `solve`.
+        steer: Changes cost weights, as in `solve`.
+
+    Returns:
+        The solution, its motion, and where they were written.
 
     Raises:
-        LevadeError: If there is no run in the directory, its task has been changed since, or other versions of the
-            libraries made it.
+        LevadeError: If there is no run in the directory, its task has changed since, or other versions of the libraries made
+            it.
     """
     with ExitStack() as stack:
         _check_is_run(directory)
@@ -192,6 +198,9 @@ def _resumed(
 def read_run(directory: Path) -> tuple[Task, Checkpoint]:
     """Read the task and the checkpoint of a run.
 
+    Args:
+        directory: Directory of the run.
+
     Raises:
         LevadeError: If there is no run in the directory.
     """
@@ -201,12 +210,26 @@ def read_run(directory: Path) -> tuple[Task, Checkpoint]:
 
 
 def check_unlocked(directory: Path) -> None:
-    """Raise LevadeError if a run is being written in the directory."""
+    """Check that no run is being written in a directory.
+
+    Args:
+        directory: The directory.
+
+    Raises:
+        LevadeError: If one is.
+    """
     locking.check_unlocked(directory, "run")
 
 
 def check_replaceable(directory: Path) -> None:
-    """Raise LevadeError if a run in the directory would replace an interrupted or a running one, or files of no run."""
+    """Check that a new run in a directory would not replace anything worth keeping.
+
+    Args:
+        directory: The directory.
+
+    Raises:
+        LevadeError: If it would replace an interrupted run, one that is still running, or files that belong to no run.
+    """
     check_unlocked(directory)
     if (directory / PURSUIT).exists():
         raise LevadeError(f"{directory}: holds a pursuit for hardware", remedies=(_ELSEWHERE, _REPLACE))
@@ -235,12 +258,12 @@ def check_replaceable(directory: Path) -> None:
 def _check_is_run(directory: Path) -> None:
     if not (directory / CHECKPOINT).is_file() or not (directory / TASK).is_file():
         raise LevadeError(
-            f"{directory}: no run to resume, {TASK} or {CHECKPOINT} is missing; give the directory of a run"
+            f"{directory}: holds no run to resume, {TASK} or {CHECKPOINT} is missing; give the directory of a run"
         )
 
 
 def _check_files(directory: Path) -> None:
-    """Raise LevadeError if something is in a file's place that would have to be replaced and is no regular file."""
+    """Raise LevadeError if the run would have to replace something that is no regular file."""
     for name in (TASK, CHECKPOINT, PROGRESS, MOTION):
         try:
             writing.check_replaceable(directory / name)
@@ -251,7 +274,7 @@ def _check_files(directory: Path) -> None:
 
 
 class _Run:
-    """A run in progress: what is written, and when."""
+    """Writes the files of a run in progress."""
 
     def __init__(self, objective: Objective, header: Header, directory: Path, file: Writer) -> None:
         self._objective, self._seed, self._directory, self._file = objective, header.seed, directory, file
@@ -300,7 +323,7 @@ class _Run:
             checkpoints.add(self._file, new)
 
     def _save_interim(self, generation: Generation) -> None:
-        """Save the best motion on the way, not too often."""
+        """Save the best motion on the way, at most every few seconds."""
         if generation.replayed or generation.best is self._best or time.perf_counter() - self._saved <= _SAVE_EVERY:
             return
         self._best = generation.best
@@ -308,7 +331,7 @@ class _Run:
         self._saved = time.perf_counter()
 
     def _steering(self, steer: Steer) -> Steer:
-        """The same, with every change written to the task before it takes effect."""
+        """Return the same steering, with every change written to the task before it takes effect."""
         task = self._objective.task
 
         def steering(generation: int) -> Mapping[str, float] | Stopped | None:
@@ -324,5 +347,5 @@ class _Run:
 
 
 def _checksum(task: Task) -> int:
-    """Checksum of the task without the changes that a run makes in it on the way."""
+    """Return the checksum of a task without the changes that a run makes to it on the way."""
     return task_checksum(replace(task, search=replace(task.search, changes=())))

@@ -1,17 +1,17 @@
-"""The order of a search: stages, attempts, and rounds of motions to start robust stages from.
+"""Order of a search: stages, attempts, and rounds of motions from which the robust stages start.
 
     schedule = Schedule(task)
-    schedule.stage, schedule.level                  # what the next generation is, and how it is simulated
-    move = schedule.after(Report(spent=23, ...))    # what follows, already entered
+    schedule.stage, schedule.level                  # stage of the next generation, and how to simulate it
+    move = schedule.after(Report(spent=23, ...))    # what follows; the schedule has already entered it
 
 A schedule knows no robot, no optimizer and no simulation: it counts trials. The moves:
 
     GO_ON             the same stage goes on
-    NEXT_STAGE        the stage has ended, by its trials or because a trial was promoted
-    RESTART           from the first stage with other random numbers: no success for too long, or a motion to start
-                      from was found and others are wanted
+    NEXT_STAGE        the stage has ended, because its trials are used up or a trial was promoted
+    RESTART           begin with the first stage and other random numbers: no success for too long, or a motion to start
+                      from was found and more are wanted
     FROM_BEST_START   the robust stages begin, around the best of the motions to start from
-    NEW_ROUND         the robust stages spent their trials in vain: as many motions again are looked for
+    NEW_ROUND         the robust stages used up their trials without success: look for the same number of motions again
     STOP              a success has been polished for as long as the task says
 """
 
@@ -27,11 +27,11 @@ from levade.search.evaluation import Evaluation
 from levade.tasks import Stage, Task
 
 _ENOUGH = 0.1
-"""Share by which the lowest cost of an attempt has to fall within `Search.patience`."""
+"""Share by which the lowest cost of an attempt has to decrease within `Search.patience`."""
 
 
 class Move(StrEnum):
-    """What follows a generation."""
+    """The step that follows a generation."""
 
     GO_ON = "go on"
     NEXT_STAGE = "next stage"
@@ -43,7 +43,12 @@ class Move(StrEnum):
 
 @dataclass(frozen=True)
 class Level:
-    """How trials are simulated: how many steps of the hold, and whether on perturbed models."""
+    """The way in which trials are simulated.
+
+    Attributes:
+        hold_steps: Number of steps of the hold.
+        robust: Whether to simulate perturbed models, too.
+    """
 
     hold_steps: int
     robust: bool
@@ -51,15 +56,15 @@ class Level:
 
 @dataclass(frozen=True)
 class Report:
-    """What a schedule needs to know of a generation.
+    """What a schedule needs to know about a generation.
 
     Attributes:
-        spent: Roll-outs that it took.
-        trials: Roll-outs of the whole search so far, these included.
+        spent: Roll-outs of the generation.
+        trials: Roll-outs of the whole search so far, including these.
         trials_to_success: Trials at the first success. None while there is none.
         promoted: Whether a trial is within the tolerances that end the stage.
-        found_start: Whether it ended the nominal stages with a motion that is one of several to start from.
-        cost: The lowest cost of its trials.
+        found_start: Whether it ended the nominal stages with one of several motions to start from.
+        cost: Lowest cost of its trials.
     """
 
     spent: int
@@ -71,7 +76,11 @@ class Report:
 
 
 class Schedule:
-    """Where a search is in its order."""
+    """Keeps track of where a search is in its order of stages.
+
+    Args:
+        task: The task, which names the stages.
+    """
 
     def __init__(self, task: Task) -> None:
         self._task = task
@@ -80,12 +89,12 @@ class Schedule:
         self._attempt_trials = 0
         self._rounds = 1
         self._starts = 0
-        self._lowest: list[tuple[int, float]] = []  # trials of the stage, and the lowest cost by then
+        self._lowest: list[tuple[int, float]] = []  # trials of the stage, and the lowest cost up to then
         self.attempt = 0
 
     @property
     def number(self) -> int:
-        """Number of the current stage, from 0."""
+        """The number of the current stage, from 0."""
         return self._number
 
     @property
@@ -95,29 +104,46 @@ class Schedule:
 
     @property
     def level(self) -> Level:
-        """How the current stage simulates."""
+        """The way in which the current stage simulates."""
         return level_of(self._task, self.stage)
 
     @property
     def wanted_starts(self) -> int:
-        """Motions of the nominal model to find before the robust stages begin; 1 if the stages simply follow."""
+        """The number of nominal motions to find before the robust stages begin; 1 if the stages simply follow."""
         return 1 if self._task.robust is None else self._task.robust.starts
 
     def ends(self, *, promoted: bool, spent: int = 0) -> bool:
-        """Whether the current stage ends once ``spent`` more trials are counted."""
+        """Decide whether the current stage ends.
+
+        Args:
+            promoted: Whether a trial is within the tolerances that end the stage.
+            spent: Trials that are not counted yet.
+        """
         stage = self.stage
         if stage.trials is not None and self._stage_trials + spent >= stage.trials:
             return True
         return promoted
 
     def finds_start(self, *, promoted: bool, spent: int) -> bool:
-        """Whether a generation ends the nominal stages of a search that begins the robust ones from several motions."""
+        """Decide whether a generation ends the nominal stages of a search that starts the robust ones from several motions.
+
+        Args:
+            promoted: Whether a trial is within the tolerances that end the stage.
+            spent: Trials of the generation.
+        """
         if self.wanted_starts == 1 or self.level.robust or self._number + 1 != self._first_robust:
             return False
         return self.ends(promoted=promoted, spent=spent)
 
     def after(self, report: Report) -> Move:
-        """Count a generation, decide what follows, and enter it."""
+        """Count a generation, decide what follows, and enter it.
+
+        Args:
+            report: What happened in the generation.
+
+        Returns:
+            The move.
+        """
         self._stage_trials += report.spent
         self._attempt_trials += report.spent
         self._starts += report.found_start
@@ -156,9 +182,9 @@ class Schedule:
         return report.trials - report.trials_to_success >= polish
 
     def _hopeless(self, report: Report) -> bool:
-        """Whether the search has gone on for so long without a success that it had better restart.
+        """Whether the search should restart, because it went on too long without a success.
 
-        A search that has reached perturbed models has a motion of the nominal model: it goes on from there.
+        A search that has reached perturbed models already has a motion of the nominal model, so it goes on from there.
         """
         restart = self._task.search.restart
         if restart is None or report.trials_to_success is not None or self.level.robust:
@@ -167,7 +193,7 @@ class Schedule:
 
     @property
     def _improves(self) -> bool:
-        """Whether the stage's lowest cost has lately fallen enough for the attempt to go on."""
+        """Whether the stage's lowest cost recently decreased enough for the attempt to go on."""
         patience = self._task.search.patience
         if patience is None:
             return False
@@ -176,8 +202,9 @@ class Schedule:
         return bool(fallen > 0 and (not before or fallen >= _ENOUGH * abs(before[-1])))
 
     def _in_vain(self, report: Report) -> bool:
-        """Whether the last stage of a search from several starts used up its trials without a success, and the budget
-        lasts for another round of the same length.
+        """Whether a multi-start search should begin another round.
+
+        It should if the last stage used up its trials without success, and enough budget remains for a round as long.
         """
         stage, budget = self.stage, self._task.search.trials
         if self.wanted_starts == 1 or self._number + 1 < len(self._task.stages) or stage.trials is None:
@@ -187,25 +214,51 @@ class Schedule:
 
 
 def level_of(task: Task, stage: Stage) -> Level:
-    """How a stage of a task simulates."""
+    """Return how a stage of a task simulates.
+
+    Args:
+        task: The task.
+        stage: The stage.
+    """
     share = stage.hold * task.hold_steps if isinstance(stage.hold, bool) else stage.hold / task.physics.timestep
     return Level(min(round(share), task.hold_steps), task.robust is not None and stage.robust)
 
 
 def full_level(task: Task) -> Level:
-    """How a motion is judged in the end: through the whole hold, on perturbed models if the task asks for it."""
+    """Return how a motion is judged in the end: through the whole hold, and on perturbed models if the task has them.
+
+    Args:
+        task: The task.
+    """
     return Level(task.hold_steps, task.robust is not None)
 
 
 def promoted(stage: Stage, evaluation: Evaluation) -> NDArray[np.bool_]:
-    """Which trials are within the tolerances that end a stage, shape (n,); none if the stage names no tolerance."""
+    """Find the trials that are within the tolerances that end a stage.
+
+    Args:
+        stage: The stage.
+        evaluation: Results of n trials.
+
+    Returns:
+        Which trials are within them, shape (n,). None of them if the stage names no tolerance.
+    """
     within = ~evaluation.diverged if stage.promote else np.zeros(len(evaluation.success), dtype=bool)
     for name, tolerance in stage.promote.items():
-        within = within & (np.abs(evaluation.errors[name]) <= tolerance)  # NaN, for what was not simulated, never is
+        within = within & (np.abs(evaluation.errors[name]) <= tolerance)  # NaN, if not simulated, is never within
     return within
 
 
 def first_to_end(stage: Stage, cost: NDArray[np.floating], evaluation: Evaluation) -> int:
-    """The cheapest of the trials that end a stage; of all trials if it ended for another reason."""
+    """Find the cheapest of the trials that end a stage, or of all trials if the stage ended for another reason.
+
+    Args:
+        stage: The stage.
+        cost: Costs of n trials, shape (n,).
+        evaluation: Their results.
+
+    Returns:
+        Row of the trial.
+    """
     within = promoted(stage, evaluation)
     return int(np.argmin(np.where(within, cost, np.inf) if within.any() else cost))

@@ -1,8 +1,8 @@
-"""A search as an object: `Search.ask` says what to simulate, `Search.tell` takes what came of it.
+"""A search as an object: `Search.ask` says what to simulate, `Search.tell` takes the results.
 
     search = Search(task, space, seed=0)
     while (trials := search.ask()) is not None:
-        generation = search.tell(objective.evaluate(trials))    # a Generation where one is complete, else None
+        generation = search.tell(objective.evaluate(trials))    # a Generation if one is complete, else None
     search.solution.best.weights
 
 A search knows no engine and no robot: optimizer, schedule and judge meet here and nowhere else. The same task, space, seed and
@@ -30,14 +30,14 @@ from levade.search.weighing import cost_weights, missed, stage_weights
 from levade.tasks import Change, Task, looks_at_hold
 
 Steer = Callable[[int], "Mapping[str, float] | Stopped | None"]
-"""Called before a generation with its number. What it returns, cost -> factor on its weight, holds from this generation on;
-`Stopped.INTERRUPTED` ends the search."""
+"""Called before each generation with its number. It may return cost -> factor on its weight, which holds from this generation
+on. `Stopped.INTERRUPTED` ends the search."""
 
 _Asking = Generator["Trials | Generation", Evaluation, None]
 
 
 class _Halt(Exception):
-    """Ends the loop from outside, at whatever is being asked for."""
+    """Ends the loop from outside, whatever it is asking for."""
 
     def __init__(self, reason: Stopped) -> None:
         super().__init__(reason)
@@ -48,11 +48,11 @@ class Search:
     """One search for a motion.
 
     Args:
-        task: What to achieve, and how to look for it.
+        task: The task: what to achieve, and how to search for it.
         space: Where the optimizer begins.
         seed: Seed of all random numbers.
         initial: Motions or weights to begin around, instead of the space's mean.
-        steer: See `Steer`.
+        steer: Changes cost weights, see `Steer`.
 
     Raises:
         LevadeError: If the optimizer's settings are wrong, or the initial guess has another number of weights.
@@ -68,7 +68,7 @@ class Search:
         steer: Steer | None = None,
     ) -> None:
         if initial is not None and initial.candidates.shape[1] != space.size:
-            raise LevadeError(f"initial: weights of shape {initial.candidates.shape}, should be (k, {space.size})")
+            raise LevadeError(f"initial: weights have shape {initial.candidates.shape}, should be (k, {space.size})")
         self._task, self._space, self._seed, self._initial, self._steer = task, space, seed, initial, steer
         self._schedule = Schedule(task)
         self._judge = Judge(task, seed)
@@ -79,7 +79,7 @@ class Search:
         self._starts: list[Trial] = []  # motions of the nominal model to start robust stages from
         self._trials = self._generations = self._diverged = 0
         self._trials_to_success: int | None = None
-        self._regulated: int | None = None  # generation in which gains were last made, in these robust stages
+        self._regulated: int | None = None  # generation in these robust stages that last made gains
         self._stopped = Stopped.RUNNING
         self._asking: _Asking = self._run()
         self._event: Trials | Generation | None = None
@@ -92,7 +92,7 @@ class Search:
 
     @property
     def solution(self) -> Solution:
-        """What was found; an interim solution while the search goes on.
+        """The solution; an interim one while the search goes on.
 
         Raises:
             LevadeError: If no trial has been told yet.
@@ -116,32 +116,43 @@ class Search:
         return 0 if self._initial is None else len(self._initial.candidates)
 
     def ask(self) -> Trials | None:
-        """The trials to simulate next; the same again until they are told. None once the search has ended."""
+        """Return the trials to simulate next.
+
+        Returns:
+            The trials, the same again until their results are told. None once the search has ended.
+        """
         if not self._begun or isinstance(self._event, Generation):
             self._advance(lambda: next(self._asking))
         assert not isinstance(self._event, Generation)
         return self._event
 
     def tell(self, evaluation: Evaluation) -> Generation | None:
-        """Take what came of the trials just asked for.
+        """Take the results of the trials just asked for.
+
+        Args:
+            evaluation: Results of the trials, in their order.
 
         Returns:
-            The state of the search if this completes a generation.
+            The state of the search if this completes a generation, else None.
 
         Raises:
             RuntimeError: If nothing was asked for.
-            ValueError: If the evaluation is of another number of trials.
+            ValueError: If the evaluation has another number of trials.
         """
         asked = self._event
         if not isinstance(asked, Trials):
-            raise RuntimeError("tell: there are no trials to tell about; ask first")
+            raise RuntimeError("tell: no trials were asked for; ask first")
         if len(evaluation.success) != asked.n:
             raise ValueError(f"tell: {asked.n} trials were asked for, the evaluation has {len(evaluation.success)}")
         self._advance(lambda: self._asking.send(evaluation))
         return self._event if isinstance(self._event, Generation) else None
 
     def stop(self, reason: Stopped = Stopped.INTERRUPTED) -> None:
-        """End the search. Trials that it still asks for judge its best motion as the task does."""
+        """End the search. It may still ask for trials, to judge its best motion as the task does.
+
+        Args:
+            reason: Why it ends.
+        """
         if not self._begun:
             self.ask()
         if self._stopped is Stopped.RUNNING:
@@ -180,7 +191,7 @@ class Search:
         self._scale_step()
 
     def _try_initial(self, initial: InitialGuess) -> _Asking:
-        """Try the motions to begin around; the best of them is where the optimizer begins."""
+        """Try the motions to begin around, and let the optimizer begin at the best of them."""
         candidates = initial.candidates
         evaluation = yield from self._judge.evaluate(candidates, self._schedule.level)
         self._trials += evaluation.trials
@@ -198,12 +209,12 @@ class Search:
         self._optimizer = make_attempt(self._task, space, seed=self._seed)
 
     def _affordable(self) -> bool:
-        """Whether the budget lasts for another generation, whatever it may need; it always does for the first."""
+        """Whether the budget lasts for the largest possible generation. It always does for the first one."""
         most = self._judge.most(self._optimizer.population, self._schedule.level)
         return self._trials + most <= max(self._task.search.trials, most)
 
     def _reweigh(self) -> _Asking:
-        """Take in changed cost weights, from the task or from whoever steers, before a generation."""
+        """Before a generation, take in changed cost weights, from the task or from ``steer``."""
         number = self._generations + 1
         factors = None if self._steer is None else self._steer(number)
         if isinstance(factors, Stopped):
@@ -218,7 +229,7 @@ class Search:
     def _regulate(self) -> _Asking:
         """Make the gains of the task's feedback along the best motion, if they are due.
 
-        They stay only if they hold it as well as those before, or, the first ones, as it holds without.
+        New gains stay only if the motion holds as well as with the earlier ones. The first gains are compared with no feedback.
         """
         feedback, level, best = self._task.feedback, self._schedule.level, self._best
         if feedback is None or not level.robust or best is None:
@@ -302,7 +313,7 @@ class Search:
         )
 
     def _follow(self, move: Move, before: Level) -> _Asking:
-        """Do what a move of the schedule asks for. The schedule has entered its stage; ``before`` is the level it left."""
+        """Carry out a move of the schedule. The schedule has already entered its stage; ``before`` is the level it left."""
         if move is Move.STOP:
             raise _Halt(Stopped.SUCCESS)
         if move is Move.GO_ON:
@@ -347,9 +358,9 @@ class Search:
             self._trials_to_success = self._trials
 
     def _judge_best_again(self, judge: Judge, level: Level) -> Generator[Trials | Generation, Evaluation, int]:
-        """Judge the best trial as those that it will be compared with.
+        """Judge the best trial at the level of the trials that it will be compared with.
 
-        Returns the roll-outs to count: those on perturbed models; of one model none, since it was a trial already.
+        Returns the roll-outs to count. Without perturbed models there are none, since the candidate was a trial already.
         """
         assert self._best is not None
         candidate = self._best.weights[None]
@@ -359,7 +370,7 @@ class Search:
         return 0 if evaluation.samples is None else evaluation.trials
 
     def _weigh_best_again(self) -> _Asking:
-        """Recompute the cost of the best trials with the new weights, so that later comparisons are fair."""
+        """Compute the cost of the best trials again with the new weights, so that later comparisons are fair."""
         task, level, full = self._task, self._schedule.level, full_level(self._task)
         current = level if level.robust else full
         if self._best is not None:
@@ -372,7 +383,7 @@ class Search:
         self._starts = starts
 
     def _weighed(self, trial: Trial, level: Level) -> Generator[Trials | Generation, Evaluation, Trial]:
-        """A trial with its cost by the current weights. One that was tried on many models has to be simulated again."""
+        """Return a trial with its cost by the current weights. One tried on many models has to be simulated again."""
         if trial.share is not None:
             on_models = Level(level.hold_steps, robust=True)
             judge = replace(self._judge, along=trial.along)
@@ -384,7 +395,7 @@ class Search:
         return replace(trial, cost=float(evaluation.cost(self._weights, self._task.robust)[0]))
 
     def _keep_best(self, candidates: Array, evaluation: Evaluation, along: Array | None = None) -> None:
-        """Keep the best trial of all, by its rank. along: see `Judge`."""
+        """Keep the best trial of all, by its rank. For ``along`` see `Judge`."""
         cost = evaluation.cost(self._weights, self._task.robust)
         share = np.zeros(len(cost)) if evaluation.samples is None else evaluation.samples.share
         unmet = np.zeros(len(cost), dtype=bool) if evaluation.met is None else ~evaluation.met
@@ -394,7 +405,7 @@ class Search:
             self._best = trial
 
     def _scale_step(self) -> None:
-        """Scale the optimizer's step as the stage says that begins."""
+        """Scale the optimizer's step as the new stage says."""
         if self._schedule.stage.step != 1.0:
             self._optimizer.scale_step(self._schedule.stage.step)
 
@@ -402,7 +413,7 @@ class Search:
         """Tell the optimizer that costs mean something else from now on.
 
         Args:
-            hold: Whether another part of the hold is simulated, too, so that errors that look at it change.
+            hold: Whether the simulated part of the hold changes, too, and with it the errors that depend on the hold.
         """
         if uses_errors(self._optimizer):
             criteria = self._task.success.values()

@@ -1,4 +1,4 @@
-"""Where the search of a task begins: the first distribution of its decisions."""
+"""Make the search space of a task: the first distribution of its decisions."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from levade.tasks import Task
 from levade.tasks.policy import goal_posture, through_postures
 
 ENDING = 0.25
-"""Share of the horizon in which an optimizer may finish a motion, without a change to what comes before."""
+"""Share of the horizon that an optimizer may change alone, as the ending of a motion."""
 
 DURATION = 0.08
 """Initial standard deviation of ``log T`` where the duration is a decision."""
 
 DURATION_PER_STEP = 0.6
-"""[1/rad], and at most this many steps of the weights: what begins close around a motion begins close around its duration."""
+"""Upper bound of the same per step of the weights [1/rad]: a search close around a motion also stays close to its duration."""
 
 
 def search_space(task: Task, robot: Robot, policy: JointPolicy, start: State) -> SearchSpace:
@@ -30,8 +30,8 @@ def search_space(task: Task, robot: Robot, policy: JointPolicy, start: State) ->
     Args:
         task: The task.
         robot: Its robot.
-        policy: What turns decisions into references.
-        start: Where roll-outs start, one row.
+        policy: Policy that turns decisions into references.
+        start: State where roll-outs start, one row.
     """
     one_sided = np.array([criterion.target is None for criterion in task.success.values()], dtype=bool)
     if isinstance(policy, FreePolicy):
@@ -58,10 +58,11 @@ def _of_weights(task: Task, robot: Robot, policy: Policy, start: State) -> Searc
 
 
 def _with_more(space: SearchSpace, policy: FreePolicy, task: Task) -> SearchSpace:
-    """The same with the policy's further decisions: a duration is as wide as `DURATION` says, angles as wide as weights.
+    """Add the policy's further decisions: the spread of a duration is `DURATION`, and that of angles is that of weights.
 
-    They are no part of what ends a motion. A duration is rough: it is rounded to time steps, in which errors change by more
-    than a tight tolerance. It is not where a criterion asks for a duration: that error follows it all the way.
+    They do not belong to the ending of a motion. A duration is rough: it is rounded to time steps, and errors change by more
+    than a tight tolerance from one to the next. Where a criterion asks for a duration it is not rough, since that error
+    follows it closely.
     """
     d, m = space.factor.shape
     more = policy.size - d
@@ -78,9 +79,9 @@ def _with_more(space: SearchSpace, policy: FreePolicy, task: Task) -> SearchSpac
 
 
 def _ending(policy: Policy) -> Array | None:
-    """One direction for each independent joint, shape (q, d): a ramp over the last quarter of its weights, up to 1.
+    """Return a direction for each independent joint, shape (q, d): a ramp over the last quarter of its weights, up to 1.
 
-    None where the motion ends as it must, whatever the weights (`levade.policies.Ends`).
+    None where the policy fixes the end of the motion, whatever the weights (`levade.policies.Ends`).
     """
     if policy.ends is not None and policy.ends.settle > 0:
         return None

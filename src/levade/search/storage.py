@@ -1,4 +1,4 @@
-"""Writing a run's files: whole or not at all, and what is said when that fails."""
+"""Write a run's files, and say what to do when that fails."""
 
 from __future__ import annotations
 
@@ -11,18 +11,24 @@ from levade.errors import LevadeError, Remedy
 
 
 class StorageError(LevadeError):
-    """The directory can no longer be written; what was there before still is."""
+    """Says that the directory can no longer be written. What was there before is still there."""
 
 
 class Closable(Protocol):
-    """What can be closed."""
+    """An object that can be closed."""
 
-    def close(self) -> object: ...
+    def close(self) -> object:
+        """Close it."""
+        ...
 
 
 @contextmanager
 def closing(file: Closable) -> Iterator[None]:
-    """Close a file whose every line has been flushed: what a full disk refused is not tried, and reported, again."""
+    """Close a file in the end and ignore errors: every line was flushed before, and an error was reported then.
+
+    Args:
+        file: The file to close.
+    """
     try:
         yield
     finally:
@@ -35,9 +41,12 @@ def storing(path: Path, *, then: Remedy, kept: str = "") -> Iterator[None]:
     """Turn an OSError into a `StorageError` that names the path and says what to do.
 
     Args:
-        path: What is written.
-        then: What to do about it.
+        path: File or directory that is written.
+        then: What to do about a failure.
         kept: What is not lost, for the message, such as "90 trials are kept".
+
+    Raises:
+        StorageError: If the path cannot be written.
     """
     try:
         yield

@@ -1,4 +1,4 @@
-"""What costs and errors count: weights of a generation, and errors as shares of what is allowed."""
+"""Weigh costs and errors: weights of a generation, and errors as shares of the tolerances."""
 
 from __future__ import annotations
 
@@ -9,25 +9,43 @@ from levade.search.evaluation import Evaluation
 from levade.tasks import Stage, Task
 
 INSIDE_BOUND = 0.015
-"""[SI: m, rad, ...], as far inside a bound as the middle of a tolerance is inside the tolerance."""
+"""Distance inside a bound that counts like the middle of a tolerance [SI: m, rad, ...]."""
 
 
 def cost_weights(task: Task, generation: int) -> dict[str, float]:
-    """Cost -> weight in a generation, by the task's own weights."""
+    """Return cost -> weight in a generation, by the task's own weights.
+
+    Args:
+        task: The task, with its changes of weights.
+        generation: Number of the generation.
+    """
     factors = task.search.factors(generation)
     return {name: cost.weight * factors.get(name, 1.0) for name, cost in task.costs.items()}
 
 
 def stage_weights(task: Task, stage: Stage, generation: int) -> dict[str, float]:
-    """Cost -> weight in a generation, for those costs that a stage weighs itself."""
+    """Return cost -> weight in a generation, for the costs that a stage weighs itself.
+
+    Args:
+        task: The task, with its changes of weights.
+        stage: The stage.
+        generation: Number of the generation.
+    """
     factors = task.search.factors(generation)
     return {name: weight * factors.get(name, 1.0) for name, weight in stage.weights.items()}
 
 
 def missed(task: Task, evaluation: Evaluation) -> Array:
-    """Errors as a share of what is allowed, shape (n, criteria); NaN where unknown, all of a trial that diverged.
+    """Return errors as shares of the tolerances.
 
-    For a criterion with bounds, 1 is the bound, and what is farther inside is less.
+    For a criterion with bounds, 1 is the bound, and values farther inside are smaller.
+
+    Args:
+        task: The task.
+        evaluation: Results of n trials.
+
+    Returns:
+        The shares, shape (n, criteria). NaN where unknown, and in every column for a trial that diverged.
     """
     shares = [
         1.0 - evaluation.slack[name] / INSIDE_BOUND
