@@ -96,7 +96,7 @@ def test_a_block_slides_to_rest_as_coulomb_has_it(shape: str) -> None:
     """
     model = model_of(SLIDERS[shape], more=CUBOID if shape == "mesh" else "")
     qpos, qvel = [0, 0, 0.1, 1, 0, 0, 0], [2.0, 0, 0, 0, 0, 0]
-    out = simulate(model, 300, qpos=qpos, qvel=qvel, geoms=[1])
+    out = simulate(model, 300, qpos=qpos, qvel=qvel, soles=[[1]])
     path = 2.0**2 / (2 * 0.5 * G)
     assert out.position[0, -1, 0] == pytest.approx(path, abs=0.006)
     assert out.position[0, -1, 0] == pytest.approx(in_mujoco(model, 300, qpos=qpos, qvel=qvel)[-1, 0], abs=0.008)

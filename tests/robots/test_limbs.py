@@ -9,13 +9,17 @@ import mujoco
 import numpy as np
 import pytest
 
+from levade.engines import FOOT_CONTACT_FORCE, Physics, Settled, make_engine, start_state
+from levade.engines.ode.library import load as load_ode
 from levade.errors import LevadeError
 from levade.robots import Robot, dimensions, load_robot
 from levade.robots.limbs import read_limbs
 from levade.robots.settling import settle
 from levade.robots.understanding import find_trunk
+from levade.scenes import Scene
 from levade.tasks import load_task
 from levade.tasks.policy import leg_groups
+from levade.trajectory import JointReference
 
 HEAD = '<mujoco><compiler angle="radian" autolimits="true"/><worldbody>'
 
@@ -232,3 +236,22 @@ def test_an_insect_stands_with_its_feet_level(tmp_path: Path) -> None:
     # of legs that do the same, the knees of all fold
     signs = {sign for group in groups for follower in group.followers for sign in follower.signs[1:]}
     assert signs == {1.0}
+
+
+@pytest.mark.parametrize("name", ["mujoco", "ode"])
+def test_the_force_on_a_sole_is_that_on_all_of_its_shapes(walker: Robot, name: str) -> None:
+    """Standing, the soles carry the weight, whichever engine says so."""
+    if name == "ode":
+        try:
+            load_ode()
+        except LevadeError as missing:
+            pytest.skip(str(missing))
+    engine = make_engine(walker, Scene(), Physics(engine=name), threads=1)
+    standing = start_state(make_engine(walker, Scene(), Physics(), threads=1), walker, Scene(), Settled())
+    position = np.repeat(standing.joint_reference[None], 150, axis=1)
+    reference = JointReference(position, np.zeros_like(position), 0.002, 150)
+    out = engine.rollout(standing, reference, record=[FOOT_CONTACT_FORCE])
+    assert out.foot_contact_force is not None
+    carried = out.foot_contact_force[0, -100:, :, 2].sum(axis=1).mean()
+    weight = 9.81 * float(walker.model.body_mass.sum())
+    assert carried == pytest.approx(weight, rel=0.1)

@@ -185,6 +185,20 @@ def add_contact_sensors(spec: mujoco.MjSpec, feet: Sequence[str], whole: Sequenc
         add(element.name + _BODY_SENSOR, objtype=body, objname=element.name, reftype=body, refname="world")
 
 
+def sole(model: mujoco.MjModel, foot: str) -> list[int]:
+    """Return the geoms whose contact forces the sensor of a foot adds up.
+
+    Args:
+        model: A model with the sensors that `add_contact_sensors` adds.
+        foot: Geom name of the foot.
+    """
+    sensor = model.sensor(foot + _FOOT_SENSOR)
+    of = int(sensor.objid[0])
+    if int(sensor.objtype[0]) == int(mujoco.mjtObj.mjOBJ_GEOM):
+        return [of]
+    return np.flatnonzero(np.asarray(model.geom_bodyid) == of).tolist()
+
+
 def remove_contact_sensors(spec: mujoco.MjSpec, feet: Sequence[str]) -> None:
     """Take away what `add_contact_sensors` added."""
     names = {foot + _FOOT_SENSOR for foot in feet} | {body.name + _BODY_SENSOR for body in spec.bodies[1:]}

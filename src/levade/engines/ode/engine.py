@@ -18,7 +18,7 @@ import numpy as np
 
 from levade.arrays import Array
 from levade.engines.engine import Engine, Trials, broke_down
-from levade.engines.layout import FOOT_CONTACT_FORCE
+from levade.engines.layout import FOOT_CONTACT_FORCE, sole
 from levade.engines.models import Models, with_free_frames
 from levade.engines.ode.library import load
 from levade.engines.ode.multibody import multibody_of
@@ -66,9 +66,7 @@ class OdeEngine(Engine):
         commanded, bodies = trials.commanded.repeated(trials.n), [name for name in record if name in self.bodies]
         position, velocity = commanded.position[..., self._from], commanded.velocity[..., self._from]
         forces = {
-            "geoms": [self.model.geom(foot).id for foot in self.embodiment.feet]
-            if FOOT_CONTACT_FORCE in record
-            else [],
+            "soles": [sole(self.model, foot) for foot in self.embodiment.feet] if FOOT_CONTACT_FORCE in record else [],
             "bodies": [self.model.body(body).id for body in bodies],
         }
         if trials.models is None:

@@ -45,7 +45,7 @@ class Record:
         position: (n, steps, 3), quaternion: (n, steps, 4), linear, angular: (n, steps, 3), of the trunk's frame:
             origin, orientation, velocity of the origin and angular velocity in world axes.
         lag: (n, J), state of the drives at the end.
-        geom_force: (n, steps, geoms asked for, 3) [N] on each geom, world axes.
+        geom_force: (n, steps, soles asked for, 3) [N] on each sole, world axes.
         body_force: (n, steps, bodies asked for, 3), by the world on each body.
         diverged: (n,).
     """
@@ -93,7 +93,7 @@ class Simulation:
         position: Array,
         velocity: Array,
         *,
-        geoms: Sequence[int] = (),
+        soles: Sequence[Sequence[int]] = (),
         bodies: Sequence[int] = (),
     ) -> Record:
         """Simulate n trials.
@@ -104,11 +104,11 @@ class Simulation:
             act: Actuator states at the start, shape (1 or n, na).
             position: Desired hinge angles [rad], shape (n, steps, J).
             velocity: Desired hinge speeds [rad/s], shape (n, steps, J).
-            geoms: Geoms of the model whose contact forces are recorded.
+            soles: Geoms of the model whose contact forces are recorded, those of each sole together.
             bodies: Bodies of the model whose contact forces are recorded.
         """
         with np.errstate(all="ignore"):  # of simulations that break down
-            return self._run(qpos, qvel, act, position, velocity, list(geoms), list(bodies))
+            return self._run(qpos, qvel, act, position, velocity, list(soles), list(bodies))
 
     def state_after(self, record: Record, trial: int) -> tuple[Array, Array, Array]:
         """qpos, qvel, act of the model at the end of a trial."""
@@ -131,7 +131,7 @@ class Simulation:
         act: Array,
         position: Array,
         velocity: Array,
-        geoms: list[int],
+        soles: list[Sequence[int]],
         bodies: list[int],
     ) -> Record:
         worlds, drives = self._worlds, self.multibody.drives
@@ -158,8 +158,8 @@ class Simulation:
             lag += np.where(drives.act >= 0, drives.gain * act[:, drives.act], 0.0)
         angles, speeds, torques = (np.zeros((n, steps, joints)) for _ in range(3))
         trunk = np.zeros((n, steps, 4 + 3 * 3))
-        geom_force, body_force = (np.zeros((n, steps, len(of), 3)) for of in (geoms, bodies))
-        touching: list[tuple[int, int]] | None = [] if geoms or bodies else None
+        geom_force, body_force = (np.zeros((n, steps, len(of), 3)) for of in (soles, bodies))
+        touching: list[tuple[int, int]] | None = [] if soles or bodies else None
         seeds = np.random.default_rng(_SEED).integers(2**32, size=steps).tolist()
         until = np.full(n, steps)  # the row from which on a trial has broken down
         running = list(range(n))
@@ -191,7 +191,7 @@ class Simulation:
                 [state[name][:, 0] for name in ("quaternion", "position", "linear", "angular")], 1
             )
             if touching:
-                self._add_forces(k, touching, geoms, bodies, geom_force, body_force)
+                self._add_forces(k, touching, soles, bodies, geom_force, body_force)
         out = Record(
             *(angles, speeds, torques, *self._trunk(trunk), lag / drives.gain, geom_force, body_force),
             diverged=until < steps,
@@ -211,19 +211,19 @@ class Simulation:
         self,
         k: int,
         touching: list[tuple[int, int]],
-        geoms: list[int],
+        soles: list[Sequence[int]],
         bodies: list[int],
         geom_force: Array,
         body_force: Array,
     ) -> None:
-        """Sum the contacts' forces by geom, and those of the world by body."""
+        """Sum the contacts' forces by sole, and those of the world by body."""
         force = self._worlds.forces(len(touching))
         trial, pair = np.array(touching).T
         shapes = self.multibody.shapes
         one, other = ([shapes[i] for i in self.multibody.pairs[pair, side]] for side in (0, 1))
-        for column, geom in enumerate(geoms):
+        for column, sole in enumerate(soles):
             for sign, side in ((1.0, one), (-1.0, other)):
-                of = np.array([shape.geom == geom for shape in side])
+                of = np.array([shape.geom in sole for shape in side])
                 np.add.at(geom_force, (trial[of], k, column), sign * force[of])
         for column, body in enumerate(bodies):
             of = np.array([a.body == body and b.link < 0 for a, b in zip(one, other, strict=True)])
