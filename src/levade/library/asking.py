@@ -72,14 +72,18 @@ class Answer:
         motion = self.motion
         policy = motion.policy
         if policy is None:
-            raise LevadeError(f"{self.path}: the motion has no policy, so it cannot start elsewhere; build the library again")
+            raise LevadeError(
+                f"{self.path}: the motion has no policy, so it cannot start elsewhere; build the library again"
+            )
         if policy.ends is not None:
             policy = replace(policy, ends=replace(policy.ends, start=self.joint_position))
         weights = motion["weights"][None]
         if self.mirror is not None:
             image = self.mirror.decisions(policy, weights)
             if image is None:
-                raise LevadeError(f"{self.path}: the motion has no image in this library's mirror; build the library again")
+                raise LevadeError(
+                    f"{self.path}: the motion has no image in this library's mirror; build the library again"
+                )
             weights = image
         return policy.reference(weights)
 
@@ -157,7 +161,9 @@ class Library:
         up, joints = np.asarray(up, dtype=float), np.asarray(joint_position, dtype=float)
         size = self.knowledge.joint_position.shape[1]
         if up.shape != (3,) or not np.isfinite(up).all() or not np.linalg.norm(up) > 0:
-            raise LevadeError("up: should be three numbers, the upward direction in trunk axes, such as [0, 0, 1] when upright")
+            raise LevadeError(
+                "up: should be three numbers, the upward direction in trunk axes, such as [0, 0, 1] when upright"
+            )
         if joints.shape != (size,) or not np.isfinite(joints).all():
             raise LevadeError(f"joint_position: has {joints.size} numbers, should be the angles of {size} joints [rad]")
         return up / np.linalg.norm(up), joints

@@ -54,7 +54,9 @@ class Falls:
             LevadeError: If the task is not consistent.
         """
         if task.robust is not None or task.hardware is not None:
-            raise LevadeError("library: a library is built on the nominal model; remove robust and hardware from the task")
+            raise LevadeError(
+                "library: a library is built on the nominal model; remove robust and hardware from the task"
+            )
         robot = robot or task.robot.load()
         fallen = task.start.fallen or _usual(task, robot)
         self._fallen = replace(fallen, seed=seed, index=0)
