@@ -114,7 +114,7 @@ def test_the_reference_is_written_as_a_table(built: Path, run: Run, tmp_path: Pa
     [
         ({"up": [0, 0, 1]}, "joints: should be 12 numbers"),
         ({"joints": [0] * 12}, "give the attitude, a quaternion w-x-y-z, or up"),
-        ({"up": [0, 0, 1], "attitude": [1, 0, 0, 0], "joints": [0] * 12}, "one of the two"),
+        ({"up": [0, 0, 1], "attitude": [1, 0, 0, 0], "joints": [0] * 12}, "give either attitude"),
         ({"up": [0, 0, True], "joints": [0] * 12}, "up: should be 3 numbers"),
         ({"attitude": [0, 0, 0, 0], "joints": [0] * 12}, "four zeros are no rotation"),
         ({"atitude": [1, 0, 0, 0], "joints": [0] * 12}, "unknown key 'atitude'; did you mean attitude?"),
@@ -139,7 +139,7 @@ def test_what_is_no_library_is_one_line(run: Run, tmp_path: Path) -> None:
     assert "did you mean self-righting" in err
     status, _, err = run("library", "build", "self-righting", "--starts", "0", "--out", str(tmp_path / "x"))
     assert status == 2
-    assert "--starts: 0 falls are none" in err
+    assert "--starts: 0 falls are too few" in err
 
 
 def test_another_task_is_not_built_into_it(built: Path, run: Run) -> None:
@@ -172,7 +172,7 @@ def test_shards_are_built_and_merged(built: Path, run: Run, tmp_path: Path) -> N
     status, _, err = run("library", "merge", str(built), "--out", str(tmp_path / "other"))
     assert (status, err.count("\n")) == (2, 1)
     assert "is a whole library, no shard" in err
-    for shard, said in (("0:2", "--shard 0:2: should be I/N"), ("2/2", "--shard: 2/2 is no shard")):
+    for shard, said in (("0:2", "--shard 0:2: should be I/N"), ("2/2", "--shard: 2/2 is not a shard")):
         status, _, err = run("library", "build", "self-righting", "--shard", shard, "--out", str(tmp_path / "x"))
         assert (status, err.count("\n")) == (2, 1)
         assert said in err

@@ -129,7 +129,7 @@ def test_too_little_to_learn_from_is_said(tmp_path: Path) -> None:
         learn(library(tmp_path, known(5)))
     unfinished = known()
     unfinished.perturbed[3, 1] = np.nan
-    with pytest.raises(LevadeError, match="not every motion was tried from every fall; build it to its end"):
+    with pytest.raises(LevadeError, match="not every motion was tried from every fall; complete the build"):
         learn(library(tmp_path, unfinished))
 
 

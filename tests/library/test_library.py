@@ -126,7 +126,7 @@ def test_stopped_and_gone_on_with_it_has_the_same_bytes(
 def test_stopped_before_its_first_fall_is_done_it_is_a_library_without_motions(tmp_path: Path) -> None:
     empty = build(rolling(), starts=STARTS, directory=tmp_path, stopping=lambda: True)
     assert (empty.records, empty.coverage, empty.knowledge.cover()) == ((), 0.0, [])
-    with pytest.raises(LevadeError, match="no motion was found for any of its 0 falls; build it further"):
+    with pytest.raises(LevadeError, match="no motion was found for any of its 0 falls; continue the build"):
         empty.ask([0, 0, 1], np.zeros(12))
 
 
@@ -194,7 +194,7 @@ def test_shards_become_a_library(tmp_path: Path) -> None:
             merge(shards, tmp_path / "other")
     with pytest.raises(LevadeError, match="holds shard 0/2 of a library; merge shards first"):
         build(rolling(), starts=5, directory=parts[0])
-    with pytest.raises(LevadeError, match="2/2 is no shard; 0/2 to 1/2 are"):
+    with pytest.raises(LevadeError, match="2/2 is not a shard; give 0/2 to 1/2"):
         Shard(2, 2)
     with pytest.raises(LevadeError, match="1 falls have no shard 1/2"):
         build(rolling(), starts=1, directory=tmp_path / "other", shard=Shard(1, 2))
@@ -460,7 +460,7 @@ def test_damaged_libraries(library: Library, tmp_path: Path, file: str, content:
 def test_what_is_no_library_is_said(tmp_path: Path) -> None:
     with pytest.raises(LevadeError, match="holds no motion library"):
         Library.load(tmp_path)
-    with pytest.raises(LevadeError, match="0 falls are none"):
+    with pytest.raises(LevadeError, match="0 falls are too few"):
         build(rolling(), starts=0, directory=tmp_path)
     with pytest.raises(LevadeError, match="leave robust and hardware out"):
         build(load_task("self-righting-robust"), starts=1, directory=tmp_path)

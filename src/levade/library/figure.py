@@ -21,8 +21,8 @@ from levade.report.figures import PAGE, write_figures
 from levade.report.style import LIGHT
 
 _LOOK: dict[Method, tuple[str, str, str, float]] = {
-    Method.KNOWN: ("a motion that was there", LIGHT.muted, "o", 9.0),
-    Method.NEAR: ("a search around one", LIGHT.front_left, "^", 22.0),
+    Method.KNOWN: ("a known motion", LIGHT.muted, "o", 9.0),
+    Method.NEAR: ("a search around a known motion", LIGHT.front_left, "^", 22.0),
     Method.COLD: ("a search from nothing", LIGHT.hind_left, "s", 22.0),
     Method.NONE: ("not at all", LIGHT.bad, "x", 26.0),
 }

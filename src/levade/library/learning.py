@@ -4,8 +4,8 @@
     found.scores["trees"].first, found.chosen
     save(found, Path("falls"))                      # from then on, the library answers by it
 
-Each kind is judged by cross-validation with five folds. Fitting needs scikit-learn (`pip install levade[learn]`). A fitted model
-consists of arrays, so answering needs only numpy (`levade.exports.asker.Learned`).
+Each kind is judged by cross-validation with five folds. Fitting needs scikit-learn (`pip install levade[learn]`). A fitted
+model consists of arrays, so answering needs only numpy (`levade.exports.asker.Learned`).
 """
 
 from __future__ import annotations

@@ -2,8 +2,8 @@
 
     merge([Path("shard-0"), Path("shard-1")], Path("falls"))
 
-A shard does not see the motions of the others, so its motions differ from those of a library that was built as a whole. Building
-the merged library tries every motion from every fall.
+A shard does not see the motions of the others, so its motions differ from those of a library that was built as a whole.
+Building the merged library tries every motion from every fall.
 """
 
 from __future__ import annotations

@@ -219,14 +219,14 @@ class Solver:
         self.records[i] = record
 
     def rows(self, known: Knowledge, rows: Sequence[int]) -> tuple[Array, Array]:
-        """Try every motion from some falls where it was not tried, on the model and on robots that differ.
+        """Try every motion from some falls, on the model and on perturbed models, where that was not done before.
 
         Args:
-            known: What is known.
-            rows: Which of its falls.
+            known: Known outcomes.
+            rows: Rows of the falls in ``known``.
 
         Returns:
-            `Knowledge.success` and `Knowledge.perturbed` of these rows, whole.
+            `Knowledge.success` and `Knowledge.perturbed` of these rows, shape (rows, m) each, without NaN.
         """
         success, perturbed = known.success[rows], known.perturbed[rows]
         objectives = [self._falls.objective(int(known.falls[row])) for row in rows]
@@ -236,7 +236,7 @@ class Solver:
         for (k, which), found in zip(untried.items(), tried(asked, own), strict=True):
             success[k, which] = found.success
         for k, objective in enumerate(objectives):
-            # robots are numbered by motions, in an order in which later ones come last
+            # perturbed models are numbered by motions, in an order in which later ones come last
             numbers = {int(j): _robot(int(known.motions[j])) for j in np.flatnonzero(np.isnan(perturbed[k]))}
             plays = {number: self._plays[int(known.motions[j])] for j, number in numbers.items()}
             if plays:
