@@ -118,7 +118,7 @@ def test_what_was_learned_answers_until_the_library_grows(tmp_path: Path) -> Non
     (tmp_path / "falls" / "000059.json").unlink()
     assert Library.load(tmp_path).learned is None
     (tmp_path / "learned.npz").write_bytes(b"PK")
-    with pytest.raises(LevadeError, match=r"learned\.npz: is damaged; remove it, or learn again"):
+    with pytest.raises(LevadeError, match=r"learned\.npz: the file is damaged; remove it, or learn again"):
         Library.load(tmp_path)
     save(learning.Learning({}, NEAREST, None, knowledge), tmp_path)
     assert not (tmp_path / "learned.npz").exists()

@@ -186,8 +186,8 @@ def test_shards_become_a_library(tmp_path: Path) -> None:
     assert {path.name: path.read_bytes() for path in (whole / "falls").iterdir()} == falls
     assert not np.isnan(library.knowledge.success + library.knowledge.perturbed).any()
     for shards, said in (
-        ([parts[0], parts[0]], "is shard 0/2, as .*0 is; give each shard once"),
-        ([parts[0], whole], "whole: is a whole library, no shard"),
+        ([parts[0], parts[0]], "is shard 0/2, and so is .*0; give each shard once"),
+        ([parts[0], whole], "whole: is a whole library, not a shard"),
         ([], "no shards to merge"),
     ):
         with pytest.raises(LevadeError, match=said):
@@ -432,8 +432,8 @@ def test_what_does_not_fit_a_mirror_has_none() -> None:
         ([0, 0], np.zeros(12), "up: should be three numbers"),
         ([0, 0, 0], np.zeros(12), "up: should be three numbers"),
         ([0, 0, np.nan], np.zeros(12), "up: should be three numbers"),
-        ([0, 0, 1], np.zeros(11), "joint_position: 11 numbers, should be the angles of 12 joints"),
-        ([0, 0, 1], np.full(12, np.inf), "joint_position: 12 numbers"),
+        ([0, 0, 1], np.zeros(11), "joint_position: has 11 numbers, should be the angles of 12 joints"),
+        ([0, 0, 1], np.full(12, np.inf), "joint_position: has 12 numbers"),
     ],
 )
 def test_wrong_questions(library: Library, up: list[float], joints: np.ndarray, said: str) -> None:
@@ -444,9 +444,9 @@ def test_wrong_questions(library: Library, up: list[float], joints: np.ndarray, 
 @pytest.mark.parametrize(
     ("file", "content", "said"),
     [
-        ("falls/000002.json", "{", r"000002\.json: .*is no record of a fall, or damaged"),
-        ("falls/000002.json", '{"fall": 2}', r"000002\.json: is no record of a fall"),
-        ("success.npz", "no archive", r"success\.npz: is damaged; remove it"),
+        ("falls/000002.json", "{", r"000002\.json: .*is not the record of a fall, or is damaged"),
+        ("falls/000002.json", '{"fall": 2}', r"000002\.json: is not the record of a fall"),
+        ("success.npz", "no archive", r"success\.npz: the file is damaged; remove it"),
         ("library.yaml", "seed: x\n", r"library\.yaml: seed: should be a whole number"),
     ],
 )
@@ -462,7 +462,7 @@ def test_what_is_no_library_is_said(tmp_path: Path) -> None:
         Library.load(tmp_path)
     with pytest.raises(LevadeError, match="0 falls are too few"):
         build(rolling(), starts=0, directory=tmp_path)
-    with pytest.raises(LevadeError, match="leave robust and hardware out"):
+    with pytest.raises(LevadeError, match="remove robust and hardware"):
         build(load_task("self-righting-robust"), starts=1, directory=tmp_path)
     assert list(tmp_path.iterdir()) == []
 
