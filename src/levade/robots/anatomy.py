@@ -100,7 +100,7 @@ def understand(draft: Draft, path: Path, form: RobotForm) -> tuple[Bare, Followe
         for joint in movable:
             if joint not in used and joint not in held:
                 raise LevadeError(
-                    f"{path}: legs: joint {joint} of {form.model} belongs to no leg; add it to one, or hold it: fixed: {{{joint}: 0}}"
+                    f"{path}: legs: joint {joint} of {form.model} is in no leg; add it to one, or hold it: fixed: {{{joint}: 0}}"
                 )
     else:
         legs, others = _found_legs(draft, model, trunk, where, {str(kind): how for kind, how in form.limbs.items()})
@@ -124,7 +124,16 @@ def understand(draft: Draft, path: Path, form: RobotForm) -> tuple[Bare, Followe
 
 
 def bare_robot(draft: Draft, legs: tuple[Leg, ...], where: str) -> Bare:
-    """The model of a draft, whatever does not belong to its legs already held."""
+    """Compile the bare robot of a draft, in which everything outside the legs is already held.
+
+    Args:
+        draft: The model.
+        legs: The legs.
+        where: Prefix of messages.
+
+    Returns:
+        The bare robot.
+    """
     model = draft.compile()
     ranges = {}
     for joint in (joint for leg in legs for joint in leg.joints):

@@ -177,7 +177,9 @@ def _torques(patient: Patient) -> Iterator[Finding]:
         what = f"needs {needs} in the neutral posture; its limit is {limit}"
         yield warning(where, what, "check masses and limits, or stand straighter: robot.yaml, postures: {neutral: ...}")
     elif share[worst] > 0.6:
-        yield note(where, f"needs {needs}, {share[worst]:.0%} of its limit of {limit}: little torque is left for motion")
+        yield note(
+            where, f"needs {needs}, {share[worst]:.0%} of its limit of {limit}: little torque is left for motion"
+        )
     slow = ~np.isfinite(limits.velocity)
     if slow.any():
         remedy = "robot.yaml, limits: {velocity: ...} gives one"
@@ -375,9 +377,7 @@ def _frame(patient: Patient) -> Iterator[Finding]:
             return
     data = robot.data_at(robot.postures["neutral"])
     if robot.ahead < 0:
-        what = (
-            "x points backward, judged by its toes: tasks take front and back from the toes, left and right from the frame"
-        )
+        what = "x points backward, judged by its toes: tasks take front and back from the toes, left and right from the frame"
         yield note(f"trunk {robot.trunk}", what, "rotate that frame")
     if robot.stance != "level":
         return
