@@ -100,7 +100,7 @@ def understand(draft: Draft, path: Path, form: RobotForm) -> tuple[Bare, Followe
         for joint in movable:
             if joint not in used and joint not in held:
                 raise LevadeError(
-                    f"{path}: legs: joint {joint} of {form.model} is in no leg; add it to one, or hold it: fixed: {{{joint}: 0}}"
+                    f"{path}: legs: joint {joint} of {form.model} is in no leg; add it to one, or give fixed: {{{joint}: 0}}"
                 )
     else:
         legs, others = _found_legs(draft, model, trunk, where, {str(kind): how for kind, how in form.limbs.items()})

@@ -44,7 +44,7 @@ class Held:
     quaternion: Array
 
     def pose(self, angle: Angle) -> tuple[Array, Array]:
-        """Return position [m], shape (3,), and quaternion, shape (4,), of the body in its parent, with the joint at an angle."""
+        """Return the body's position [m], shape (3,), and quaternion, shape (4,), in its parent, with the joint at an angle."""
         turned, product = np.empty(3), self.quaternion.copy()
         if self.kind == _SLIDE:
             shift = self.axis / np.linalg.norm(self.axis) * (float(angle) - self.ref)

@@ -246,7 +246,7 @@ def _ranges(model: mujoco.MjModel, joints: Sequence[int]) -> tuple[Array, Array]
 
 
 def _pairs(model: mujoco.MjModel, data: mujoco.MjData, branches: Sequence[Branch]) -> dict[int, int]:
-    """Index of a branch -> that of its mirror image across the trunk's sagittal plane."""
+    """Map the index of each branch to that of its mirror image across the trunk's sagittal plane."""
     found: dict[int, int] = {}
     for i, one in enumerate(branches):
         for k in range(i + 1, len(branches)):
@@ -257,7 +257,7 @@ def _pairs(model: mujoco.MjModel, data: mujoco.MjData, branches: Sequence[Branch
             apart = float(np.linalg.norm(one.tip - other.tip))
             tolerance = max(0.02, _SAME_PLACE * apart)
             image = np.array([1.0, -1.0, 1.0])
-            # where on its axis a joint is anchored does not count: the ends do, and all axes
+            # the position of an anchor on its axis has no effect: the ends count, and all axes
             axes = [
                 float(np.linalg.norm(np.cross(image * data.xaxis[p], data.xaxis[q])))
                 for p, q in zip(one.joints, other.joints, strict=True)
