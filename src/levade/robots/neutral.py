@@ -377,12 +377,12 @@ class PostureSearch:
         return min(float(support(self.model, self.data, g, _DOWN)[2]) for g in sole.geoms)
 
     def _normal(self, sole: Sole) -> Array:
-        """(3,), upward normal of the sole, of how thin its shapes are where they are now."""
+        """Return the upward normal of the sole, shape (3,), judged by the direction in which its shapes are thinnest."""
         points = np.concatenate([_corners(self.model, self.data, g) for g in sole.geoms])
         _, spread, axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)
         normal = axes[2] if spread[2] < 0.5 * spread[1] else np.array([0.0, 0.0, 1.0])
         normal = normal if normal[2] >= 0 else -normal
-        # zeros that are about flat are flat: shapes are not as thin as that tells the way
+        # a sole that is about flat at zero angles is flat: the thickness of shapes is not that precise
         return normal if normal[2] < np.cos(np.radians(25)) else np.array([0.0, 0.0, 1.0])
 
 

@@ -30,7 +30,7 @@ def check_ranges(spec: mujoco.MjSpec, where: str) -> None:
             continue
         if np.isnan([lower, upper]).any():
             raise LevadeError(
-                f"{where}: joint {joint.name}: its range ({lower:g} to {upper:g}) is not a pair of finite numbers; fix it in the file"
+                f"{where}: joint {joint.name}: its range ({lower:g} to {upper:g}) is not a pair of finite numbers; fix it"
             )
         if lower > upper:
             raise LevadeError(
