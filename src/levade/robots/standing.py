@@ -163,7 +163,7 @@ class Bare:
         return angles
 
     def _stand(self, leg: Leg, extension: float) -> dict[str, float] | None:
-        """Find knee angles with the given distance of hip and foot, each with the hip angle that puts the foot below the hip."""
+        """Find knee angles for a distance of hip and foot, each with the hip angle that puts the foot below the hip."""
         angles = self._zero(leg)
         hip, knee = (leg.joints[leg.roles.index(role)] for role in ("hfe", "kfe"))
         wanted = extension * self.leg_length(leg)
@@ -175,7 +175,7 @@ class Bare:
         sideways, along = np.cross(hinge, shank), hinge * (hinge @ shank)
 
         def across(bend: Array) -> Array:
-            """Return vectors from hip to foot across the hip's axis [m], shape (n, 3), for extra knee bends [rad], shape (n,)."""
+            """Return vectors from hip to foot across the hip's axis [m], shape (n, 3), for extra bends [rad], shape (n,)."""
             c, s = np.cos(bend)[:, None], np.sin(bend)[:, None]
             turned = shank * c + sideways * s + along * (1 - c)
             return (pivot - anchor + turned) @ flat

@@ -65,9 +65,9 @@ def mirror_signs(robot: Robot, leader: Leg, follower: Leg) -> Array:
 
 
 def _turned_signs(robot: Robot, leader: Leg, follower: Leg) -> Array | None:
-    """The signs for legs that point outward and are the same but for where they point; None if they are not.
+    """Find the signs for legs that point outward and differ only in their direction; None if they differ in more.
 
-    Each is taken in its own frame: outward, across and up, across the other way for legs on different sides.
+    Each leg is described in its own frame: outward, across and up; across is reversed for legs on different sides.
     """
     data = robot.data_at(np.zeros(len(robot.joint_names)))
     shapes = []
@@ -79,7 +79,7 @@ def _turned_signs(robot: Robot, leader: Leg, follower: Leg) -> Array | None:
         hand = -1.0 if leader.side != follower.side and leg is follower else 1.0
         frame = np.array([outward, hand * np.cross([0.0, 0.0, 1.0], outward), [0.0, 0.0, 1.0]])
         points = np.array([*(joint.xanchor - first for joint in joints), data.geom(leg.foot).xpos - first])
-        # a mirror takes the axis of a rotation to the opposite of its image
+        # a mirror maps the axis of a rotation to the opposite of its image
         shapes.append((hand * np.array([joint.xaxis for joint in joints]) @ frame.T, points @ frame.T))
     (axes, points), (other_axes, other_points) = shapes
     reach = float(np.linalg.norm(points[-1]))
