@@ -213,7 +213,7 @@ def find_legs(model: mujoco.MjModel, trunk: int, where: str) -> tuple[tuple[Leg,
         kind = FrameError if turned else LevadeError
         raise kind(
             f"{where}: its four legs are not left, right, front and hind in the frame of {model.body(trunk).name}"
-            f" (x forward, y left, z up); {f'it seems that {turned} there: ' if turned else ''}turn that frame"
+            f" (x forward, y left, z up); {f'it seems that {turned} there: ' if turned else ''}rotate that frame"
         )
     found = {}
     for limb, (side, end) in zip(legs, quadrants, strict=True):
@@ -322,7 +322,7 @@ def _check_roles(model: mujoco.MjModel, data: mujoco.MjData, trunk: int, limb: L
 
 
 def _turned(model: mujoco.MjModel, data: mujoco.MjData, limb: Limb, axes: Array) -> str:
-    """Which axes point forward and up, if the limb is a leg in another frame; empty if it is none."""
+    """Describe which axes point forward and up if the limb is a leg in another frame; empty if it is not a leg."""
     along = _role_axes(axes)
     left = along[-1]
     if along[-2] != left or (len(along) > 2 and along[0] == left):
@@ -334,7 +334,7 @@ def _turned(model: mujoco.MjModel, data: mujoco.MjData, limb: Limb, axes: Array)
     hang = tips[0] - data.xanchor[limb.joints[0]]
     if int(np.argmax(np.abs(hang))) == left:
         return ""
-    # three hinges say which way is up; of two, the leg hangs down more than it reaches forward
+    # three hinges determine which way is up; a leg of two hangs down more than it reaches forward
     up = 3 - left - along[0] if len(along) > 2 else int(np.argmax(np.abs(hang)))
     forward = 3 - left - up
     if (forward, left, up) == (0, 1, 2):

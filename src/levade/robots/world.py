@@ -112,7 +112,7 @@ def float_alone(spec: mujoco.MjSpec, findings: list[Finding]) -> None:
         setattr(option, name, np.zeros(3) if name == "wind" else 0.0)
     if medium:
         what = "the drag of a medium is left out: levade simulates robots in still air"
-        findings.append(warning(f"option {', '.join(medium)}", what, "leave it out of the file"))
+        findings.append(warning(f"option {', '.join(medium)}", what, "remove it from the file"))
     floating = [body for body in spec.bodies[1:] if body.gravcomp]
     for body in floating:
         body.gravcomp = 0.0
