@@ -244,7 +244,7 @@ def test_compilers_that_hide_mistakes_are_told_of(tmp_path: Path, quadruped: typ
         "body trunk: the inertia breaks the triangle inequality; balanceinertia takes the mean of its moments about every"
         " axis; fix it in the file",
         "compiler boundmass: raises smaller and missing values to 0.1 kg; give every body its own value, and remove"
-        " it out",
+        " this setting",
     ]
     np.testing.assert_allclose(robot.model.body("trunk").inertia, 0.2)
 
