@@ -57,7 +57,7 @@ def test_the_built_in_robot_is_sound() -> None:
         ("mjcf", [('range="-0.8 0.8"', 'range="-0.01 0.01"')], "haa: a range of only 0.02 rad; is it in the file's unit of"),
         ("urdf", [('lower="-0.8"', 'lower="0"')], "lf_haa, rf_haa, lh_haa, rh_haa: at an end of its range in the neutral"),
         ("urdf", [('effort="20.0"', 'effort="1.5"')], "_kfe: needs 2.48 Nm to stand in the neutral posture; its"),
-        ("mjcf", [('_foot" size="0.02"', '_foot" type="box" size="0.02 0.02 0.02"')], "a box, not a sphere: contact jumps from"),
+        ("mjcf", [('_foot" size="0.02"', '_foot" type="box" size="0.02 0.02 0.02"')], "a box, not a sphere: contact jumps"),
         ("mjcf", [('<geom name="lf_foot"', '<geom name="heel" size="0.1" pos="0 0 -0.18"/><geom name="lf_foot"')], "heel"),
         ("mjcf", [('<geom name="trunk"', '<geom name="keel" size="0.02" pos="0 0 -0.4"/><geom name="trunk"')],
          "shape keel: below the feet in the neutral posture: the robot stands on it"),

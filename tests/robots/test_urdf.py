@@ -247,7 +247,10 @@ def test_what_cannot_be_simulated_is_refused(file: Path, quadruped: type, old: s
 def test_joints_without_effort_get_an_assumed_torque(file: Path, quadruped: type) -> None:
     """Enough for two legs to bear the robot: m g l / 2, and warned of; likewise where the number says "no limit"."""
     assumed = quadruped().mass * 9.81 * 0.2
-    for effort, said in (("0", "no torque limit"), ("1000", "torque limits of up to 1e+03 Nm are not plausible for its weight")):
+    for effort, said in (
+        ("0", "no torque limit"),
+        ("1000", "torque limits of up to 1e+03 Nm are not plausible for its weight"),
+    ):
         robot = load(file, quadruped().urdf(), ('effort="20.0"', f'effort="{effort}"'))
         np.testing.assert_allclose(robot.limits.torque, assumed)
         assert findings(robot, "warning") == [
