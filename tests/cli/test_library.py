@@ -113,10 +113,10 @@ def test_the_reference_is_written_as_a_table(built: Path, run: Run, tmp_path: Pa
     ("content", "said"),
     [
         ({"up": [0, 0, 1]}, "joints: should be 12 numbers"),
-        ({"joints": [0] * 12}, "give the attitude, a quaternion w-x-y-z, or up"),
-        ({"up": [0, 0, 1], "attitude": [1, 0, 0, 0], "joints": [0] * 12}, "one of the two"),
+        ({"joints": [0] * 12}, "give either attitude, a quaternion w-x-y-z, or up"),
+        ({"up": [0, 0, 1], "attitude": [1, 0, 0, 0], "joints": [0] * 12}, "give either attitude"),
         ({"up": [0, 0, True], "joints": [0] * 12}, "up: should be 3 numbers"),
-        ({"attitude": [0, 0, 0, 0], "joints": [0] * 12}, "four zeros are no rotation"),
+        ({"attitude": [0, 0, 0, 0], "joints": [0] * 12}, "four zeros are not a rotation"),
         ({"atitude": [1, 0, 0, 0], "joints": [0] * 12}, "unknown key 'atitude'; did you mean attitude?"),
         ({"up": [0, 0, 1], "joints": {"lf_ha": 0}}, "joints: no joint 'lf_ha'; did you mean lf_haa?"),
         ({"up": [0, 0, 1], "joints": {"lf_haa": 0}}, "joints: lf_hfe is missing"),
@@ -139,7 +139,7 @@ def test_what_is_no_library_is_one_line(run: Run, tmp_path: Path) -> None:
     assert "did you mean self-righting" in err
     status, _, err = run("library", "build", "self-righting", "--starts", "0", "--out", str(tmp_path / "x"))
     assert status == 2
-    assert "--starts: 0 falls are none" in err
+    assert "--starts: 0 falls are too few" in err
 
 
 def test_another_task_is_not_built_into_it(built: Path, run: Run) -> None:
@@ -171,8 +171,8 @@ def test_shards_are_built_and_merged(built: Path, run: Run, tmp_path: Path) -> N
     assert (status, "of 2 falls" in out) == (0, True)
     status, _, err = run("library", "merge", str(built), "--out", str(tmp_path / "other"))
     assert (status, err.count("\n")) == (2, 1)
-    assert "is a whole library, no shard" in err
-    for shard, said in (("0:2", "--shard 0:2: should be I/N"), ("2/2", "--shard: 2/2 is no shard")):
+    assert "is a whole library, not a shard" in err
+    for shard, said in (("0:2", "--shard 0:2: should be I/N"), ("2/2", "--shard: 2/2 is not a shard")):
         status, _, err = run("library", "build", "self-righting", "--shard", shard, "--out", str(tmp_path / "x"))
         assert (status, err.count("\n")) == (2, 1)
         assert said in err
@@ -194,7 +194,7 @@ def test_an_answer_is_refined(built: Path, run: Run, tmp_path: Path) -> None:
 def test_what_does_not_fold_is_not_exported(built: Path, run: Run, tmp_path: Path) -> None:
     status, _, err = run("library", "export", str(built), "--out", str(tmp_path / "robot"))
     assert (status, err.count("\n")) == (2, 1)
-    assert "its falls do not fold up first" in err
+    assert "the robot does not fold up first" in err
     assert not (tmp_path / "robot").exists()
 
 

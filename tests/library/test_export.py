@@ -241,5 +241,5 @@ def test_only_what_folds_is_exported(tmp_path: Path) -> None:
         rolling(), start=load_task("self-righting", changes=["start={fallen: {height: 0.5, time: 0.4}}"]).start
     )
     library = build(task, starts=1, directory=tmp_path / "library")
-    with pytest.raises(LevadeError, match="its falls do not fold up first"):
+    with pytest.raises(LevadeError, match="the robot does not fold up first"):
         export_library(library, tmp_path / "robot")

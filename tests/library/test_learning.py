@@ -118,7 +118,7 @@ def test_what_was_learned_answers_until_the_library_grows(tmp_path: Path) -> Non
     (tmp_path / "falls" / "000059.json").unlink()
     assert Library.load(tmp_path).learned is None
     (tmp_path / "learned.npz").write_bytes(b"PK")
-    with pytest.raises(LevadeError, match=r"learned\.npz: is damaged; remove it, or learn again"):
+    with pytest.raises(LevadeError, match=r"learned\.npz: the file is damaged; remove it, or learn again"):
         Library.load(tmp_path)
     save(learning.Learning({}, NEAREST, None, knowledge), tmp_path)
     assert not (tmp_path / "learned.npz").exists()
@@ -129,7 +129,7 @@ def test_too_little_to_learn_from_is_said(tmp_path: Path) -> None:
         learn(library(tmp_path, known(5)))
     unfinished = known()
     unfinished.perturbed[3, 1] = np.nan
-    with pytest.raises(LevadeError, match="not every motion was tried from every fall; build it to its end"):
+    with pytest.raises(LevadeError, match="not every motion was tried from every fall; complete the build"):
         learn(library(tmp_path, unfinished))
 
 

@@ -126,7 +126,7 @@ def test_stopped_and_gone_on_with_it_has_the_same_bytes(
 def test_stopped_before_its_first_fall_is_done_it_is_a_library_without_motions(tmp_path: Path) -> None:
     empty = build(rolling(), starts=STARTS, directory=tmp_path, stopping=lambda: True)
     assert (empty.records, empty.coverage, empty.knowledge.cover()) == ((), 0.0, [])
-    with pytest.raises(LevadeError, match="no motion was found for any of its 0 falls; build it further"):
+    with pytest.raises(LevadeError, match="no motion was found for any of its 0 falls; continue the build"):
         empty.ask([0, 0, 1], np.zeros(12))
 
 
@@ -183,15 +183,15 @@ def test_shards_become_a_library(tmp_path: Path) -> None:
     assert {path.name: path.read_bytes() for path in (whole / "falls").iterdir()} == falls
     assert not np.isnan(library.knowledge.success + library.knowledge.perturbed).any()
     for shards, said in (
-        ([parts[0], parts[0]], "is shard 0/2, as .*0 is; give each shard once"),
-        ([parts[0], whole], "whole: is a whole library, no shard"),
+        ([parts[0], parts[0]], "is shard 0/2, and so is .*0; give each shard once"),
+        ([parts[0], whole], "whole: is a whole library, not a shard"),
         ([], "no shards to merge"),
     ):
         with pytest.raises(LevadeError, match=said):
             merge(shards, tmp_path / "other")
     with pytest.raises(LevadeError, match="holds shard 0/2 of a library; merge shards first"):
         build(rolling(), starts=5, directory=parts[0])
-    with pytest.raises(LevadeError, match="2/2 is no shard; 0/2 to 1/2 are"):
+    with pytest.raises(LevadeError, match="2/2 is not a shard; give 0/2 to 1/2"):
         Shard(2, 2)
     with pytest.raises(LevadeError, match="1 falls have no shard 1/2"):
         build(rolling(), starts=1, directory=tmp_path / "other", shard=Shard(1, 2))
@@ -429,8 +429,8 @@ def test_what_does_not_fit_a_mirror_has_none() -> None:
         ([0, 0], np.zeros(12), "up: should be three numbers"),
         ([0, 0, 0], np.zeros(12), "up: should be three numbers"),
         ([0, 0, np.nan], np.zeros(12), "up: should be three numbers"),
-        ([0, 0, 1], np.zeros(11), "joint_position: 11 numbers, should be the angles of 12 joints"),
-        ([0, 0, 1], np.full(12, np.inf), "joint_position: 12 numbers"),
+        ([0, 0, 1], np.zeros(11), "joint_position: has 11 numbers, should be the angles of 12 joints"),
+        ([0, 0, 1], np.full(12, np.inf), "joint_position: has 12 numbers"),
     ],
 )
 def test_wrong_questions(library: Library, up: list[float], joints: np.ndarray, said: str) -> None:
@@ -441,9 +441,9 @@ def test_wrong_questions(library: Library, up: list[float], joints: np.ndarray, 
 @pytest.mark.parametrize(
     ("file", "content", "said"),
     [
-        ("falls/000002.json", "{", r"000002\.json: .*is no record of a fall, or damaged"),
-        ("falls/000002.json", '{"fall": 2}', r"000002\.json: is no record of a fall"),
-        ("success.npz", "no archive", r"success\.npz: is damaged; remove it"),
+        ("falls/000002.json", "{", r"000002\.json: .*is not the record of a fall, or is damaged"),
+        ("falls/000002.json", '{"fall": 2}', r"000002\.json: is not the record of a fall"),
+        ("success.npz", "no archive", r"success\.npz: the file is damaged; remove it"),
         ("library.yaml", "seed: x\n", r"library\.yaml: seed: should be a whole number"),
     ],
 )
@@ -457,9 +457,9 @@ def test_damaged_libraries(library: Library, tmp_path: Path, file: str, content:
 def test_what_is_no_library_is_said(tmp_path: Path) -> None:
     with pytest.raises(LevadeError, match="holds no motion library"):
         Library.load(tmp_path)
-    with pytest.raises(LevadeError, match="0 falls are none"):
+    with pytest.raises(LevadeError, match="0 falls are too few"):
         build(rolling(), starts=0, directory=tmp_path)
-    with pytest.raises(LevadeError, match="leave robust and hardware out"):
+    with pytest.raises(LevadeError, match="remove robust and hardware"):
         build(load_task("self-righting-robust"), starts=1, directory=tmp_path)
     assert list(tmp_path.iterdir()) == []
 

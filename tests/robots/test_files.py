@@ -108,7 +108,7 @@ def test_the_example_of_another_suffix() -> None:
 
 
 def test_a_xacro_file_is_named_as_such_and_not_printed() -> None:
-    with pytest.raises(LevadeError, match="still holds xacro macros; expand them first: xacro") as caught:
+    with pytest.raises(LevadeError, match="still contains xacro macros; expand them first: xacro") as caught:
         load_robot(CASES / "formats" / "pup.urdf.xacro")
     assert len(str(caught.value)) < 300
 
@@ -212,7 +212,7 @@ def test_names_that_a_terminal_would_obey_are_refused(tmp_path: Path, hidden: st
     text = (CASES / "pairs" / "pup.xml").read_text(encoding="utf-8").replace('"FL_hip"', f'"FL{hidden}hip"')
     (tmp_path / "pup.xml").write_text(text, encoding="utf-8")
     with pytest.raises(
-        LevadeError, match=r"pup\.xml: names hold control characters, which no terminal can show"
+        LevadeError, match=r"pup\.xml: names contain control characters, which no terminal can show"
     ) as told:
         load_robot(tmp_path / "pup.xml")
     assert str(told.value).isprintable()

@@ -228,7 +228,7 @@ def test_unknown_leg_and_posture() -> None:
         # names
         ("trunk: base", "trunk: bas", "trunk: no body 'bas' in toy.xml; did you mean base?"),
         ("[left_hip]", "[left_hipp]", "legs.l.joints: no joint 'left_hipp' in toy.xml; did you mean left_hip?"),
-        ("[left_hip]", "[right_hip]", "legs.r.joints: joint right_hip is there twice"),
+        ("[left_hip]", "[right_hip]", "legs.r.joints: joint right_hip is listed twice"),
         ("[left_hip]", "[left_hip, right_hip]", "legs.l.joints: left_hip should be nearer to the trunk than right_hip"),
         ("foot: left_foot", "foot: left_food", "legs.l.foot: no geom 'left_food' in toy.xml; did you mean left_foot?"),
         ("trunk: base", "trunk: left", "trunk: body left should have one free joint and no other"),

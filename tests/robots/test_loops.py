@@ -136,7 +136,7 @@ def test_a_tendon_of_fixed_length_over_a_leg_is_refused(tmp_path: Path, quadrupe
         '<tendon><fixed name="belt"><joint joint="lf_hfe" coef="1"/><joint joint="lf_kfe" coef="1"/></fixed></tendon>'
         '<equality><tendon tendon1="belt"/></equality></mujoco>'
     )
-    with pytest.raises(LevadeError, match="<tendon> belt, whose length is bound, couples joints of a leg"):
+    with pytest.raises(LevadeError, match="<tendon> belt, whose length is constrained, couples joints of a leg"):
         load(tmp_path, quadruped().mjcf().replace("</mujoco>", belt))
 
 
@@ -175,7 +175,7 @@ def test_a_knee_that_mimics_the_hip_is_refused_with_the_reason(tmp_path: Path) -
     )
     (tmp_path / "robot.yaml").write_text(f"model: pup.urdf\nlegs:\n{legs}")
     with pytest.raises(
-        LevadeError, match=r"legs: joint FL_knee follows other joints .* take that out of pup\.urdf if the joint"
+        LevadeError, match=r"legs: joint FL_knee follows other joints .* remove that from pup\.urdf if the joint"
     ):
         load_robot(tmp_path)
 
@@ -205,5 +205,5 @@ def test_a_leader_that_is_not_there_leaves_its_follower_fixed(tmp_path: Path) ->
     robot = load_robot(tmp_path / "pup.urdf")
     assert robot.held["FL_ankle"] == 0.4
     assert warnings(robot)[0] == (
-        "joint FL_ankle: mimics 'FL_kneee', which is no other joint of the file: held fixed; did you mean FL_knee?"
+        "joint FL_ankle: mimics 'FL_kneee', which is not another joint of the file: held fixed; did you mean FL_knee?"
     )

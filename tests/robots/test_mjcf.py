@@ -30,7 +30,7 @@ ARM = """
 TENDON = (
     '<tendon><fixed name="t"><joint joint="arm1" coef="1"/></fixed></tendon><equality><tendon tendon1="t"/></equality>'
 )
-BALANCE = "body trunk: its inertia breaks the triangle inequality (two of its moments are below the third); mend it"
+BALANCE = "body trunk: its inertia breaks the triangle inequality (two of its moments are below the third); fix it"
 POSE = "0 0 0.3 1 0 0 0" + " 0 0.9 -1.8" * 2 + " 0 -0.9 1.8" * 2
 
 
@@ -242,9 +242,9 @@ def test_compilers_that_hide_mistakes_are_told_of(tmp_path: Path, quadruped: typ
     robot = load(tmp_path, quadruped().mjcf(), flags, ('diaginertia="0.1 0.1 0.1"', 'diaginertia="0.1 0.1 0.4"'))
     assert findings(robot, "warning") == [
         "body trunk: the inertia breaks the triangle inequality; balanceinertia takes the mean of its moments about every"
-        " axis; mend it in the file",
-        "compiler boundmass: raises whatever is below it to 0.1 kg, missing values too; give every body its own, and leave"
-        " it out",
+        " axis; fix it in the file",
+        "compiler boundmass: raises smaller and missing values to 0.1 kg; give every body its own value, and remove"
+        " this setting",
     ]
     np.testing.assert_allclose(robot.model.body("trunk").inertia, 0.2)
 
@@ -276,7 +276,7 @@ def test_what_cannot_be_simulated_is_refused(tmp_path: Path, quadruped: type, ol
         (b"", "is empty; give an MJCF or URDF"),
         (b"<sdf></sdf>", "starts with <sdf>; a URDF starts with <robot>, an MJCF with <mujoco>"),
         (b"\x89PNG\xff", "not a text file; give an MJCF or URDF"),
-        (b"robot", "broken XML (syntax error: line 1, column 0); mend it there"),
+        (b"robot", "broken XML (syntax error: line 1, column 0); fix it there"),
     ],
 )
 def test_what_is_no_model_is_refused(tmp_path: Path, content: bytes, message: str) -> None:

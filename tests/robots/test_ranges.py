@@ -41,7 +41,7 @@ def test_ranges_in_degrees_are_taken_for_degrees(tmp_path: Path, quadruped: type
     (tmp_path / f"degrees.{suffix}").write_text(in_degrees(text))
     right, wrong = load_robot(tmp_path / f"toy.{suffix}"), load_robot(tmp_path / f"degrees.{suffix}")
     (said,) = warnings(wrong)
-    assert "ranges of up to 143.2 rad look like degrees: taken as such, 2.5 rad; write them in radians" in said
+    assert "ranges of up to 143.2 rad look like degrees: read as degrees, 2.5 rad; write them in radians" in said
     np.testing.assert_allclose(wrong.limits.lower, right.limits.lower, atol=1e-5)
     np.testing.assert_allclose(wrong.limits.upper, right.limits.upper, atol=1e-5)
     np.testing.assert_allclose(wrong.postures["neutral"], right.postures["neutral"], atol=1e-5)
@@ -113,7 +113,7 @@ def test_speeds_that_no_joint_has_are_none(tmp_path: Path, quadruped: type, spee
 @pytest.mark.slow
 def test_the_example_of_a_huge_speed() -> None:
     robot = load_robot(CASES / "velocity-huge" / "v1e12.urdf")
-    assert warnings(robot)[0].startswith("all joints: speed limits of up to 1e+12 rad/s are not believed; 19.8")
+    assert warnings(robot)[0].startswith("all joints: speed limits of up to 1e+12 rad/s are not plausible; 19.8")
 
 
 @pytest.mark.parametrize("speed", [7.5, 25.0, 150.0])

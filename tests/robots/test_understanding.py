@@ -49,7 +49,7 @@ def build(tmp_path: Path, quadruped: type):
             "joints lf_haa, lf_hfe, lf_kfe turn about y, -x, -x of trunk; levade knows legs of hip abduction (about x), hip"
             " flexion and knee (about y), x forward; it seems that y is forward there: turn the model",
         ),
-        ({"legs": ()}, "this model has no joints beside its free base"),
+        ({"legs": ()}, "this model has no joints besides its free base"),
     ],
 )
 def test_what_has_no_legs_is_refused_with_what_it_has(build, form: str, options: dict, message: str) -> None:
@@ -59,7 +59,7 @@ def test_what_has_no_legs_is_refused_with_what_it_has(build, form: str, options:
 
 def test_limbs_about_other_axes_are_no_legs(build, quadruped: type) -> None:
     with pytest.raises(
-        LevadeError, match=r"lf_haa, lf_hfe, lf_kfe turn about x, z, z of trunk; .*; this limb is no such leg"
+        LevadeError, match=r"lf_haa, lf_hfe, lf_kfe turn about x, z, z of trunk; .*; this limb is not such a leg"
     ):
         build("urdf", ('<axis xyz="0 1 0"/>', '<axis xyz="0 0 1"/>'))
 

@@ -204,7 +204,7 @@ def test_inertias_that_no_body_has_become_those_of_a_sphere(
     robot = load(file, quadruped().urdf(), ('ixx="0.1" iyy="0.1" izz="0.1"', bad))
     (said,) = findings(robot, "warning")
     assert said.startswith(f"link trunk: the inertia {problem}")
-    assert f"{moment:.3g} kg m2 is taken about every axis; mend it in the file" in said
+    assert f"{moment:.3g} kg m2 is taken about every axis; fix it in the file" in said
     np.testing.assert_allclose(robot.model.body("trunk").inertia, moment, rtol=1e-5)
     assert robot.mass == pytest.approx(quadruped().mass)
 
@@ -228,12 +228,12 @@ def test_joints_without_a_range_turn_without_end(file: Path, quadruped: type) ->
         ('<mass value="0.8"/>', '<mass value="0"/>', "body lf_thigh moves but has no mass or no inertia; give"),
         ('<mass value="6.0"/>', '<mass value="0"/>', "body trunk moves but has no mass or no inertia; give it both"),
         ('<mass value="6.0"/>', '<mass value="-6"/>', "link trunk: mass -6 kg is negative"),
-        ('type="revolute"', 'type="planar"', "joint lf_haa: type 'planar' is none that levade simulates; revolute,"),
+        ('type="revolute"', 'type="planar"', "joint lf_haa: type 'planar' cannot be simulated; use one of revolute,"),
         ('<child link="lf_hip"/>', '<child link="lf_hop"/>', "joint lf_haa: its child link 'lf_hop' is not in the file"),
         ('<parent link="lf_hip"/>', '<parent link="lf_shank"/>', "joint lf_hfe: link lf_thigh hangs on itself; levade"),
         ('<child link="rf_hip"/>', '<child link="lf_hip"/>', "link lf_hip hangs on two joints, lf_haa and rf_haa;"),
         ('<link name="lf_hip">', "<link>", "a <link> has no name; every link and joint needs one"),
-        ('<robot name="toy">', XACRO, "still holds xacro macros; expand them first: xacro toy.urdf > robot.urdf"),
+        ('<robot name="toy">', XACRO, "still contains xacro macros; expand them first: xacro toy.urdf > robot.urdf"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_simulated_is_refused(file: Path, quadruped: type, old: str, new: str, message: str) -> None:
@@ -247,7 +247,10 @@ def test_what_cannot_be_simulated_is_refused(file: Path, quadruped: type, old: s
 def test_joints_without_effort_get_an_assumed_torque(file: Path, quadruped: type) -> None:
     """Enough for two legs to bear the robot: m g l / 2, and warned of; likewise where the number says "no limit"."""
     assumed = quadruped().mass * 9.81 * 0.2
-    for effort, said in (("0", "no torque limit"), ("1000", "torque limits of up to 1e+03 Nm are none for its weight")):
+    for effort, said in (
+        ("0", "no torque limit"),
+        ("1000", "torque limits of up to 1e+03 Nm are not plausible for its weight"),
+    ):
         robot = load(file, quadruped().urdf(), ('effort="20.0"', f'effort="{effort}"'))
         np.testing.assert_allclose(robot.limits.torque, assumed)
         assert findings(robot, "warning") == [
@@ -294,7 +297,7 @@ CAMERA = (
 def test_a_world_with_a_camera_is_no_robot(file: Path, quadruped: type) -> None:
     robot = load_robot(CASES / "world" / "world-camera.urdf")
     assert (robot.trunk, robot.mass) == ("base", pytest.approx(12.4))
-    assert findings(robot, "note")[0] == "link cam: fixed to the world, left out: no part of the robot"
+    assert findings(robot, "note")[0] == "link cam: fixed to the world, left out: not part of the robot"
     for shape in ("", f"<collision><geometry>{SHAPE}</geometry></collision>"):  # a floor, perhaps
         tie = '<joint name="f" type="fixed"><parent link="world"/><child link="trunk"/></joint>'
         world = f'<link name="world">{shape}</link>{tie}'

@@ -1,4 +1,4 @@
-"""``levade library``: build one, ask it, and try it on falls that it has never seen."""
+"""``levade library``: build a library, ask it, and try it on falls that it has never seen."""
 
 from __future__ import annotations
 
@@ -35,9 +35,9 @@ from levade.trajectory import JointReference
 from levade.writing import write_text
 
 _WORDS = {
-    "known": "by a motion that was there",
-    "near": "around one",
-    "cold": "from nothing",
+    "known": "by a known motion",
+    "near": "by a search around a known motion",
+    "cold": "by a search from nothing",
     "none": "not at all",
 }
 
@@ -55,7 +55,7 @@ def build_library(
     shard: str | None,
     as_json: bool,
 ) -> int:
-    """Exit status 0 if every fall is done, else 1."""
+    """Build a library, and return the exit status: 0 if every fall is done, otherwise 1."""
     part = WHOLE if shard is None else _shard(shard)
     loaded = load_task(task, robot=robot, changes=changes)
     directory = out or Path(f"{loaded.name}-library")
@@ -89,21 +89,21 @@ def build_library(
     else:
         _tell_library(console, library)
         if stopped:
-            console.print(f"[yellow]Interrupted[/]: build again to go on. All falls that are done are in {place}.")
+            console.print(f"[yellow]Interrupted[/]: build again to continue. All finished falls are in {place}.")
         else:
-            console.print(f"On falls that it has never seen: levade library check {place}")
+            console.print(f"To try it on falls that it has never seen: levade library check {place}")
     return 1 if stopped else 0
 
 
 def _shard(text: str) -> Shard:
     parts = text.split("/")
     if len(parts) != 2 or not all(part.isdecimal() for part in parts):
-        raise LevadeError(f"--shard {text}: should be I/N, such as 0/4: the first of four shards")
+        raise LevadeError(f"--shard {text}: should be I/N, such as 0/4 for the first of four shards")
     return Shard(*map(int, parts))
 
 
 def merge_libraries(shards: list[Path], *, out: Path, as_json: bool) -> int:
-    """Exit status 0."""
+    """Merge shards, and return the exit status 0."""
     merged = merge(shards, out)
     if as_json:
         print(
@@ -113,14 +113,14 @@ def merge_libraries(shards: list[Path], *, out: Path, as_json: bool) -> int:
     console, place = make_console(), escape(str(out))
     console.print(f"{merged.falls} of {merged.starts} falls and {merged.motions} motions are in {place}.")
     console.print(
-        "Build it again to try every motion from every fall: the command of its shards, without --shard, with"
+        "To try every motion from every fall, build it again: use the command of its shards without --shard and with"
         f" --starts {merged.starts} --out {place}"
     )
     return 0
 
 
 def learn_library(directory: Path, *, as_json: bool) -> int:
-    """Exit status 0."""
+    """Learn which motion works from where, and return the exit status 0."""
     found = learn(Library.load(directory))
     save(found, directory)
     if as_json:
@@ -130,7 +130,7 @@ def learn_library(directory: Path, *, as_json: bool) -> int:
     console = make_console()
     for kind, score in found.scores.items():
         console.print(
-            f"{kind:<18} first answers on falls left out work in {score.first:.1%} ({score.said:.1%} by what they say);"
+            f"{kind:<18} first answers on held-out falls work in {score.first:.1%} (predicted: {score.said:.1%});"
             f" Brier score {score.brier:.4f}"
         )
     console.print(f"{escape(str(directory))} answers by: {found.chosen}.")
@@ -144,7 +144,7 @@ def export_the_library(
     rate: float | None,
     as_json: bool,
 ) -> int:
-    """Exit status 0."""
+    """Export a library for a robot, and return the exit status 0."""
     place = out or directory.with_name(f"{directory.resolve().name}-robot")
     console = make_console(stderr=as_json)
     words = [] if rate is None else ["--rate", f"{rate:g}"]
@@ -161,13 +161,13 @@ def export_the_library(
         return 0
     for path in exported.failed:
         console.print(f"[yellow]{escape(str(path))}: the motion does not work from there.[/]")
-    console.print(f"{len(exported.motions)} motions are in {escape(str(place))}; it needs Python and numpy alone:")
+    console.print(f"{len(exported.motions)} motions are in {escape(str(place))}; it needs only Python and numpy:")
     console.print(f"  python {escape(str(place / 'ask.py'))} --robot my_robot:MyRobot")
     return 0
 
 
 def show_library(directory: Path, *, figures: Path | None, format: str, as_json: bool) -> int:
-    """Exit status 0."""
+    """Describe a library, and return the exit status 0."""
     library = Library.load(directory)
     console = make_console(stderr=as_json)
     written = [] if figures is None else draw(library, figures, format=format)
@@ -187,7 +187,7 @@ def show_library(directory: Path, *, figures: Path | None, format: str, as_json:
 
 
 def _summary(library: Library, directory: Path) -> dict[str, Any]:
-    """What ``build`` and ``show`` print as JSON."""
+    """Return what ``build`` and ``show`` print as JSON."""
     return {
         "library": str(directory),
         "done": len(library.records),
@@ -216,7 +216,7 @@ def _tell_library(console: Console, library: Library) -> None:
 def check_the_library(
     directory: Path, *, starts: int, seed: int, refine: str | None, threads: int, as_json: bool
 ) -> int:
-    """Exit status 0 if all was tried, 1 if interrupted."""
+    """Check a library, and return the exit status: 0 if all falls were tried, 1 if interrupted."""
     library, time_left = Library.load(directory), None if refine is None else _seconds(refine)
     console = make_console(stderr=as_json)
     with stop_between("part") as stopping:
@@ -239,14 +239,14 @@ def _told(found: LibraryCheck) -> list[tuple[str, str]]:
         *after,
         *([("the first answer, refined in simulation", str(found.refined))] if found.refined else []),
         ("within two attempts, the second from where it lies", str(found.twice)),
-        ("the first answer, on robots that differ", str(found.perturbed)),
-        ("what the answers themselves say", f"{found.expected:.1%}"),
+        ("the first answer, on perturbed models", str(found.perturbed)),
+        ("mean probability predicted by the answers", f"{found.expected:.1%}"),
         ("an answer takes", f"{found.answer_ms[0]:.2f} ms, 99 % at most {found.answer_ms[1]:.2f} ms"),
     ]
 
 
 def _seconds(text: str) -> float:
-    """A duration, such as 1s, 500 ms or 1.5."""
+    """Read a duration, such as 1s, 500 ms or 1.5."""
     value = to_si(text, where="--refine", measures="a duration")
     try:
         seconds = float(value)
@@ -258,7 +258,7 @@ def _seconds(text: str) -> float:
 
 
 def ask_library(directory: Path, *, state: Path, reference: Path | None, refine: str | None, as_json: bool) -> int:
-    """Exit status 0; 1 if the answer was refined, and does not work on the model even so."""
+    """Ask a library, and return the exit status: 1 if the answer was refined but still fails on the model, otherwise 0."""
     library = Library.load(directory)
     first = library.ask([0.0, 0.0, 1.0], np.zeros(library.knowledge.joint_position.shape[1]))
     names = first.motion.joint_names
@@ -294,7 +294,7 @@ def ask_library(directory: Path, *, state: Path, reference: Path | None, refine:
         return 0
     place = _named(Path(motion_path(directory, better.number).name), better.number)
     what = f"a search from {place}" if better.searched else place
-    works = f"works on the model, and on {better.share:.0%} of robots that differ" if better.works else "does not work"
+    works = f"works on the model, and on {better.share:.0%} of perturbed models" if better.works else "does not work"
     console.print(f"In simulation, {what} {works} ({better.trials} trials, {better.seconds:.1f} s).")
     return 0 if better.works else 1
 
@@ -304,14 +304,16 @@ def _named(path: Path, number: int) -> str:
 
 
 def _read_state(path: Path, names: tuple[str, ...]) -> tuple[Any, Array]:
-    """Which way is up in trunk axes, and the joints' angles, of a JSON or YAML file."""
+    """Read the upward direction in trunk axes and the joint angles from a JSON or YAML file."""
     content = read_yaml(path, like="attitude and joints")
     known = {"attitude", "up", "joints"}
     for key in content:
         if key not in known:
             raise LevadeError(f"{path}: unknown key {key!r}; {did_you_mean(str(key), sorted(known))}")
     if ("attitude" in content) == ("up" in content):
-        raise LevadeError(f"{path}: give the attitude, a quaternion w-x-y-z, or up, in trunk axes; one of the two")
+        raise LevadeError(
+            f"{path}: give either attitude, a quaternion w-x-y-z, or up, the upward direction in trunk axes"
+        )
     joints = content.get("joints")
     if isinstance(joints, Mapping):
         for name in joints:
@@ -330,7 +332,7 @@ def _up(content: Mapping[str, Any], path: Path) -> Array:
     quaternion = _numbers(content["attitude"], 4, f"{path}: attitude")
     norm = float(np.linalg.norm(quaternion))
     if not norm > 0:
-        raise LevadeError(f"{path}: attitude: four zeros are no rotation; [1, 0, 0, 0] is level")
+        raise LevadeError(f"{path}: attitude: four zeros are not a rotation; [1, 0, 0, 0] is level")
     return up_in_trunk(quaternion / norm)
 
 
@@ -342,9 +344,9 @@ def _numbers(values: Any, n: int, where: str) -> Array:
 
 
 def _write_reference(reference: JointReference, names: Sequence[str], path: Path) -> None:
-    """A table of time [s] and joint references [rad]: the motion, from where the joints are."""
+    """Write a table of time [s] and joint references [rad] of the motion, from where the joints are."""
     if not path.parent.is_dir() or not os.access(path.parent, os.W_OK):
-        raise LevadeError(f"--reference {path}: its directory cannot be written; give another")
+        raise LevadeError(f"--reference {path}: its directory is missing or not writable; give another path")
     position = reference.position[0]
     times = (np.arange(len(position)) + 1) * reference.timestep
     lines = [",".join(["time", *names])]
@@ -352,4 +354,4 @@ def _write_reference(reference: JointReference, names: Sequence[str], path: Path
     try:
         write_text(path, "\n".join(lines) + "\n")
     except OSError as error:
-        raise LevadeError(f"--reference {path}: cannot be written ({error.strerror}); give another") from None
+        raise LevadeError(f"--reference {path}: cannot be written ({error.strerror}); give another path") from None

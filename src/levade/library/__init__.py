@@ -1,8 +1,8 @@
-"""Motion libraries: a robot that gets up however it fell.
+"""Motion libraries, with which a robot gets up from any fall.
 
 library = build(load_task("self-righting", robot="go1"), starts=100, directory=Path("falls"))
-answer = library.ask(up, joint_position)        # a motion, and how likely it works from there
-check_library(library, starts=200, seed=1)      # on falls that it has never seen
+answer = library.ask(up, joint_position)        # a motion, and the probability that it works from there
+check_library(library, starts=200, seed=1)      # on falls that the library has never seen
 """
 
 from levade.library.asking import Answer, Library

@@ -1,9 +1,9 @@
-"""Asking a library: from how the robot lies to the motion that most likely gets it up, without a simulator.
+"""Ask a library, without a simulator, for the motion that most likely gets the robot up from where it lies.
 
 library = Library.load(Path("falls"))
 answer = library.ask(up, joint_position)
 answer.motion, answer.probability
-answer.reference                                # what to tell the joints, from where they are
+answer.reference                                # joint references, from where the joints are
 """
 
 from __future__ import annotations
@@ -28,26 +28,27 @@ from levade.motions import Motion
 from levade.trajectory import JointReference
 
 LIBRARY = "library.yaml"
-"""Seed and number of falls, and the robot's mirror."""
+"""Name of the file that holds seed, number of falls, and the robot's mirror."""
 
 LEARNED = "learned.npz"
-"""What was learned from the falls, if anything."""
+"""Name of the file that holds the learned model, if there is one."""
 
 SUCCESS = "success.npz"
-"""Which motion works from which fall, once a build has come to its end."""
+"""Name of the file that holds which motion works from which fall; a build writes it at its end."""
 
 
 @dataclass(frozen=True, eq=False)
 class Answer:
-    """What to do from where the robot lies.
+    """Names the motion to play from where the robot lies.
 
     Attributes:
-        number: Of the motion: `levade.library.records`.
-        probability: How likely it works.
-        others: The other motions and how likely each works, the likeliest first.
-        path: File of the motion, or of the one that it is the image of.
-        joint_position: Where the reference begins [rad], shape (joints,): where the joints are, or were commanded to fold to.
-        mirror: What it is the image in; None if it is the motion itself.
+        number: Number of the motion (see `levade.library.records`).
+        probability: Probability that it works.
+        others: Numbers of the other motions and their probabilities, the likeliest first.
+        path: File of the motion. For a mirror image it is the file of the original.
+        joint_position: Joint angles at which the reference begins [rad], shape (joints,): the measured ones, or the
+            commanded ones if the robot folds up first.
+        mirror: The mirror, if the answer is the mirror image of a motion. None if it is the motion itself.
     """
 
     number: int
@@ -59,37 +60,46 @@ class Answer:
 
     @cached_property
     def motion(self) -> Motion:
-        """The motion as it was found, from its own fall, not mirrored."""
+        """The motion as it was found, from its own fall and not mirrored."""
         return Motion.load(self.path)
 
     @cached_property
     def reference(self) -> JointReference:
-        """What to tell the joints: the motion, from where they are now."""
+        """The motion's joint references, starting from where the joints are now.
+
+        Raises:
+            LevadeError: If the motion cannot start elsewhere, or has no mirror image.
+        """
         motion = self.motion
         policy = motion.policy
         if policy is None:
-            raise LevadeError(f"{self.path}: has no policy that could begin elsewhere; build the library again")
+            raise LevadeError(
+                f"{self.path}: the motion has no policy, so it cannot start elsewhere; build the library again"
+            )
         if policy.ends is not None:
             policy = replace(policy, ends=replace(policy.ends, start=self.joint_position))
         weights = motion["weights"][None]
         if self.mirror is not None:
             image = self.mirror.decisions(policy, weights)
             if image is None:
-                raise LevadeError(f"{self.path}: has no image in this library's mirror; build the library again")
+                raise LevadeError(
+                    f"{self.path}: the motion has no image in this library's mirror; build the library again"
+                )
             weights = image
         return policy.reference(weights)
 
 
 @dataclass(frozen=True, eq=False)
 class Library:
-    """Motions for a family of falls, and which works from which.
+    """Holds motions for a family of falls, and which motion works from which fall.
 
     Attributes:
-        directory: Where it is.
+        directory: Directory of the library.
         records: The falls, in order.
-        knowledge: What they say.
-        fold: Where the robot's joints go first, before it asks [rad], shape (joints,); None if it asks as it fell.
-        learned: What it answers by, if it was learned from these very falls and motions; else it is what is nearby.
+        knowledge: Outcomes of the motions, collected from the records.
+        fold: Joint angles to which the robot folds up before it asks [rad], shape (joints,). None if it asks as it fell.
+        learned: Learned model, if it was fitted to these very falls and motions. None if the library answers by the
+            nearest falls.
     """
 
     directory: Path
@@ -100,15 +110,18 @@ class Library:
 
     @classmethod
     def load(cls, directory: str | Path) -> Library:
-        """Load a library, also one whose build goes on.
+        """Load a library, which may still be under construction.
+
+        Args:
+            directory: Directory of the library.
 
         Raises:
-            LevadeError: If there is none, or it is damaged.
+            LevadeError: If the directory holds no library, or the library is damaged.
         """
         directory = Path(directory)
         place = directory / LIBRARY
         if not place.is_file():
-            raise LevadeError(f"{directory}: holds no motion library; build one, or give its directory")
+            raise LevadeError(f"{directory}: holds no motion library; build one, or give the directory of one")
         records = tuple(Record.load(path) for path in sorted((directory / FALLS).glob("[0-9]*.json")))
         content = read_yaml(place)
         mirror = Mirror.from_json(content.get("mirror"), where=str(place))
@@ -118,19 +131,22 @@ class Library:
         return cls(directory, records, knowledge.merged(read_success(directory, knowledge)), fold, learned)
 
     def ask(self, up: Any, joint_position: Any) -> Answer:
-        """Which motion to play.
+        """Choose the motion to play.
 
         Args:
-            up: Which way is up in trunk axes, of any length, shape (3,): an accelerometer's reading at rest, once the robot has
-                folded up if the library has a `fold`.
-            joint_position: Angles [rad] in the robot's joint order, shape (joints,).
+            up: Upward direction in trunk axes, of any length, shape (3,). An accelerometer's reading at rest is one. If the
+                library has a `fold`, measure it after the robot has folded up.
+            joint_position: Joint angles in the robot's joint order [rad], shape (joints,).
+
+        Returns:
+            The motion that most likely works from there.
 
         Raises:
-            LevadeError: If a shape is wrong, not all are finite numbers, or there is no motion yet.
+            LevadeError: If a shape is wrong, a number is not finite, or the library has no motion yet.
         """
         if not len(self.knowledge.motions):
             falls = len(self.records)
-            raise LevadeError(f"{self.directory}: no motion was found for any of its {falls} falls; build it further")
+            raise LevadeError(f"{self.directory}: no motion was found for any of its {falls} falls; continue the build")
         up, joints = self._checked(up, joint_position)
         (number, probability), *others = self.model.ranked(up, joints)
         mirror = self.knowledge.mirror if number < 0 else None
@@ -139,28 +155,30 @@ class Library:
 
     @property
     def model(self) -> Model | Learned:
-        """What it answers by."""
+        """The model that ranks the motions: the learned one if there is one, else the nearest falls."""
         return self.learned or self.knowledge.model
 
     def _checked(self, up: Any, joint_position: Any) -> tuple[Array, Array]:
         up, joints = np.asarray(up, dtype=float), np.asarray(joint_position, dtype=float)
         size = self.knowledge.joint_position.shape[1]
         if up.shape != (3,) or not np.isfinite(up).all() or not np.linalg.norm(up) > 0:
-            raise LevadeError("up: should be three numbers, which way is up in trunk axes, such as [0, 0, 1] upright")
+            raise LevadeError(
+                "up: should be three numbers, the upward direction in trunk axes, such as [0, 0, 1] when upright"
+            )
         if joints.shape != (size,) or not np.isfinite(joints).all():
-            raise LevadeError(f"joint_position: {joints.size} numbers, should be the angles of {size} joints [rad]")
+            raise LevadeError(f"joint_position: has {joints.size} numbers, should be the angles of {size} joints [rad]")
         return up / np.linalg.norm(up), joints
 
     @property
     def coverage(self) -> float:
-        """Share of its falls that one of its motions works from; 0 of none."""
+        """Share of its falls from which at least one of its motions works; 0 without falls."""
         if not self.records:
             return 0.0
         return float((self.knowledge.success == 1.0).any(axis=1).mean())
 
 
 def _read_fold(content: Any, *, where: str) -> Array | None:
-    """Where the joints go first, of a library's file. Raises LevadeError unless it is a list of numbers, or nothing."""
+    """Read the folded posture from a library's file. Raise LevadeError unless it is a list of numbers or missing."""
     if content is None:
         return None
     try:
@@ -168,12 +186,12 @@ def _read_fold(content: Any, *, where: str) -> Array | None:
     except (ValueError, TypeError):
         fold = np.full(1, np.nan)
     if fold.ndim != 1 or not np.isfinite(fold).all():
-        raise LevadeError(f"{where}: fold: is no list of joint angles; the file is damaged")
+        raise LevadeError(f"{where}: fold: should be a list of joint angles; the file is damaged")
     return fold
 
 
 def _read_learned(place: Path, knowledge: Knowledge) -> Learned | None:
-    """What was learned from these falls and motions; None if nothing was, or from others, which a build has added to.
+    """Read the learned model; return None if there is none, or if a build has changed the falls or motions since.
 
     Raises:
         LevadeError: If the file is damaged.
@@ -186,16 +204,20 @@ def _read_learned(place: Path, knowledge: Knowledge) -> Learned | None:
             raise ValueError
         falls = model.arrays.pop("falls")
     except (OSError, EOFError, ValueError, KeyError, zipfile.BadZipFile, zlib.error):
-        raise LevadeError(f"{place}: is damaged; remove it, or learn again") from None
+        raise LevadeError(f"{place}: the file is damaged; remove it, or learn again") from None
     same = np.array_equal(falls, knowledge.falls) and np.array_equal(model.motions, knowledge.motions)
     return model if same else None
 
 
 def read_success(directory: Path, knowledge: Knowledge) -> dict[str, Array]:
-    """Which of the motions works from which of the falls, as far as a build wrote it.
+    """Read which motion works from which fall, as far as a build has written it.
+
+    Args:
+        directory: Directory of the library.
+        knowledge: Names the falls and motions.
 
     Returns:
-        The tables ``success`` and ``perturbed`` of `Knowledge`, NaN where nothing was written, shape (n, m) each.
+        The tables ``success`` and ``perturbed`` of `Knowledge`, shape (n, m) each, NaN where nothing was written.
 
     Raises:
         LevadeError: If the file is damaged.
@@ -210,7 +232,7 @@ def read_success(directory: Path, knowledge: Knowledge) -> dict[str, Array]:
         if any(one.shape != (len(falls), len(motions)) for one in written):
             raise ValueError
     except (OSError, EOFError, ValueError, KeyError, zipfile.BadZipFile, zlib.error):
-        raise LevadeError(f"{place}: is damaged; remove it, and build the library again") from None
+        raise LevadeError(f"{place}: the file is damaged; remove it, and build the library again") from None
     rows, here = np.intersect1d(knowledge.falls, falls, return_indices=True)[1:]
     columns, there = np.intersect1d(knowledge.motions, motions, return_indices=True)[1:]
     for table, one in zip(tables.values(), written, strict=True):

@@ -1,15 +1,15 @@
-"""Building a library: fall by fall, first the motions that are there, then a search around the best of them, then a cold one.
+"""Build a library. For each fall, try the known motions, then search around the best of them, then search from nothing.
 
     library = build(load_task("self-righting"), starts=100, directory=Path("falls"))
 
 DIR/task.yaml            the task, with every default filled in, from the first fall of the family
 DIR/library.yaml         seed and number of falls
-DIR/falls/000012.json    how the robot lies, and what came of it: written when the fall is done
+DIR/falls/000012.json    how the robot lies, and the result: written when the fall is done
 DIR/motions/000012.npz   the motion that was found for this fall
-DIR/success.npz          which motion works from which fall, on the model and on a robot that differs from it
+DIR/success.npz          which motion works from which fall, on the model and on a perturbed model
 
-Falls go in rounds, and a fall sees the library as it was when its round began. So the result depends neither on threads and
-processes nor on where an earlier build was stopped. In one process, the searches of a round are driven in lockstep.
+Falls are solved in rounds, and each fall sees the library as it was when its round began. So the result depends neither on
+threads and processes nor on where an earlier build was stopped. In one process, the searches of a round run in lockstep.
 """
 
 from __future__ import annotations
@@ -39,19 +39,19 @@ from levade.tasks import Task
 from levade.writing import replacing
 
 _ROUND = 32
-"""Falls of a round, once there are as many: enough to share batches, and few enough that the next ones profit."""
+"""Largest number of falls in a round: enough to share batches, and few enough that later falls profit from the motions."""
 
 
 @dataclass(frozen=True)
 class Progress:
-    """How far a build is.
+    """Reports how far a build has come.
 
     Attributes:
-        done: Falls that are done.
-        starts: Falls in all.
-        motions: Motions that were found.
-        methods: How many falls were solved in which way.
-        trials: Roll-outs so far.
+        done: Number of falls that are done.
+        starts: Total number of falls.
+        motions: Number of motions that were found.
+        methods: Method -> number of falls that it solved.
+        trials: Number of roll-outs so far.
     """
 
     done: int
@@ -74,31 +74,36 @@ def build(
     observe: Callable[[Progress], object] | None = None,
     stopping: Callable[[], bool] = lambda: False,
 ) -> Library:
-    """Build a library, or go on with one: falls that are done already are not done again, and there may be more of them.
+    """Build a library, or continue one. Finished falls are not solved again, and ``starts`` may be larger than before.
 
     Args:
-        task: What each motion is to do. Its family of falls is that of its start, or else the usual one (`Falls`).
-        robot: The robot, instead of the one that the task names.
-        starts: Falls in all.
+        task: What each motion has to do. Its start gives the family of falls; otherwise the default family is used (`Falls`).
+        robot: The robot. Defaults to the one that the task names.
+        starts: Total number of falls.
         seed: Seed of the falls and of the searches.
-        threads: Engine threads; 0 for one per core. The result does not depend on it.
-        processes: Processes that do the falls of a round side by side, with one thread each. Nor does it depend on this.
-        shard: Which of the falls this library is of; `merge` joins shards.
-        directory: Where to write.
-        observe: Called after each part of a round.
-        stopping: Asked between generations; once it says so, the build ends, with all falls kept that are done.
+        threads: Number of engine threads (0: one per core). The result does not depend on it.
+        processes: Number of processes that solve the falls of a round in parallel, with one thread each. The result does
+            not depend on it.
+        shard: The share of the falls that this library covers. `merge` joins shards.
+        directory: Directory to write to.
+        observe: Function that is called after each part of a round.
+        stopping: Function that is called between generations. When it returns True, the build ends and keeps all falls that
+            are done.
+
+    Returns:
+        The library.
 
     Raises:
-        LevadeError: If the task does not fit together, the directory holds something else or cannot be written, or a process
+        LevadeError: If the task is not consistent, the directory holds something else or cannot be written, or a process
             dies.
     """
     if starts < 1:
-        raise LevadeError(f"{starts} falls are none; 100 are usual", field="starts")
+        raise LevadeError(f"{starts} falls are too few; give 1 or more, such as 100", field="starts")
     if processes < 1:
-        raise LevadeError(f"{processes} processes do nothing; give 1 or more", field="jobs")
+        raise LevadeError(f"{processes} processes are too few; give 1 or more", field="jobs")
     if not shard.of(starts):
         raise LevadeError(f"{starts} falls have no shard {shard}; give as many falls as shards", field="starts")
-    if task.start.fallen is None and (directory / LIBRARY).is_file():  # go on with its falls, whatever is usual by now
+    if task.start.fallen is None and (directory / LIBRARY).is_file():  # keep its falls, even if the default has changed
         task = replace(task, start=read_library(directory)[0].start)
     falls = Falls(task, robot=robot, seed=seed, threads=threads)
     with storing(directory, then=Remedy("give another directory")):
@@ -112,7 +117,14 @@ def build(
 
 
 def rounds(starts: int) -> Iterator[tuple[int, int]]:
-    """First fall of each round, and the first beyond it, up to a number of falls: 1, 1, 2, 4, ... and then `_ROUND`."""
+    """Divide falls into rounds of 1, 1, 2, 4, ... and then `_ROUND` falls.
+
+    Args:
+        starts: Total number of falls.
+
+    Yields:
+        Index of the first fall of a round, and the index after its last.
+    """
     first, size = 0, 1
     while first < starts:
         yield first, min(first + size, starts)
@@ -123,11 +135,11 @@ _Workers = Pool[Fall | Row, tuple[Array, Array] | None]
 
 
 class _Ended(Exception):
-    """The build is to end."""
+    """Ends the build."""
 
 
 class _Builder:
-    """Does a build's rounds, in this process or in others."""
+    """Runs the rounds of a build, in this process or in others."""
 
     def __init__(
         self,
@@ -144,7 +156,7 @@ class _Builder:
         self._solver.load(own)
 
     def go(self, pool: AbstractContextManager[_Workers | None]) -> None:
-        """All rounds and every pair, or as far as it gets until it is stopped."""
+        """Run all rounds, then try every pair of fall and motion, until done or stopped."""
         with suppress(_Ended), pool as workers:
             for first, last in rounds(len(self._own)):
                 pending = [i for i in self._own[first:last] if i not in self._solver.records]
@@ -163,12 +175,12 @@ class _Builder:
             self._check()
 
     def _check(self) -> None:
-        """Leave the round, and with it the falls in work, once the build is to end."""
+        """Abandon the round and its unfinished falls when the build has to end."""
         if self._stopping():
             raise _Ended
 
     def _complete(self, workers: _Workers | None) -> None:
-        """Try every motion from every fall, on the model and on a robot that differs, and write which works."""
+        """Try every motion from every fall, on the model and on a perturbed model, and write which ones work."""
         records = self._solver.records
         known = Knowledge.of([records[i] for i in self._own], self._falls.mirror)
         known = known.merged(read_success(self._directory, known))

@@ -1,4 +1,4 @@
-"""Trying a library on falls that it has never seen, on the nominal model and on robots that differ from it.
+"""Try a library on falls that it has never seen, on the nominal model and on perturbed models.
 
 found = check_library(Library.load(Path("falls")), starts=200, seed=1)
 found.first, found.after[3], found.perturbed, found.twice
@@ -25,60 +25,65 @@ from levade.search.evaluation import Mask
 from levade.search.objective import Objective, Rollouts
 
 AFTER = (2, 3, 5)
-"""Of how many of the likeliest motions one has to work, in simulation from the very state."""
+"""Numbers k for which the check counts whether one of the k likeliest motions works in simulation from that state."""
 
 _AT_ONCE = 32
-"""Falls in one batch."""
+"""Number of falls in one batch."""
 
 
 @dataclass(frozen=True)
 class Share:
-    """A share of successes, with the interval of all shares that fit the count, at 95 % confidence (Wilson)."""
+    """Holds a share of successes and its 95 % confidence interval (Wilson).
+
+    Attributes:
+        successes: Number of successes.
+        runs: Number of runs.
+    """
 
     successes: int
     runs: int
 
     @property
     def share(self) -> float:
-        """Successes of all runs; 0 of none."""
+        """Successes divided by runs; 0 without runs."""
         return self.successes / self.runs if self.runs else 0.0
 
     @property
     def low(self) -> float:
-        """The lowest share that fits."""
+        """Lower end of the confidence interval."""
         return wilson(self.successes, self.runs)[0]
 
     @property
     def high(self) -> float:
-        """The highest share that fits."""
+        """Upper end of the confidence interval."""
         return wilson(self.successes, self.runs)[1]
 
     def __str__(self) -> str:
         return f"{self.share:.1%} ({self.low:.1%} to {self.high:.1%})"
 
     def to_json(self) -> dict[str, float | int]:
-        """Plain numbers."""
+        """Convert the share to plain numbers."""
         return {"share": self.share, "low": self.low, "high": self.high, "successes": self.successes, "runs": self.runs}
 
 
 @dataclass(frozen=True, eq=False)
 class LibraryCheck:
-    """What a library is worth on falls that it has never seen.
+    """Reports how well a library does on falls that it has never seen.
 
     Attributes:
-        starts: Falls that were tried.
-        seed: Their seed.
-        first: The first answer works, on the nominal model.
-        after: Number k -> one of the k likeliest motions works.
-        refined: The first answer works on the model once it is refined. None if it was not.
-        twice: The first answer works, or another answer does from where the first one left the robot.
-        lying: What the robot lies on (`levade.library.falls.FACES`) -> the first answer works from there.
-        perturbed: The first answer works on a robot that differs from the model, another one for each fall.
-        expected: Mean of the probabilities that came with the first answers: if they are true, between `first` and `perturbed`,
-            as a library's own falls are tried on both.
-        answer_ms: Median and 99th percentile of the time that an answer took [ms], without a simulator.
-        failed: Falls from which the first answer did not work.
-        interrupted: Whether it was stopped before its end.
+        starts: Number of falls that were tried.
+        seed: Seed of these falls.
+        first: How often the first answer works on the nominal model.
+        after: Number k -> how often one of the k likeliest motions works.
+        refined: How often the first answer works on the model after refinement. None without refinement.
+        twice: How often the first answer works, or a second answer works from where the first one left the robot.
+        lying: What the robot lies on (`levade.library.falls.FACES`) -> how often the first answer works from there.
+        perturbed: How often the first answer works on a perturbed model, which is another one for each fall.
+        expected: Mean probability that the first answers predict. Calibrated probabilities lie between `first` and
+            `perturbed`, since the library's own falls are tried on both.
+        answer_ms: Median and 99th percentile of the time of an answer [ms], without a simulator.
+        failed: Indices of the falls from which the first answer did not work.
+        interrupted: Whether the check was stopped before its end.
     """
 
     starts: int
@@ -95,7 +100,7 @@ class LibraryCheck:
     interrupted: bool = False
 
     def to_json(self) -> dict[str, object]:
-        """Plain numbers."""
+        """Convert the result to plain numbers."""
         after = {str(k): share.to_json() for k, share in self.after.items()}
         lying = {name: share.to_json() for name, share in self.lying.items()}
         refined = {} if self.refined is None else {"refined": self.refined.to_json()}
@@ -133,23 +138,26 @@ def check_library(
 
     Args:
         library: The library.
-        robot: Its robot, if the task's name does not say it.
-        starts: How many falls.
-        seed: Their seed.
-        threads: Engine threads; 0 for one per core.
-        perturbation: How robots differ from the model. Defaults to what `levade check` takes.
-        refine: For how long an answer that does not work is refined in simulation [s] (`levade.library.refining`), which
-            depends on the computer. None leaves that out.
-        stopping: Asked on the way; once it says so, the check ends with the falls so far.
+        robot: The library's robot. Defaults to the one that the task names.
+        starts: Number of falls.
+        seed: Seed of the falls.
+        threads: Number of engine threads (0: one per core).
+        perturbation: How perturbed models differ from the nominal one. Defaults to that of `levade check`.
+        refine: Time for which an answer that does not work is refined in simulation [s] (`levade.library.refining`). The
+            result then depends on the computer. None: no refinement.
+        stopping: Function that is called between batches. When it returns True, the check ends with the falls so far.
+
+    Returns:
+        The shares of falls from which the library's answers work.
 
     Raises:
-        LevadeError: If the seed is that of the library's own falls, or the task does not fit together.
+        LevadeError: If the seed is that of the library's own falls, or the task is not consistent.
     """
     task, own = read_library(library.directory)
     if seed == own:
         raise LevadeError(f"{seed} is the seed of the library's own falls; give another", field="seed")
     if starts < 1:
-        raise LevadeError(f"{starts} falls are none; 200 are usual", field="starts")
+        raise LevadeError(f"{starts} falls are too few; give 1 or more, such as 200", field="starts")
     falls = Falls(task, robot=robot, seed=seed, threads=threads)
     trial = _Trial(library, falls, seed, perturbation or Perturbation(), refine)
     for first in range(0, starts, _AT_ONCE):
@@ -166,7 +174,7 @@ class _Trial:
         self._library, self._falls, self._seed, self._perturbation = library, falls, seed, perturbation
         self._refine, self._refined = refine, 0
         self._plays = Plays(library.directory, library.knowledge.mirror)
-        self._works: list[Mask] = []  # of the likeliest motions of each fall
+        self._works: list[Mask] = []  # whether each of the likeliest motions works, per fall
         self._perturbed: list[bool] = []
         self._faces: list[str] = []
         self._recovered = 0
@@ -230,7 +238,7 @@ class _Trial:
         return answer
 
     def _again(self, objectives: Sequence[Objective], plays: Sequence[Play]) -> int:
-        """Of falls from which a motion did not work, how many another answer recovers from, where that one left the robot."""
+        """Count the failed falls that a second answer recovers, from where the first one left the robot."""
         engine = self._falls.simulation.engine
         if not isinstance(engine, MujocoEngine):
             return 0

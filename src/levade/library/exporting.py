@@ -1,15 +1,15 @@
-"""A library for a robot: one folder that needs numpy alone, which asks, plays, looks whether it stands, and asks again.
+"""Export a library for a robot: one folder that needs only numpy. It asks, plays, checks whether the robot stands, and repeats.
 
     exported = export_library(Library.load("falls"), Path("falls-robot"))
 
 FOLDER/ask.py                       asks and plays (`levade.exports.asker`)
 FOLDER/player.py                    plays one motion (`levade.exports.player`)
-FOLDER/library.json, model.npz      joints, the fold, where motions are; what it answers by
+FOLDER/library.json, model.npz      joints, the fold, paths of the motions; the model that ranks them
 FOLDER/motions/000012/from-000034   a motion of the library from a fall, as `levade export` writes it
 
-A motion that gets up from many falls does otherwise from each of them. What a player compares the robot with has to be the
-simulation from where the robot lies, so that a motion is there once for each way to lie that it is the first answer to. Images
-of motions are in 000012-mirrored; they are simulated from where images of falls lie.
+A motion that gets up from many falls runs differently from each of them. A player has to compare the robot with a simulation
+from where the robot lies. So the folder holds a motion once for each lying pose to which it is the first answer. Mirror images
+of motions are in 000012-mirrored; they are simulated from the mirror images of falls.
 """
 
 from __future__ import annotations
@@ -44,17 +44,17 @@ from levade.search.outcome import Solution, Stopped, Trial
 from levade.search.recording import record
 
 _APART = 0.3
-"""Between ways to lie [rad], beyond which a motion is simulated from both."""
+"""Distance between two lying poses [rad] beyond which a motion is simulated from both."""
 
 
 @dataclass(frozen=True)
 class ExportedLibrary:
-    """What was written.
+    """Lists what an export wrote.
 
     Attributes:
-        directory: Where.
-        motions: Number of each motion -> its folders, one for each way to lie that it was simulated from.
-        failed: Those of them in which it does not work; the model knows how often it does.
+        directory: Directory of the export.
+        motions: Number of each motion -> its folders, one for each lying pose from which it was simulated.
+        failed: Folders in which the motion does not work. The model accounts for these in its probabilities.
     """
 
     directory: Path
@@ -71,26 +71,29 @@ def export_library(
     command: str | None = None,
     observe: Callable[[int, int], object] = lambda done, motions: None,
 ) -> ExportedLibrary:
-    """Write a library for a robot, all files of it or none.
+    """Write a library for a robot, either all its files or none.
 
     Args:
         library: The library.
-        directory: Where to write.
-        robot: Its robot, if the task's name does not say it.
-        rate: Of the motions' rows [Hz]. Defaults to the simulation's.
-        command: How it was asked for, for the record.
-        observe: Called with the number of motions that are done, and of all.
+        directory: Directory to write to.
+        robot: The library's robot. Defaults to the one that the task names.
+        rate: Rate of the motions' rows [Hz]. Defaults to the simulation's.
+        command: Command line that asked for the export, which is written into the files.
+        observe: Function that is called with the number of finished motions and the total.
+
+    Returns:
+        The paths that were written.
 
     Raises:
-        LevadeError: If the library has no motions, or its falls do not fold up first, or the directory cannot be written.
+        LevadeError: If the library has no motions, its robot does not fold up first, or the directory cannot be written.
     """
     knowledge = library.knowledge
     if not len(knowledge.motions):
-        raise LevadeError(f"{library.directory}: no motion was found yet; build it further")
+        raise LevadeError(f"{library.directory}: no motion was found yet; continue the build")
     if library.fold is None:
         raise LevadeError(
-            f"{library.directory}: its falls do not fold up first, so that its motions begin anywhere, and no player can check"
-            " that; build one whose start has fallen: {fold: {}}"
+            f"{library.directory}: the robot does not fold up first, so a player cannot check where a motion begins;"
+            " build a library whose start has fallen: {fold: {}}"
         )
     task, seed = read_library(library.directory)
     falls = Falls(task, robot=robot, seed=seed, threads=1)
@@ -135,7 +138,14 @@ def export_library(
 
 
 def packed(model: Model) -> bytes:
-    """A model's arrays, for numpy; the same ones give the same bytes."""
+    """Pack a model's arrays into an npz file; equal arrays give equal bytes.
+
+    Args:
+        model: The model.
+
+    Returns:
+        Content of the file.
+    """
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as file:
         for one in fields(Model):
@@ -146,9 +156,10 @@ def packed(model: Model) -> bytes:
 
 
 def _ways(library: Library) -> dict[int, list[tuple[int, bool]]]:
-    """Ways to lie that each motion is simulated from: falls, or images of falls, each with whether it is the image.
+    """Choose the falls from which each motion is simulated, each with whether its mirror image is meant.
 
-    Its own fall, and each fall from which it works and is the first answer, unless the robot lies nearly so in one of them.
+    A motion gets its own fall, and each fall to which it is the first answer and works. Falls that are close to one that was
+    chosen already are left out.
     """
     known, mirror = library.knowledge, library.knowledge.mirror
     row = {int(fall): i for i, fall in enumerate(known.falls)}
@@ -168,20 +179,20 @@ def _ways(library: Library) -> dict[int, list[tuple[int, bool]]]:
 
 
 def _lying(known: Knowledge, row: int, *, image: bool) -> tuple[Array, Array]:
-    """Which way is up in a fall, or in its image, and where the joints are."""
+    """Return the upward direction in a fall, or in its mirror image, and the joint angles."""
     up, joints = known.up[row], known.joint_position[row]
     return (known.mirror.up(up), known.mirror.posture(joints)) if image and known.mirror is not None else (up, joints)
 
 
 def _simulated(falls: Falls, plays: Plays, number: int, fall: int, *, image: bool) -> Motion:
-    """A motion from where a fall left the robot; or from where the image of the fall lies, once it has folded up."""
+    """Simulate a motion from a fall; or, after folding up, from the mirror image of the fall."""
     lying, play = falls.objective(fall), plays[number]
     objective = falls.from_state(_mirrored(falls, lying.state)) if image else lying
     return record(objective, _as_found(objective, play.decisions(objective.policy)), seed=play.motion.provenance.seed)
 
 
 def _mirrored(falls: Falls, lying: State) -> State:
-    """Where the image of a state lies, at rest."""
+    """Return the mirror image of a state, at rest."""
     mirror, layout = falls.mirror, falls.simulation.engine.layout
     assert mirror is not None
     qpos = lying.qpos[0].copy()
@@ -194,7 +205,7 @@ def _mirrored(falls: Falls, lying: State) -> State:
 
 
 def _as_found(objective: Objective, weights: np.ndarray) -> Solution:
-    """A motion as if it had been searched for: what it achieves on the model."""
+    """Evaluate a motion on the model, as if a search had found it."""
     found = objective.evaluate(Trials(weights, objective.task.hold_steps))
     own = {name: one.weight for name, one in objective.task.costs.items()}
     best = Trial.of(weights[0], float(found.cost(own)[0]), found, 0)

@@ -1,4 +1,4 @@
-"""The falls of a family, each with an objective, on one simulation: their roll-outs share batches."""
+"""Falls of one family. Each has its own objective, and all share one simulation, so that roll-outs share batches."""
 
 from __future__ import annotations
 
@@ -24,37 +24,39 @@ from levade.search.objective import AT_ONCE, Objective, Simulation, evaluate_man
 from levade.tasks import StartChoice, Task
 
 FACES = ("tail", "nose", "right", "left", "belly", "back")
-"""What a robot lies on where up is most along x, -x, y, -y, z, -z of its trunk; on its belly, or on its feet."""
+"""What a robot lies on if up is mostly along x, -x, y, -y, z, -z of its trunk. "belly" includes standing on the feet."""
 
 _TAG = 1_818_845_550
-"""Keeps perturbed models apart from those of searches and checks of motions."""
+"""Part of a seed, so that perturbed models differ from those of searches and of checks of motions."""
 
 
 class Falls:
-    """A task from each fall of a family.
+    """Poses a task from each fall of a family.
 
     Attributes:
         task: The task, from the first fall of the family.
-        simulation: What all of them are simulated in.
-        fold: Where its joints go first, before anything is asked [rad], shape (joints,); None if nowhere.
-        mirror: Of the robot, if its sides are alike, and so are the scene's and the policy's.
+        simulation: The simulation that all falls share.
+        fold: Joint angles to which the robot folds up first [rad], shape (joints,). None if it does not fold up.
+        mirror: Mirror of the robot. None unless robot, scene and policy are all symmetric.
     """
 
     def __init__(self, task: Task, *, robot: Robot | None = None, seed: int = 0, threads: int = 0) -> None:
         """Build the simulation.
 
         Args:
-            task: The task. Its family of falls is that of its start, if it has one; else falls from the robot's own height,
-                after which it draws its legs in.
-            robot: The robot, instead of the one that the task names.
-            seed: Which family.
-            threads: Engine threads; 0 for one per core.
+            task: The task. Its start gives the family of falls. Without one, the robot falls from its own height and then
+                draws its legs in.
+            robot: The robot. Defaults to the one that the task names.
+            seed: Seed of the family.
+            threads: Number of engine threads (0: one per core).
 
         Raises:
-            LevadeError: If the task does not fit together.
+            LevadeError: If the task is not consistent.
         """
         if task.robust is not None or task.hardware is not None:
-            raise LevadeError("library: it is built on the nominal model; leave robust and hardware out of the task")
+            raise LevadeError(
+                "library: a library is built on the nominal model; remove robust and hardware from the task"
+            )
         robot = robot or task.robot.load()
         fallen = task.start.fallen or _usual(task, robot)
         self._fallen = replace(fallen, seed=seed, index=0)
@@ -69,30 +71,52 @@ class Falls:
         return None if mirror is None or mirror.decisions(policy, anything) is None else mirror
 
     def objective(self, index: int) -> Objective:
-        """The task from one of the falls."""
+        """Return the task from one of the falls.
+
+        Args:
+            index: Index of the fall in its family.
+        """
         start = StartChoice(fallen=replace(self._fallen, index=index))
         engine, robot = self.simulation.engine, self.simulation.robot
         state = start_state(engine, robot, self.task.scene, start.choice)
         return Objective(self.simulation.starting(state), replace(self.task, start=start))
 
     def folded(self, state: State) -> State:
-        """How a robot lies once it has done what it does first, after a fall or a failure."""
+        """Simulate folding up, which the robot does first after a fall or a failure.
+
+        Args:
+            state: State after the fall.
+
+        Returns:
+            State after folding up; unchanged if the robot does not fold up.
+        """
         if self.fold is None or self._fallen.fold is None:
             return state
         return folded(self.simulation.engine, state, self.fold, self._fallen.fold)
 
     def from_state(self, state: State) -> Objective:
-        """The task from a state that is none of the falls."""
+        """Return the task from a state that is not one of the falls.
+
+        Args:
+            state: The state.
+        """
         return Objective(self.simulation.starting(state), self.task)
 
     def sensed(self, state: State) -> tuple[Array, Array]:
-        """What a robot at rest senses: which way is up in trunk axes, shape (3,), and its joint angles [rad]."""
+        """Return what a robot at rest senses.
+
+        Args:
+            state: State of the robot.
+
+        Returns:
+            Upward direction in trunk axes, shape (3,), and joint angles [rad], shape (joints,).
+        """
         quaternion = state.qpos[0, self.simulation.engine.layout.trunk_quaternion]
         return up_in_trunk(quaternion), state.joint_position[0].copy()
 
 
 def _usual(task: Task, robot: Robot) -> Fallen:
-    """Falls from the robot's own height, after which it draws its legs in, if they are such legs."""
+    """Return the default family: falls from the robot's own height, after which it draws its legs in if it can."""
     fallen = Fallen(dimensions(robot).height)
     if task.physics.engine != "mujoco":
         return fallen
@@ -104,10 +128,13 @@ def _usual(task: Task, robot: Robot) -> Fallen:
 
 
 def face(up: Array) -> str:
-    """What a robot lies on, one of `FACES`.
+    """Name what a robot lies on.
 
     Args:
-        up: Which way is up, in trunk axes, shape (3,).
+        up: Upward direction in trunk axes, shape (3,).
+
+    Returns:
+        One of `FACES`.
     """
     axis = int(np.argmax(np.abs(up)))
     return FACES[2 * axis + int(up[axis] < 0)]
@@ -115,13 +142,25 @@ def face(up: Array) -> str:
 
 @dataclass(frozen=True, eq=False)
 class Play:
-    """A motion to play, or its image in a mirror."""
+    """Holds a motion to play, or its mirror image.
+
+    Attributes:
+        motion: The motion.
+        mirror: The mirror in which its image is played. None to play the motion itself.
+    """
 
     motion: Motion
     mirror: Mirror | None = None
 
     def decisions(self, policy: JointPolicy) -> Array:
-        """Its weights for a policy that differs from the motion's own in nothing but where it starts, shape (1, d)."""
+        """Convert the motion to weights of a policy that differs from the motion's own only in its start.
+
+        Args:
+            policy: The policy.
+
+        Returns:
+            Weights, shape (1, d).
+        """
         motion = self.motion
         weights = motion["weights"][None]
         if isinstance(policy, FreePolicy):
@@ -131,20 +170,20 @@ class Play:
         if self.mirror is None:
             return weights
         image = self.mirror.decisions(policy, weights)
-        assert image is not None  # else the library would be without a mirror
+        assert image is not None  # otherwise the library would have no mirror
         return image
 
 
 class Playable(Protocol):
-    """What can be played from a fall: a motion, or weights."""
+    """Can be played from a fall: a motion, or weights."""
 
     def decisions(self, policy: JointPolicy) -> Array:
-        """Its weights for a policy, shape (1, d)."""
+        """Return the weights for a policy, shape (1, d)."""
         ...
 
 
 class Plays:
-    """What there is to play in a library, by number (`levade.library.records`); each motion is read once."""
+    """Maps numbers of motions (`levade.library.records`) to motions to play; reads each file once."""
 
     def __init__(self, directory: Path, mirror: Mirror | None) -> None:
         self._directory, self._mirror = directory, mirror
@@ -160,16 +199,16 @@ class Plays:
 def tried_on_others(
     objective: Objective, plays: Mapping[int, Playable], perturbation: Perturbation, *, seed: tuple[int, ...]
 ) -> Mask:
-    """Play motions from one fall, each on another robot that differs from the model.
+    """Play motions from one fall, each on another perturbed model.
 
     Args:
         objective: The task from that fall.
-        plays: Number of a robot -> what to play. What a number's robot is does not depend on the others.
-        perturbation: How far robots differ.
-        seed: Seed of how they do.
+        plays: Number of a perturbed model -> what to play. A model depends on its own number only.
+        perturbation: How far the models differ from the nominal one.
+        seed: Seed of the perturbed models.
 
     Returns:
-        Which work, shape (plays,).
+        Whether each one works, shape (plays,).
     """
     engine, policy, hold = objective.engine, objective.policy, objective.task.hold_steps
     numbers = np.array(list(plays), dtype=int)
@@ -180,7 +219,7 @@ def tried_on_others(
         sample = drawn[numbers[rows].tolist()]
         starts, models = perturbed_models(engine.model, engine.layout, sample, objective.state)
         weights = np.concatenate([plays[int(number)].decisions(policy) for number in numbers[rows]])
-        # until the first reference arrives, the joints have what they were commanded last
+        # until the first reference arrives, the joints keep their last command
         reference = replace(policy.reference(weights, hold_steps=hold), before=objective.state.joint_reference[0])
         trajectories = engine.rollout(starts, reference, models=models, record=objective.recorded)
         works[rows] = objective.judge(trajectories, hold, perturbed=True).success
@@ -188,7 +227,15 @@ def tried_on_others(
 
 
 def tried(objectives: Sequence[Objective], plays: Sequence[Sequence[Playable]]) -> list[Evaluation]:
-    """Play motions from falls, in common batches: for each objective its own, on the nominal model."""
+    """Play motions from falls in shared batches, on the nominal model.
+
+    Args:
+        objectives: The task from each fall.
+        plays: What to play from each fall.
+
+    Returns:
+        One evaluation per fall.
+    """
     asked = []
     for objective, own in zip(objectives, plays, strict=True):
         weights = np.concatenate([play.decisions(objective.policy) for play in own])

@@ -1,10 +1,10 @@
-"""A library as a picture: how its falls lie, how each was solved, and how few motions are enough.
+"""Draw a library: how the robot lies after each fall, how each fall was solved, and how few motions are enough.
 
     draw(library, Path("figures"), format="png")    # figures/library.png
 
-Two discs are the two halves of the sphere of ways up, seen from above the robot and from below it, with equal areas equal
-(Lambert's azimuthal projection). A fall is a point: near the middle of the second disc, the robot lies on its back. Needs
-matplotlib (`pip install levade[figures]`).
+Two discs show the two halves of the sphere of upward directions, seen from above and from below the robot, in an equal-area
+projection (Lambert's azimuthal). Each point is a fall. Near the middle of the second disc, the robot lies on its back. The
+figure needs matplotlib (`pip install levade[figures]`).
 """
 
 from __future__ import annotations
@@ -21,24 +21,24 @@ from levade.report.figures import PAGE, write_figures
 from levade.report.style import LIGHT
 
 _LOOK: dict[Method, tuple[str, str, str, float]] = {
-    Method.KNOWN: ("a motion that was there", LIGHT.muted, "o", 9.0),
-    Method.NEAR: ("a search around one", LIGHT.front_left, "^", 22.0),
+    Method.KNOWN: ("a known motion", LIGHT.muted, "o", 9.0),
+    Method.NEAR: ("a search around a known motion", LIGHT.front_left, "^", 22.0),
     Method.COLD: ("a search from nothing", LIGHT.hind_left, "s", 22.0),
     Method.NONE: ("not at all", LIGHT.bad, "x", 26.0),
 }
-"""Method -> what solved a fall, colour, marker and its area [pt^2]."""
+"""Method -> its label, colour, marker and area of the marker [pt^2]."""
 
 
 def draw(library: Library, directory: Path, *, format: str = "pdf") -> list[Path]:
-    """Write the figure ``library`` into a directory, which is made if need be.
+    """Write the figure ``library`` into a directory, which is created if it does not exist.
 
     Args:
         library: The library.
-        directory: Where to write.
+        directory: Directory to write to.
         format: "pdf", "svg" or "png".
 
     Returns:
-        What was written.
+        Paths of the files.
 
     Raises:
         LevadeError: If the format is unknown, the directory cannot be written, or matplotlib is missing.
@@ -69,12 +69,15 @@ def _figure(library: Library) -> Any:
 
 
 def projected(up: Array) -> tuple[Array, Array]:
-    """Where ways up are drawn in their disc of radius 1: to the right and upwards, shape (n,) each.
+    """Project upward directions onto a disc of radius 1.
 
-    Upwards is a robot that lies on its tail, with its nose up; to the left one whose left is up.
+    The top of the disc is a robot that lies on its tail, with its nose up. The left is one whose left side is up.
 
     Args:
-        up: Shape (n, 3), in trunk axes.
+        up: Upward directions in trunk axes, shape (n, 3).
+
+    Returns:
+        Positions to the right and upwards, shape (n,) each.
     """
     sideways = np.hypot(up[:, 0], up[:, 1])
     scale = np.sqrt(1.0 - np.abs(up[:, 2])) / np.maximum(sideways, 1e-12)

@@ -1,9 +1,9 @@
-"""Motions made to work on robots that differ: a search from one that works on the model, judged on perturbed models.
+"""Make motions robust: search on from a motion that works on the model, and judge candidates on perturbed models.
 
     better = harden(objectives, weights, seeds)
 
-A motion that was found on the model alone works from its own fall on half to all of the robots that differ, and from as many
-falls nearby. What is searched for here is less a better motion than one that is far from where it fails.
+A motion that was found on the model alone works from its own fall on between half and all of the perturbed models. It works
+from a similar share of the falls nearby. This search looks less for a better motion than for one that is far from failure.
 """
 
 from __future__ import annotations
@@ -17,18 +17,18 @@ from levade.tasks import Stage, Task
 from levade.tasks.robust import Racing, Robust
 
 _STEP = 0.3
-"""Of the initial step size: it begins at a motion that works."""
+"""Factor on the initial step size, which is small because the search begins at a motion that works."""
 
 _TRIALS, _SHARE = 1000, 0.4
-"""Roll-outs for one motion at most, also as a share of those of the task's own search."""
+"""Most roll-outs for one motion, as a number and as a share of the task's own search."""
 
 _LEAST = 100
-"""Roll-outs that are worth it: fewer are not one generation on perturbed models."""
+"""Fewest roll-outs that are worth a search: fewer do not make one generation on perturbed models."""
 
 _ROBUST = Robust(
     samples=16, measure="mean", redraw="generation", validation=48, required=1.0, racing=Racing(first=2, keep=0.25)
 )
-"""Two samples tell which quarter of the candidates runs all sixteen; the best has to work on the 48 that stay the same."""
+"""Two samples decide which quarter of the candidates runs all sixteen. The best has to work on 48 fixed samples."""
 
 
 def harden(
@@ -38,17 +38,17 @@ def harden(
     seeds: Sequence[int],
     observe: Callable[[int, Generation], Stopped | None],
 ) -> list[Solution | None]:
-    """Search on from motions that work, until they do on nearly every perturbed model.
+    """Search on from motions that work on the model, until they work on nearly every perturbed model.
 
     Args:
-        objectives: What each motion does.
-        weights: The motions, shape (1, d) each.
+        objectives: Objective of each motion.
+        weights: Weights of the motions, shape (1, d) each.
         seeds: Seed of each search.
-        observe: As in `levade.search.solve_many`.
+        observe: Observer, as in `levade.search.solve_many`.
 
     Returns:
-        For each a solution, whose best motion works on most of the perturbed models, maybe the one that was given. It succeeds
-        if it does on the model what is asked there. None where the task is too small for it.
+        One solution per motion. Its best motion works on most of the perturbed models; it may be the given one. The solution
+        counts as a success if the motion meets the criteria on the model. None if the task's budget is too small.
     """
     if not objectives or _trials(objectives[0].task) < _LEAST:
         return [None] * len(objectives)
@@ -64,5 +64,5 @@ def _trials(task: Task) -> int:
 
 def _hard(task: Task) -> Task:
     search = replace(task.search, trials=_trials(task), restart=None, patience=None, polish=0)
-    robust = replace(_ROBUST, success=task.success)  # so that what is asked on the model is said apart
+    robust = replace(_ROBUST, success=task.success)  # so that success on the model is reported separately
     return replace(task, robust=robust, stages=(Stage(),), search=search)

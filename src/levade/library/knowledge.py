@@ -1,10 +1,10 @@
-"""Which motion works from where: what is known of the falls so far, and what follows for another one.
+"""Collect which motion works from which fall, and predict it for other states.
 
     knowledge = Knowledge.of(records)
     knowledge.ranked(up, joint_position)            # motions, the likeliest first, each with its probability
 
-How a robot lies is which way is up for it, and where its joints are. A motion that works from the falls nearby is likely to
-work here: each of them has a say by how near it is, and all falls together have one (`levade.exports.asker.Model`).
+A lying pose is the upward direction in trunk axes and the joint angles. A motion that works from nearby falls is likely to work
+here, too. Each fall counts by how near it is; the mean over all falls counts once (`levade.exports.asker.Model`).
 """
 
 from __future__ import annotations
@@ -24,16 +24,17 @@ from levade.library.records import Record, image_of
 
 @dataclass(frozen=True, eq=False)
 class Knowledge:
-    """Falls, motions, and which of these are known to work from which.
+    """Holds falls, motions, and which motion is known to work from which fall.
 
     Attributes:
         falls: Numbers of the falls, shape (n,).
-        up: Which way is up in each, in trunk axes, shape (n, 3).
-        joint_position: Joint angles in each [rad], shape (n, joints).
-        motions: Numbers of the motions, shape (m,): `levade.library.records`.
-        success: Whether each motion works from each fall: 1, 0, or NaN where it was not tried, shape (n, m).
-        perturbed: The same on a robot that differs from the model, another one for each pair, shape (n, m).
-        mirror: Of the robot, if its sides are alike. A motion's success is then its image's, from the image of the fall.
+        up: Upward direction in each fall, in trunk axes, shape (n, 3).
+        joint_position: Joint angles in each fall [rad], shape (n, joints).
+        motions: Numbers of the motions (see `levade.library.records`), shape (m,).
+        success: Whether each motion works from each fall: 1, 0, or NaN if it was not tried, shape (n, m).
+        perturbed: The same on a perturbed model, another one for each pair, shape (n, m).
+        mirror: Mirror of the robot. None if the robot is not symmetric. With a mirror, a motion's success is also that of its
+            image from the image of the fall.
     """
 
     falls: Array
@@ -46,7 +47,12 @@ class Knowledge:
 
     @classmethod
     def of(cls, records: Sequence[Record], mirror: Mirror | None = None) -> Knowledge:
-        """What records say, of a robot with a mirror, if its sides are alike."""
+        """Collect what records say.
+
+        Args:
+            records: Records of the falls.
+            mirror: Mirror of the robot. None if it is not symmetric.
+        """
         records = sorted(records, key=lambda record: record.fall)
         found = [record.fall for record in records if record.motion == record.fall]
         motions = np.array([*found, *(image_of(one) for one in found if mirror)], dtype=np.intp)
@@ -70,17 +76,20 @@ class Knowledge:
         )
 
     def merged(self, tables: Mapping[str, Array]) -> Knowledge:
-        """The same, with what tables of the same shape say where nothing was known.
+        """Fill unknown entries from tables of the same shape.
 
         Args:
-            tables: "success" and "perturbed" -> table, NaN where it says nothing.
+            tables: "success" and "perturbed" -> table, shape (n, m), NaN where it is unknown.
+
+        Returns:
+            New knowledge; known entries are kept.
         """
         filled = {name: np.where(np.isnan(own := getattr(self, name)), table, own) for name, table in tables.items()}
         return replace(self, **filled)
 
     @cached_property
     def model(self) -> Model:
-        """What follows for other states: `levade.exports.asker`, which goes with an exported library."""
+        """The model that predicts for other states; an exported library contains it (`levade.exports.asker`)."""
         both, none = np.stack([self.success, self.perturbed]), self.mirror is None
         return Model(
             up=self.up,
@@ -94,19 +103,51 @@ class Knowledge:
         )
 
     def distances(self, up: Array, joint_position: Array) -> Array:
-        """How far a state is from each fall [rad], shape (n,): the angle between ways up, and a share of the joints'."""
+        """Measure the distance of a state from each fall: the angle between upward directions, and a share of the joints'.
+
+        Args:
+            up: Upward direction in trunk axes, shape (3,).
+            joint_position: Joint angles [rad], shape (joints,).
+
+        Returns:
+            Distances [rad], shape (n,).
+        """
         return self.model.distances(up, joint_position)
 
     def probabilities(self, up: Array, joint_position: Array) -> Array:
-        """How likely each motion works from a state, on the model or on a robot near it, shape (m,)."""
+        """Predict how likely each motion works from a state, on the model or on a perturbed model.
+
+        Args:
+            up: Upward direction in trunk axes, shape (3,).
+            joint_position: Joint angles [rad], shape (joints,).
+
+        Returns:
+            Probabilities, shape (m,).
+        """
         return self.model.probabilities(up, joint_position)
 
     def ranked(self, up: Array, joint_position: Array) -> list[tuple[int, float]]:
-        """Motions and how likely each works from a state, the likeliest first."""
+        """Rank the motions for a state.
+
+        Args:
+            up: Upward direction in trunk axes, shape (3,).
+            joint_position: Joint angles [rad], shape (joints,).
+
+        Returns:
+            Numbers of the motions and their probabilities, the likeliest first.
+        """
         return self.model.ranked(up, joint_position)
 
     def apart(self, up: Array, joint_position: Array) -> float:
-        """How far a state is from the nearest fall, or image of one, that a motion was found for [rad]; infinite of none."""
+        """Measure the distance from a state to the nearest fall, or image of a fall, for which a motion was found.
+
+        Args:
+            up: Upward direction in trunk axes, shape (3,).
+            joint_position: Joint angles [rad], shape (joints,).
+
+        Returns:
+            Distance [rad]; infinite if no motion was found yet.
+        """
         own = np.isin(self.falls, self.motions)
         if not own.any():
             return np.inf
@@ -123,11 +164,13 @@ class Knowledge:
         return order[np.searchsorted(self.motions, image_of(self.motions), sorter=order)]
 
     def cover(self) -> list[tuple[int, int]]:
-        """The fewest motions that work from all falls that any works from, nearly: motions, each with how many falls it and
-        those before it work from.
+        """Choose few motions that together work from every fall from which any motion works.
 
-        Each is the one that works from most falls that those before it do not (greedy set cover, at most ln n + 1 times the
-        fewest: V. Chvátal, A greedy heuristic for the set-covering problem, 1979).
+        Each one adds as many falls as possible to those before it (greedy set cover). The number of motions is at most
+        ln n + 1 times the smallest one: V. Chvátal, A greedy heuristic for the set-covering problem, 1979.
+
+        Returns:
+            Numbers of the motions, each with the number of falls from which it or one before it works.
         """
         works = self.success == 1.0
         left, chosen = works.any(axis=1), []

@@ -1,11 +1,11 @@
-"""Learning which motion works from where: of several kinds of models, that whose first answers work most often.
+"""Learn which motion works from where. Several kinds of models compete; the one whose first answers work most often wins.
 
     found = learn(Library.load("falls"))
     found.scores["trees"].first, found.chosen
     save(found, Path("falls"))                      # from then on, the library answers by it
 
-Each kind is judged on falls that it was not fitted to, a fifth of them at a time. Fitting needs scikit-learn (`pip install
-levade[learn]`); what is fitted is arrays, from which an answer needs numpy alone (`levade.exports.asker.Learned`).
+Each kind is judged by cross-validation with five folds. Fitting needs scikit-learn (`pip install levade[learn]`). A fitted
+model consists of arrays, so answering needs only numpy (`levade.exports.asker.Learned`).
 """
 
 from __future__ import annotations
@@ -31,16 +31,16 @@ from levade.search.storage import storing
 from levade.writing import replacing
 
 NEAREST = "nearest"
-"""What a library answers by if nothing was learned."""
+"""Kind of the model that a library uses if nothing was learned: the nearest falls."""
 
 _PARTS = 5
-"""Falls are left out in so many parts."""
+"""Number of cross-validation folds."""
 
 _FEWEST = 10
-"""Falls that are worth learning from."""
+"""Fewest falls that are worth learning from."""
 
 _BETTER = 0.001
-"""Share of first answers by which a kind has to be better than one before it, which is the simpler one."""
+"""Share of first answers by which a kind has to be better than an earlier, simpler one."""
 
 _TREES, _DEPTH, _NETWORKS, _HIDDEN = 60, 3, 3, 16
 
@@ -49,12 +49,12 @@ Fit = Callable[[Array, Array], dict[str, NDArray[Any]]]
 
 @dataclass(frozen=True)
 class Score:
-    """How a kind of model does on falls that it was not fitted to.
+    """Reports how well a kind of model does on falls to which it was not fitted.
 
     Attributes:
-        first: Share of first answers that work, on the model and on robots that differ alike.
-        brier: Mean squared difference between the probability of each pair of fall and motion, and whether it works.
-        said: Mean of the probabilities that came with the first answers.
+        first: Share of first answers that work; the nominal and the perturbed model count equally.
+        brier: Brier score: mean squared difference between the probability and the outcome of each pair of fall and motion.
+        said: Mean probability that the first answers predict.
     """
 
     first: float
@@ -64,13 +64,13 @@ class Score:
 
 @dataclass(frozen=True, eq=False)
 class Learning:
-    """What was learned.
+    """Holds the result of learning.
 
     Attributes:
-        scores: Kind of model -> how it does.
-        chosen: The kind whose first answers work most often; of equal ones the simplest.
-        model: It, fitted to all falls; None if it is `NEAREST`.
-        knowledge: What it was fitted to.
+        scores: Kind of model -> its score.
+        chosen: The kind whose first answers work most often; the simplest one among equals.
+        model: The chosen model, fitted to all falls. None if it is `NEAREST`.
+        knowledge: The data to which it was fitted.
     """
 
     scores: Mapping[str, Score]
@@ -80,13 +80,16 @@ class Learning:
 
 
 def learn(library: Library) -> Learning:
-    """Fit each kind of model, and choose.
+    """Fit each kind of model, and choose the best one.
 
     Args:
-        library: A library that is built to its end.
+        library: A library whose build is complete.
+
+    Returns:
+        Scores and the chosen model.
 
     Raises:
-        LevadeError: If scikit-learn is missing, or the library has too few falls or is not built to its end.
+        LevadeError: If scikit-learn is missing, the library has too few falls, or its build is not complete.
     """
     try:
         import sklearn  # noqa: F401
@@ -98,10 +101,10 @@ def learn(library: Library) -> Learning:
             f"{library.directory}: {len(known.falls)} falls are too few to learn from; build {_FEWEST} or more"
         )
     if np.isnan(known.success + known.perturbed).any():
-        raise LevadeError(f"{library.directory}: not every motion was tried from every fall; build it to its end")
+        raise LevadeError(f"{library.directory}: not every motion was tried from every fall; complete the build")
     with threadpool_limits(
         limits=1
-    ):  # small matrices would wait for each other; scikit-learn's own libraries are loaded now
+    ):  # for small matrices, threads cost more than they gain; scikit-learn's own libraries are loaded now
         return _learned(known)
 
 
@@ -130,7 +133,15 @@ def _learned(known: Knowledge) -> Learning:
 
 
 def save(learning: Learning, directory: Path) -> None:
-    """Write what was learned into a library's directory; if that is `NEAREST`, remove what was learned before."""
+    """Write the learned model into a library's directory. If `NEAREST` was chosen, remove an earlier model.
+
+    Args:
+        learning: Result of `learn`.
+        directory: Directory of the library.
+
+    Raises:
+        LevadeError: If the file cannot be written.
+    """
     place = directory / LEARNED
     with storing(place, then=Remedy("make room, then learn again")):
         if learning.model is None:
@@ -141,7 +152,15 @@ def save(learning: Learning, directory: Path) -> None:
 
 
 def packed(model: Learned, **more: NDArray[Any]) -> bytes:
-    """A learned model's arrays, for numpy; the same ones give the same bytes."""
+    """Pack a learned model's arrays into an npz file; equal arrays give equal bytes.
+
+    Args:
+        model: The learned model.
+        more: More arrays to write, by name.
+
+    Returns:
+        Content of the file.
+    """
     head = {"kind": np.array(model.kind), "motions": model.motions}
     arrays = {**head, "slope": np.array(model.slope), "offset": np.array(model.offset), **model.arrays, **more}
     content = io.BytesIO()
@@ -154,13 +173,13 @@ def packed(model: Learned, **more: NDArray[Any]) -> bytes:
 
 
 def _part(known: Knowledge, rows: NDArray[np.bool_]) -> Knowledge:
-    """What is known of some of the falls."""
+    """Return the knowledge about some of the falls."""
     names = ("falls", "up", "joint_position", "success", "perturbed")
     return replace(known, **{name: getattr(known, name)[rows] for name in names})
 
 
 def _table(known: Knowledge, rows: NDArray[np.bool_]) -> tuple[Array, Array]:
-    """Features of some falls, and of their images, shape (k, f); how often each motion works there, shape (k, m)."""
+    """Return features of some falls and their images, shape (k, f), and how often each motion works there, shape (k, m)."""
     up, joints = known.up[rows], known.joint_position[rows]
     works = ((known.success + known.perturbed) / 2)[rows]
     x = features(up, joints)
@@ -171,7 +190,7 @@ def _table(known: Knowledge, rows: NDArray[np.bool_]) -> tuple[Array, Array]:
 
 
 def _line(raw: Array, works: Array) -> tuple[float, float]:
-    """Slope and offset of log odds that make probabilities calibrated (Platt, 1999), fitted to falls that were left out."""
+    """Fit slope and offset of the log odds on held-out falls, so that probabilities are calibrated (Platt, 1999)."""
     from sklearn.linear_model import LogisticRegression
 
     raw = np.clip(raw.ravel(), 0.005, 0.995)
@@ -199,14 +218,14 @@ def _score(probability: Array, works: Array) -> Score:
 
 
 def _gaussian_process(x: Array, y: Array) -> dict[str, NDArray[Any]]:
-    """One kernel for all motions, whose length and noise are the likeliest (Rasmussen and Williams, 2006, ch. 5)."""
+    """Fit one kernel for all motions, with the likeliest length and noise (Rasmussen and Williams, 2006, ch. 5)."""
     from sklearn.gaussian_process import GaussianProcessRegressor
     from sklearn.gaussian_process.kernels import RBF, ConstantKernel, WhiteKernel
 
     mean = y.mean(axis=0)
     kernel = ConstantKernel(0.1, (1e-3, 10.0)) * RBF(0.5, (0.05, 5.0)) + WhiteKernel(0.05, (1e-3, 1.0))
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # a hyperparameter at its bound is as good as it gets
+        warnings.simplefilter("ignore")  # a hyperparameter may end at its bound
         fitted = GaussianProcessRegressor(kernel).fit(x, y - mean)
     own = fitted.kernel_.k1
     weights = fitted.alpha_.reshape(len(x), y.shape[1])
@@ -220,7 +239,7 @@ def _gaussian_process(x: Array, y: Array) -> dict[str, NDArray[Any]]:
 
 
 def _trees(x: Array, y: Array) -> dict[str, NDArray[Any]]:
-    """Boosted trees for each motion."""
+    """Fit boosted trees for each motion."""
     from sklearn.ensemble import GradientBoostingRegressor
 
     nodes = 2 ** (_DEPTH + 1) - 1
@@ -255,7 +274,7 @@ def _trees(x: Array, y: Array) -> dict[str, NDArray[Any]]:
 
 
 def _networks(x: Array, y: Array) -> dict[str, NDArray[Any]]:
-    """Small networks that differ in where they begin."""
+    """Fit small networks that differ in their initial weights."""
     from sklearn.neural_network import MLPRegressor
 
     with warnings.catch_warnings():

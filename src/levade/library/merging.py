@@ -1,9 +1,9 @@
-"""Shards of one library become the library: each was built on a machine of its own, of every n-th fall.
+"""Merge the shards of a library. Each shard was built on its own machine and covers every n-th fall.
 
     merge([Path("shard-0"), Path("shard-1")], Path("falls"))
 
-A shard knows nothing of the others, so that its motions differ from those of a library that was built whole. Building the
-merged library tries every motion from every fall.
+A shard does not see the motions of the others, so its motions differ from those of a library that was built as a whole.
+Building the merged library tries every motion from every fall.
 """
 
 from __future__ import annotations
@@ -26,12 +26,12 @@ from levade.writing import replacing
 
 @dataclass(frozen=True)
 class Merged:
-    """What a merge gave.
+    """Reports the result of a merge.
 
     Attributes:
-        falls: Falls that are there now.
-        starts: Falls that there are to be.
-        motions: Motions that are there now.
+        falls: Number of falls in the merged library.
+        starts: Number of falls that the complete library will have.
+        motions: Number of motions in the merged library.
     """
 
     falls: int
@@ -40,33 +40,34 @@ class Merged:
 
 
 def merge(shards: Sequence[Path], directory: Path, *, robot: Robot | None = None) -> Merged:
-    """Join shards in a directory. A merge that was interrupted can be made again.
+    """Merge shards into one directory. An interrupted merge can be repeated.
 
     Args:
-        shards: Directories of shards of one library; of some of them, or all.
-        directory: Where to write the library: a new one, or that of an earlier merge.
-        robot: The robot, if the task's name does not say it.
+        shards: Directories of some or all shards of one library.
+        directory: Directory to write to: a new one, or that of an earlier merge.
+        robot: The robot. Defaults to the one that the task names.
+
+    Returns:
+        Numbers of falls and motions.
 
     Raises:
-        LevadeError: If they are not of one task, robot, seed and number of shards, or the directory holds something else.
+        LevadeError: If the shards differ in task, robot, seed or number of shards, or the directory holds something else.
     """
     if not shards:
-        raise LevadeError("no shards to merge; give their directories")
+        raise LevadeError("there are no shards to merge; give their directories")
     task, seed = read_library(shards[0])
     n = read_shard(shards[0]).shards
     seen: dict[int, Path] = {}
     for place in shards:
         other, of = read_library(place), read_shard(place)
         if (task_to_dict(other[0]), other[1]) != (task_to_dict(task), seed):
-            raise LevadeError(
-                f"{place}: is of another task, robot or seed than {shards[0]}; merge shards of one library"
-            )
+            raise LevadeError(f"{place}: has another task, robot or seed than {shards[0]}; merge shards of one library")
         if of == WHOLE:
-            raise LevadeError(f"{place}: is a whole library, no shard; merge shards")
+            raise LevadeError(f"{place}: is a whole library, not a shard; give directories of shards")
         if of.shards != n:
-            raise LevadeError(f"{place}: is shard {of}, and {shards[0]} one of {n}; merge shards of one library")
+            raise LevadeError(f"{place}: is shard {of}, but {shards[0]} is one of {n}; merge shards of one library")
         if of.number in seen:
-            raise LevadeError(f"{place}: is shard {of}, as {seen[of.number]} is; give each shard once")
+            raise LevadeError(f"{place}: is shard {of}, and so is {seen[of.number]}; give each shard once")
         seen[of.number] = place
     starts = max(read_starts(place) for place in shards)
     with storing(directory, then=Remedy("give another directory")):
@@ -83,7 +84,7 @@ def merge(shards: Sequence[Path], directory: Path, *, robot: Robot | None = None
 
 
 def _copy(shard: Path, directory: Path) -> None:
-    """The falls of a shard that are done and not there yet: first a fall's motion, then its record."""
+    """Copy the finished falls of a shard that are not there yet: first the motion of a fall, then its record."""
     for path in sorted((shard / FALLS).glob("[0-9]*.json")):
         record = Record.load(path)
         if record_path(directory, record.fall).exists():  # what has been tried of its motion is there, too

@@ -1,8 +1,8 @@
-"""The mirror image of a robot in its sagittal plane: what works from a fall, its image does from the fall's image.
+"""Mirror a robot in its sagittal plane. If a motion works from a fall, its image works from the image of the fall.
 
 mirror = Mirror.of(robot)                       # None if left and right differ
 mirror.up(up), mirror.posture(joint_position)
-mirror.decisions(policy, weights)               # of the motion that is the image
+mirror.decisions(policy, weights)               # weights of the mirrored motion
 """
 
 from __future__ import annotations
@@ -21,16 +21,16 @@ from levade.robots.symmetry import mirror_signs
 
 _SIDEWAYS = np.array([1.0, -1.0, 1.0])
 _SAME = 1e-9
-"""[rad], up to which an image counts as one: it is exact but for rounding, or wrong by what a joint moves."""
+"""Largest deviation of a mirror image [rad]. Images are exact except for rounding, or wrong by as much as a joint moves."""
 
 
 @dataclass(frozen=True, eq=False)
 class Mirror:
-    """Which joint is which one's image, and whether it turns the other way.
+    """Maps each joint to its mirror image.
 
     Attributes:
-        joints: Of which joint each joint of the image takes the angle, shape (joints,).
-        signs: With which sign, shape (joints,).
+        joints: Index of the joint whose angle each joint of the image takes, shape (joints,).
+        signs: Sign of that angle, shape (joints,).
     """
 
     joints: NDArray[np.intp]
@@ -38,7 +38,14 @@ class Mirror:
 
     @classmethod
     def of(cls, robot: Robot) -> Mirror | None:
-        """The mirror of a robot; None if its left and right legs are not images of each other."""
+        """Find the mirror of a robot.
+
+        Args:
+            robot: The robot.
+
+        Returns:
+            The mirror. None if the robot's left and right legs are not mirror images.
+        """
         n = len(robot.joint_names)
         joints, signs = np.arange(n), np.ones(n)
         for leg in robot.legs:
@@ -54,10 +61,17 @@ class Mirror:
 
     @classmethod
     def from_json(cls, content: Any, *, where: str) -> Mirror | None:
-        """The mirror that `to_json` wrote; None of None.
+        """Read a mirror that `to_json` wrote.
+
+        Args:
+            content: Content of the file, or None.
+            where: File that messages name.
+
+        Returns:
+            The mirror. None if the content is None.
 
         Raises:
-            LevadeError: If it is none.
+            LevadeError: If the content is not a mirror.
         """
         if content is None:
             return None
@@ -67,25 +81,31 @@ class Mirror:
             if sorted(joints.tolist()) != list(range(len(signs))) or not (np.abs(signs) == 1.0).all():
                 raise ValueError
         except (ValueError, TypeError, LookupError, OverflowError):
-            raise LevadeError(f"{where}: mirror: is none that a build wrote; the file is damaged") from None
+            raise LevadeError(f"{where}: mirror: was not written by a build; the file is damaged") from None
         return cls(joints, signs)
 
     def to_json(self) -> dict[str, list[int]]:
-        """Plain lists."""
+        """Convert the mirror to plain lists."""
         return {"joints": self.joints.tolist(), "signs": self.signs.astype(int).tolist()}
 
     def up(self, up: Array) -> Array:
-        """Directions in trunk axes, shape (..., 3)."""
+        """Mirror directions in trunk axes, shape (..., 3)."""
         return up * _SIDEWAYS
 
     def posture(self, joint_position: Array) -> Array:
-        """Joint angles [rad], shape (..., joints)."""
+        """Mirror joint angles [rad], shape (..., joints)."""
         return joint_position[..., self.joints] * self.signs
 
     def decisions(self, policy: JointPolicy, decisions: Array) -> Array | None:
-        """What a policy has to be told for the image of a motion, shape (n, size).
+        """Mirror the weights of motions.
 
-        None if it cannot be told so: legs that share weights are torn apart by it, or it ends in another posture.
+        Args:
+            policy: The policy.
+            decisions: Weights of the policy, shape (n, size).
+
+        Returns:
+            Weights of the mirrored motions, shape (n, size). None if the policy cannot express them: legs that share weights
+            would have to move differently, or the motion would end in another posture.
         """
         inner = policy.policy if isinstance(policy, FreePolicy) else policy
         if not isinstance(inner, Policy):
@@ -100,7 +120,7 @@ class Mirror:
             return None
         rest = decisions[:, size:]
         if isinstance(policy, FreePolicy) and policy.goal is not None:
-            return None  # a final posture is told for some joints only
+            return None  # the final posture is given for some joints only
         return np.concatenate([own.swapaxes(1, 2).reshape(len(decisions), size), rest], axis=1)
 
     @staticmethod

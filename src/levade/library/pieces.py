@@ -1,11 +1,11 @@
-"""A library's falls as pieces of work for processes of their own, each of which builds the simulation once.
+"""Divide the work on a library among processes, each of which builds the simulation once.
 
     with Pool(Workshop(directory, robot), processes=2) as pool:
         for piece, rows in pool.each([Fall(4, after=(0, 1, 2, 3)), Fall(5, after=(0, 1, 2, 3))]):
             ...
 
-Records and motions are written by the process that found them, and read from the directory by the others: what goes between
-processes is numbers.
+The process that finds a motion writes it and its record; the others read them from the directory. Only numbers go between
+processes.
 """
 
 from __future__ import annotations
@@ -26,7 +26,12 @@ from levade.robots import Robot
 
 @dataclass(frozen=True)
 class Fall:
-    """A fall to solve with the motions that were there after other ones."""
+    """Asks to solve a fall with the motions that were known after other falls.
+
+    Attributes:
+        number: Number of the fall.
+        after: Numbers of the falls whose motions may be used.
+    """
 
     number: int
     after: tuple[int, ...]
@@ -37,7 +42,12 @@ class Fall:
 
 @dataclass(frozen=True)
 class Row:
-    """A fall from which every motion is to be tried; falls: all of the library."""
+    """Asks to try every motion from a fall.
+
+    Attributes:
+        number: Number of the fall.
+        falls: Numbers of all falls of the library.
+    """
 
     number: int
     falls: tuple[int, ...]
@@ -47,11 +57,11 @@ class Row:
 
 
 class Workshop:
-    """Does pieces of a library's work in this process; what it builds does not go to others by pickle.
+    """Does pieces of a library's work in this process. Pickling leaves out the simulation that it builds.
 
     Args:
-        directory: The library's.
-        robot: Its robot, if the task's name does not say it.
+        directory: Directory of the library.
+        robot: The library's robot. Defaults to the one that the task names.
     """
 
     def __init__(self, directory: Path, robot: Robot | None = None) -> None:
@@ -67,7 +77,7 @@ class Workshop:
         return Solver(self._falls, self._directory, seed)
 
     def __call__(self, piece: Fall | Row) -> tuple[Array, Array] | None:
-        """Do a piece: of a row what `Solver.rows` gives; a fall's record is in the directory then."""
+        """Do a piece of work. Return the result of `Solver.rows` for a row; for a fall, write its record and return None."""
         solver = self._solver
         if isinstance(piece, Fall):
             solver.load(piece.after)

@@ -1,4 +1,4 @@
-"""What a library keeps of each fall: a file, written when the fall is done, whole or not at all.
+"""Records of falls: one file per fall, which is written as a whole when the fall is done.
 
 Record.of(path)                 # falls/000012.json
 write_record(directory, record)
@@ -24,7 +24,7 @@ FALLS, MOTIONS = "falls", "motions"
 
 
 class Method(StrEnum):
-    """How a fall was solved: by a motion that was there, a search around one, a search from nothing; or not."""
+    """Names how a fall was solved: by a known motion, by a search around one, by a search from nothing, or not at all."""
 
     KNOWN = "known"
     NEAR = "near"
@@ -34,17 +34,17 @@ class Method(StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class Record:
-    """A fall, and what came of it.
+    """Describes a fall and how it was solved.
 
     Attributes:
-        fall: Its number in the family.
-        up: Which way is up, in trunk axes, shape (3,).
-        joint_position: Angles [rad], shape (joints,).
-        method: How it was solved.
-        motion: Number of the motion that works from here, its own if it was searched for; None if none was found.
-        trials: Roll-outs that this took.
-        tried: Numbers of the motions that were there and were tried from here.
-        worked: Those of them that work.
+        fall: Number of the fall in its family.
+        up: Upward direction in trunk axes, shape (3,).
+        joint_position: Joint angles [rad], shape (joints,).
+        method: How the fall was solved.
+        motion: Number of the motion that works from here; the fall's own number if a search found it. None if there is none.
+        trials: Number of roll-outs that this took.
+        tried: Numbers of the known motions that were tried from here.
+        worked: Numbers of those that work.
     """
 
     fall: int
@@ -60,8 +60,11 @@ class Record:
     def load(cls, path: Path) -> Record:
         """Read a record.
 
+        Args:
+            path: File of the record.
+
         Raises:
-            LevadeError: If it cannot be read, or is damaged.
+            LevadeError: If the file cannot be read or is damaged.
         """
         try:
             content = json.loads(read_text(path))
@@ -82,11 +85,18 @@ class Record:
             )
         except (ValueError, TypeError, LookupError, RecursionError, OverflowError):
             raise LevadeError(
-                f"{path}: is no record of a fall, or damaged; remove it, and build the library again"
+                f"{path}: is not the record of a fall, or is damaged; remove it, and build the library again"
             ) from None
 
     def write(self, directory: Path) -> None:
-        """Write the record into a library's directory. Raises OSError."""
+        """Write the record into a library's directory.
+
+        Args:
+            directory: Directory of the library.
+
+        Raises:
+            OSError: If the file cannot be written.
+        """
         content = {
             "fall": self.fall,
             "up": self.up.tolist(),
@@ -104,20 +114,20 @@ Number = TypeVar("Number", int, NDArray[np.intp])
 
 
 def image_of(motion: Number) -> Number:
-    """Number of a motion's mirror image; of the image of a motion, that of the motion."""
+    """Return the number of a motion's mirror image; for an image, the number of the original."""
     return -1 - motion
 
 
 def fall_of(motion: int) -> int:
-    """Number of the fall that a motion, or the one that it is the image of, was found for."""
+    """Return the number of the fall for which a motion was found; for a mirror image, that of the original."""
     return max(motion, image_of(motion))
 
 
 def record_path(directory: Path, fall: int) -> Path:
-    """Where the record of a fall is."""
+    """Return the path of a fall's record."""
     return directory / FALLS / f"{fall:06}.json"
 
 
 def motion_path(directory: Path, motion: int) -> Path:
-    """Where a motion is, or the one that it is the image of."""
+    """Return the path of a motion's file; for a mirror image, that of the original."""
     return directory / MOTIONS / f"{fall_of(motion):06}.npz"

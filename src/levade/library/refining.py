@@ -1,10 +1,10 @@
-"""An answer tried in simulation, and searched on for as long as there is time: from the very state, best first.
+"""Refine an answer: try the likeliest motions in simulation from the exact state, and search on while there is time.
 
     refined = refine(library, up, joint_position, seconds=1.0)
-    refined.reference.position                      # what to tell the joints
+    refined.reference.position                      # commanded joint positions
 
-The likeliest motions are tried on the model; the first that works is tried on robots that differ. If it does not work on all of
-them, or none works at all, a search goes on from the best until the time is up. How far that gets depends on the computer.
+The likeliest motions are tried on the model. The first that works is tried on perturbed models. If it does not work on all of
+them, or no motion works, a search continues from the best one until the time is up. The result depends on the computer's speed.
 """
 
 from __future__ import annotations
@@ -30,27 +30,27 @@ from levade.search.initial import AROUND
 from levade.trajectory import JointReference
 
 LIKELIEST = 5
-"""Motions that are tried first."""
+"""Number of motions that are tried first."""
 
 _ROBOTS = 8
-"""Robots that differ, on which what works is tried."""
+"""Number of perturbed models on which a working motion is tried."""
 
 _SETTLING = 0.5
-"""[s], for which a robot that is put down as it says it lies comes to rest."""
+"""Time in which the robot comes to rest after it is put down in the given pose [s]."""
 
 
 @dataclass(frozen=True, eq=False)
 class Refined:
-    """What to do from where the robot lies, as simulation has it.
+    """Holds an answer that was refined in simulation.
 
     Attributes:
-        number: Of the motion that it is, or began at.
-        works: Whether it works on the model, from there.
-        share: Of robots that differ, on which it works; 0 if it does not on the model.
-        searched: Whether it was found by the search, and is no motion of the library.
-        reference: What to tell the joints.
-        trials: Roll-outs that this took.
-        seconds: How long it took [s].
+        number: Number of the library's motion that is the answer, or from which the search began.
+        works: Whether the answer works on the model from this state.
+        share: Share of perturbed models on which it works; 0 if it does not work on the model.
+        searched: Whether the search found the answer. False if it is a motion of the library.
+        reference: Joint references to command.
+        trials: Number of roll-outs that this took.
+        seconds: Time that this took [s].
     """
 
     number: int
@@ -76,15 +76,18 @@ def refine(
 
     Args:
         library: The library.
-        up: As `Library.ask` takes it.
-        joint_position: As well.
-        seconds: How long at most [s], once the simulation is built.
-        robot: The library's robot, if the task's name does not say it.
-        threads: Engine threads; 0 for one per core.
+        up: Upward direction in trunk axes, shape (3,); see `Library.ask`.
+        joint_position: Joint angles [rad], shape (joints,); see `Library.ask`.
+        seconds: Time limit, which starts when the simulation is built [s].
+        robot: The library's robot. Defaults to the one that the task names.
+        threads: Number of engine threads (0: one per core).
         seed: Seed of the search.
 
+    Returns:
+        The refined answer.
+
     Raises:
-        LevadeError: If the question is wrong, or the robot cannot be put down as it lies.
+        LevadeError: If ``up`` or ``joint_position`` is invalid, or the robot cannot be put down in this pose.
     """
     answer = library.ask(up, joint_position)
     task, own = read_library(library.directory)
@@ -97,18 +100,24 @@ def refine(
 def refined(
     falls: Falls, plays: Plays, objective: Objective, numbers: Sequence[int], *, seconds: float, seed: int = 0
 ) -> Refined:
-    """The same from a state that is simulated already.
+    """Refine an answer from a state that is simulated already.
 
     Args:
-        falls: The library's simulation.
-        plays: Its motions.
+        falls: Falls of the library, with its simulation.
+        plays: Motions of the library.
         objective: The task from the state.
-        numbers: Motions, the likeliest first.
-        seconds: How long at most [s].
+        numbers: Numbers of the motions, the likeliest first.
+        seconds: Time limit [s].
         seed: Seed of the search.
+
+    Returns:
+        The refined answer.
+
+    Raises:
+        LevadeError: If the time limit is not positive.
     """
     if not seconds > 0:
-        raise LevadeError(f"{seconds} s leave no time to refine; 1 is usual", field="refine")
+        raise LevadeError(f"{seconds} s leave no time to refine; give a longer time, such as 1 s", field="refine")
     began = time.monotonic()
     likeliest = list(numbers[:LIKELIEST])
     found = tried([objective], [[plays[number] for number in likeliest]])[0]
@@ -149,24 +158,24 @@ def refined(
 
 
 def _share(objective: Objective, weights: Array, seed: int) -> float:
-    """Of robots that differ, on how many weights work, shape (1, d)."""
+    """Return the share of perturbed models on which weights of shape (1, d) work."""
     plays = dict.fromkeys(range(_ROBOTS), _Weights(weights))
     return float(tried_on_others(objective, plays, Perturbation(), seed=(seed, _ROBOTS)).mean())
 
 
 @dataclass(frozen=True, eq=False)
 class _Weights:
-    """Weights to play, shape (1, d)."""
+    """Holds weights to play, shape (1, d)."""
 
     weights: Array
 
     def decisions(self, policy: JointPolicy) -> Array:
-        """The weights, whatever the policy."""
+        """Return the weights, whatever the policy."""
         return self.weights
 
 
 def _lying(falls: Falls, up: Array, joints: Array) -> State:
-    """The state of a robot that is put down as it lies, and comes to rest, its joints where they are."""
+    """Put the robot down in the given pose, hold its joints there, and let it come to rest."""
     up = up / np.linalg.norm(up)
     engine, robot, task = falls.simulation.engine, falls.simulation.robot, falls.task
     within = np.clip(joints, robot.limits.lower, robot.limits.upper)

@@ -1,13 +1,13 @@
-"""Falls solved one round at a time: by the motions that are there, a search around the best of them, or a cold one.
+"""Solve falls, one round at a time: by the known motions, by a search around the best of them, or by a search from nothing.
 
     solver = Solver(falls, directory, seed=0)
     solver.solve([4, 5, 6], after=[0, 1, 2, 3])     # writes records and motions
     success, perturbed = solver.rows(known, [0, 1])
 
-A motion that is found is searched on with perturbed models until it works on nearly all of them; so is one that was there and
-works, but seldom on robots that differ, unless a motion was found from a fall nearby already.
+When a search finds a motion, it goes on with perturbed models until the motion works on nearly all of them. So it does for a
+known motion that works on the model but seldom on perturbed models, unless a motion was found from a nearby fall.
 
-What comes of a fall depends on the falls ``after`` which it is solved, on nothing else: not on what is solved with it.
+The result for a fall depends only on the falls ``after`` which it is solved, not on the others of its round.
 """
 
 from __future__ import annotations
@@ -33,29 +33,29 @@ from levade.search.storage import storing
 from levade.tasks import Task
 
 _TRIED = 24
-"""Motions that are tried from a fall, the likeliest first."""
+"""Number of motions that are tried from a fall, the likeliest first."""
 
 _NEAR = 240
-"""Trials of a search around the best of them."""
+"""Number of trials of a search around the best of them."""
 
 _ROBOTS, _SURE, _TOLD = 6, 0.8, 2
-"""Robots that differ, on which so many of the likeliest motions that work are tried; and the share that makes one sure."""
+"""Number of perturbed models; how many of the working motions are tried on them; the share at which a motion is reliable."""
 
 _ELSEWHERE = 0.1
-"""From a fall that has a motion of its own [rad], beyond which another motion may be worth more there."""
+"""Distance from a fall with its own motion [rad], beyond which another motion may be worth finding."""
 
 _APART = 1000
-"""Between the seeds of searches from different falls."""
+"""Difference between the seeds of searches from consecutive falls."""
 
 _AT_ONCE = 32
-"""Falls whose pairs are tried in one batch."""
+"""Number of falls whose pairs are tried in one batch."""
 
 
 class Solver:
-    """Solves falls of a library, and keeps what came of them in its directory.
+    """Solves falls of a library, and writes the results into its directory.
 
     Attributes:
-        records: The falls that are done, by their numbers.
+        records: Number of a fall -> its record, for all falls that are done.
     """
 
     def __init__(
@@ -67,14 +67,14 @@ class Solver:
         stopping: Callable[[], bool] = lambda: False,
         observe: Callable[[], object] = lambda: None,
     ) -> None:
-        """Go on with a library.
+        """Continue a library.
 
         Args:
-            falls: The family.
-            directory: The library's.
+            falls: The family of falls.
+            directory: Directory of the library.
             seed: Seed of the library.
-            stopping: Asked between generations; falls in work are lost once it says so.
-            observe: Called after each part.
+            stopping: Function that is called between generations. When it returns True, unfinished falls are abandoned.
+            observe: Function that is called after each part.
         """
         self._falls, self._directory, self._seed = falls, directory, seed
         self._stopping, self._observe = stopping, observe
@@ -82,13 +82,22 @@ class Solver:
         self._plays = Plays(directory, falls.mirror)
 
     def load(self, numbers: Sequence[int]) -> None:
-        """Read the records of falls, as far as they are there."""
+        """Read the records of falls, as far as they exist.
+
+        Args:
+            numbers: Numbers of the falls.
+        """
         for i in numbers:
             if i not in self.records and (path := record_path(self._directory, i)).is_file():
                 self.records[i] = Record.load(path)
 
     def solve(self, pending: Sequence[int], *, after: Sequence[int]) -> None:
-        """Do falls, each with the motions that were there ``after`` other ones."""
+        """Solve falls, each with the motions that were known ``after`` other falls.
+
+        Args:
+            pending: Numbers of the falls to solve.
+            after: Numbers of the falls whose motions may be used.
+        """
         if not pending or self._stopping():
             return
         knowledge = Knowledge.of([self.records[i] for i in after], self._falls.mirror)
@@ -104,7 +113,7 @@ class Solver:
             self._search(left, begun, objectives, method)
 
     def _try_known(self, knowledge: Knowledge, objectives: Mapping[int, Objective]) -> dict[int, _Begun]:
-        """Try the motions that are there. Falls that one surely works from are done; of the others, where searches begin."""
+        """Try the known motions. Finish the falls from which one works reliably; return where to search from the others."""
         sensed = {i: self._falls.sensed(objective.state) for i, objective in objectives.items()}
         likely = {i: [motion for motion, _ in knowledge.ranked(*sensed[i])[:_TRIED]] for i in objectives}
         begun = {i: _Begun(sensed[i], tuple(likely[i]), (), None, len(likely[i])) for i in objectives}
@@ -126,7 +135,7 @@ class Solver:
         return begun
 
     def _asked(self, begun: _Begun, fall: int, objective: Objective) -> _Begun:
-        """Which of the motions that work does so on most robots that differ, and whether on enough of them."""
+        """Find the working motion that works on most perturbed models, and whether it works on enough of them."""
         told = begun.worked[:_TOLD]
         plays = {len(told) * robot + k: self._plays[told[k]] for robot in range(_ROBOTS) for k in range(len(told))}
         works = tried_on_others(objective, plays, Perturbation(), seed=(self._seed, fall, _ROBOTS))
@@ -136,7 +145,7 @@ class Solver:
         return replace(begun, works=told[best], sure=bool(share[best] >= _SURE), trials=trials)
 
     def _harden_known(self, left: Sequence[int], begun: dict[int, _Begun], objectives: Mapping[int, Objective]) -> None:
-        """Search on from motions that work, but seldom on robots that differ: they become motions of their own."""
+        """Search on from motions that work, but seldom on perturbed models. The results become motions of the library."""
         if not left or self._stopping():
             return
         asked = [objectives[i] for i in left]
@@ -160,7 +169,7 @@ class Solver:
     def _search(
         self, left: Sequence[int], begun: dict[int, _Begun], objectives: Mapping[int, Objective], method: Method
     ) -> None:
-        """Search for a motion from each of these falls, in lockstep; those that are found are hardened and kept, and done."""
+        """Search for a motion from each of these falls, in lockstep. Harden and keep the motions that are found."""
         if not left or self._stopping():
             return
         asked = [objectives[i] for i in left]
@@ -174,7 +183,7 @@ class Solver:
         for i, objective, seed, solution in zip(left, asked, seeds, solutions, strict=True):
             begun[i] = one = replace(begun[i], trials=begun[i].trials + solution.trials)
             if solution.stopped == Stopped.INTERRUPTED:
-                continue  # it would have gone on: a later build does it again, to its end
+                continue  # interrupted: a later build repeats this search to its end
             if solution.success:
                 self._keep(i, one, method, i, record_motion(objective, solution, seed=seed))
             elif method == Method.COLD:
@@ -184,7 +193,7 @@ class Solver:
     def _hardened(
         self, asked: Sequence[Objective], solutions: Sequence[Solution], seeds: Sequence[int]
     ) -> list[Solution]:
-        """The same solutions, those that were found searched on on perturbed models."""
+        """Harden the successful solutions on perturbed models; return all solutions."""
         found = [j for j, one in enumerate(solutions) if one.success and one.stopped != Stopped.INTERRUPTED]
         better = harden(
             [asked[j] for j in found],
@@ -201,7 +210,7 @@ class Solver:
         return after
 
     def _keep(self, i: int, begun: _Begun, method: Method, motion: int | None, found: Motion | None = None) -> None:
-        """Write a fall that is done: first the motion, if one was searched for, then the record."""
+        """Write a finished fall: first the motion, if a search found one, then the record."""
         record = Record(i, *begun.sensed, method, motion, begun.trials, begun.tried, begun.worked)
         with storing(self._directory, then=Remedy("make room, then build again"), kept="all falls that are done"):
             if found is not None:
@@ -210,14 +219,14 @@ class Solver:
         self.records[i] = record
 
     def rows(self, known: Knowledge, rows: Sequence[int]) -> tuple[Array, Array]:
-        """Try every motion from some falls where it was not tried, on the model and on robots that differ.
+        """Try every motion from some falls, on the model and on perturbed models, where that was not done before.
 
         Args:
-            known: What is known.
-            rows: Which of its falls.
+            known: Known outcomes.
+            rows: Rows of the falls in ``known``.
 
         Returns:
-            `Knowledge.success` and `Knowledge.perturbed` of these rows, whole.
+            `Knowledge.success` and `Knowledge.perturbed` of these rows, shape (rows, m) each, without NaN.
         """
         success, perturbed = known.success[rows], known.perturbed[rows]
         objectives = [self._falls.objective(int(known.falls[row])) for row in rows]
@@ -227,7 +236,7 @@ class Solver:
         for (k, which), found in zip(untried.items(), tried(asked, own), strict=True):
             success[k, which] = found.success
         for k, objective in enumerate(objectives):
-            # robots are numbered by motions, in an order in which later ones come last
+            # perturbed models are numbered by motions, in an order in which later ones come last
             numbers = {int(j): _robot(int(known.motions[j])) for j in np.flatnonzero(np.isnan(perturbed[k]))}
             plays = {number: self._plays[int(known.motions[j])] for j, number in numbers.items()}
             if plays:
@@ -238,10 +247,11 @@ class Solver:
 
 @dataclass(frozen=True, eq=False)
 class _Begun:
-    """A fall that is not done yet: what is sensed, the motions that were tried and worked, where a search begins.
+    """Holds an unfinished fall: what is sensed, the motions that were tried and worked, where a search begins.
 
-    works: of the motions that work, that which does on most robots that differ; None if none works. sure: whether it does on
-    enough of them.
+    Attributes:
+        works: The working motion that works on most perturbed models. None if no motion works.
+        sure: Whether it works on enough of them.
     """
 
     sensed: tuple[Array, Array]
@@ -259,11 +269,11 @@ def _given(motion: int | None) -> int:
 
 
 def _robot(motion: int) -> int:
-    """Number of the robot that a motion is tried on."""
+    """Return the number of the perturbed model on which a motion is tried."""
     return 2 * fall_of(motion) + (motion < 0)
 
 
 def _near(task: Task) -> Task:
-    """The task with a short search: around a motion that nearly works, it is found soon or not at all."""
+    """Return the task with a short search: around a motion that nearly works, a search succeeds soon or not at all."""
     trials = min(_NEAR, task.search.trials)
     return replace(task, search=replace(task.search, trials=trials, restart=None, patience=None))

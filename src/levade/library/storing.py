@@ -1,4 +1,4 @@
-"""What a library is of, in its directory: task, seed, number of falls, and which share of them.
+"""Store what a library is built from: task, seed, number of falls, and which share of them.
 
 begin(directory, falls, seed=0, starts=100)
 task, seed = read_library(directory)
@@ -24,11 +24,11 @@ TASK = "task.yaml"
 
 @dataclass(frozen=True)
 class Shard:
-    """Every n-th fall, from one of the first n on: what one of n machines does.
+    """Selects every n-th fall: the share of one of n machines.
 
     Attributes:
-        number: Which, from 0.
-        shards: n.
+        number: Index of the shard, from 0.
+        shards: Number of shards, n.
     """
 
     number: int
@@ -37,14 +37,21 @@ class Shard:
     def __post_init__(self) -> None:
         if not 0 <= self.number < self.shards:
             raise LevadeError(
-                f"{self.number}/{self.shards} is no shard; 0/{self.shards} to {self.shards - 1}/{self.shards} are"
+                f"{self.number}/{self.shards} is not a shard; give 0/{self.shards} to {self.shards - 1}/{self.shards}"
                 if self.shards > 0
-                else f"{self.number}/{self.shards} is no shard; 0/4, 1/4, 2/4 and 3/4 share falls among four",
+                else f"{self.number}/{self.shards} is not a shard; 0/4, 1/4, 2/4 and 3/4 divide falls into four shards",
                 field="shard",
             )
 
     def of(self, starts: int) -> tuple[int, ...]:
-        """Its falls of so many."""
+        """Select the shard's falls.
+
+        Args:
+            starts: Total number of falls.
+
+        Returns:
+            Numbers of the falls.
+        """
         return tuple(range(self.number, starts, self.shards))
 
     def __str__(self) -> str:
@@ -55,10 +62,17 @@ WHOLE = Shard(0, 1)
 
 
 def begin(directory: Path, falls: Falls, seed: int, starts: int, shard: Shard = WHOLE) -> None:
-    """Write what the library is of.
+    """Write what the library is built from.
+
+    Args:
+        directory: Directory of the library.
+        falls: The family of falls.
+        seed: Seed of the library.
+        starts: Total number of falls.
+        shard: The share of the falls that the library covers.
 
     Raises:
-        LevadeError: If the directory holds another one, or cannot be written.
+        LevadeError: If the directory holds another library, or cannot be written.
     """
     place = directory / LIBRARY
     if place.is_file():
@@ -79,19 +93,43 @@ def begin(directory: Path, falls: Falls, seed: int, starts: int, shard: Shard = 
 
 
 def read_library(directory: Path) -> tuple[Task, int]:
-    """Task and seed of the library in a directory. Raises LevadeError if there is none."""
+    """Read task and seed of the library in a directory.
+
+    Args:
+        directory: Directory of the library.
+
+    Returns:
+        The task, and the seed of its falls.
+
+    Raises:
+        LevadeError: If the directory holds no library, or the library is damaged.
+    """
     content = _content(directory)
     task = task_from_dict(read_yaml(directory / TASK), where=str(directory / TASK))
     return task, _whole(content.get("seed"), directory, "seed")
 
 
 def read_starts(directory: Path) -> int:
-    """How many falls it was built with at last. Raises LevadeError if there is no library."""
+    """Read the number of falls of the latest build.
+
+    Args:
+        directory: Directory of the library.
+
+    Raises:
+        LevadeError: If the directory holds no library, or the library is damaged.
+    """
     return _whole(_content(directory).get("starts"), directory, "starts")
 
 
 def read_shard(directory: Path) -> Shard:
-    """Which of its falls a library has. Raises LevadeError if there is none."""
+    """Read which share of its falls a library covers.
+
+    Args:
+        directory: Directory of the library.
+
+    Raises:
+        LevadeError: If the directory holds no library, or the library is damaged.
+    """
     shard = _content(directory).get("shard", [0, 1])
     if not (isinstance(shard, list) and len(shard) == 2):
         raise LevadeError(f"{directory / LIBRARY}: shard: should be two whole numbers; the file is damaged")
@@ -102,7 +140,7 @@ def read_shard(directory: Path) -> Shard:
 def _content(directory: Path) -> Any:
     place = directory / LIBRARY
     if not place.is_file():
-        raise LevadeError(f"{directory}: holds no motion library; build one, or give its directory")
+        raise LevadeError(f"{directory}: holds no motion library; build one, or give the directory of one")
     return read_yaml(place, like="seed and starts")
 
 

@@ -1,10 +1,10 @@
-"""Robots: model, legs, joint order, limits, actuators, postures, mirror signs; built-in robots as data.
+"""Robots: model, legs, joint order, limits, actuators, postures and mirror signs. Built-in robots are data files.
 
     robot = load_robot("hyq2max")
     robot = load_robot("my/robot.yaml", actuation="ideal", kp=400)
 
-A robot is one YAML file beside its model. ``data/hyq2max/robot.yaml`` is the example to copy;
-`levade.robots.description` says what each key means.
+A robot is one YAML file next to its model. ``data/hyq2max/robot.yaml`` is the example to copy.
+`levade.robots.description` explains each key.
 """
 
 from levade.robots.actuation import PID, Actuation, DCMotor

@@ -1,11 +1,11 @@
-"""Actuators: what turns desired joint motion into torque, inside the physics engine.
+"""Actuators turn desired joint motion into torque inside the physics engine.
 
 Both kinds follow a desired position and velocity, and both take two controls per joint, so that the control vector of a
 robot with J joints is ``(2 J,)``: position and velocity of joint 0, position and velocity of joint 1, and so on.
 
 They command the torque ``kp (q_des - q) + kd (qd_des - qd)`` [Nm]. `PID` delivers it at once, up to a constant limit.
-`DCMotor` delivers it late, by a first-order lag, never more than ``torque``, and while driving no more than
-``stall_torque (1 - qd / no_load_speed)``. For an electric drive that is the physics; for a valve-driven cylinder, whose
+`DCMotor` delivers it with a first-order lag, never more than ``torque``, and while driving no more than
+``stall_torque (1 - qd / no_load_speed)``. For an electric drive this line is the physics. For a valve-driven cylinder, whose
 torque falls as ``1 - (qd / no_load_speed)^2``, it is a straight line fitted to the parabola.
 """
 
@@ -25,9 +25,13 @@ _POSITION_AND_VELOCITY = 3
 
 @dataclass(frozen=True, eq=False)
 class PID:
-    """Torque at once, up to a constant limit; MuJoCo's ``pid`` actuator.
+    """Delivers torque at once, up to a constant limit, by MuJoCo's ``pid`` actuator.
 
-    kp: (joints,) [Nm/rad]. kd: (joints,) [Nm s/rad]. torque: (joints,) [Nm], infinite for none.
+    Attributes:
+        name: Name of the actuation.
+        kp: Stiffness [Nm/rad], shape (joints,).
+        kd: Damping [Nm s/rad], shape (joints,).
+        torque: Torque limits [Nm], shape (joints,); infinite for no limit.
     """
 
     name: str
@@ -51,12 +55,17 @@ class PID:
 
 @dataclass(frozen=True, eq=False)
 class DCMotor:
-    """Torque after a lag, within a line that falls with speed; MuJoCo's ``dcmotor`` actuator.
+    """Delivers torque after a lag, below a line that falls with speed, by MuJoCo's ``dcmotor`` actuator.
 
-    kp: (joints,) [Nm/rad]. kd: (joints,) [Nm s/rad]. torque: (joints,) [Nm], the most it ever delivers.
-    stall_torque: (joints,) [Nm] and no_load_speed: (joints,) [rad/s], the ends of the line.
-    time_constant: [s], first-order lag from commanded to delivered torque; 0 for none.
-    supply_pressure: [Pa], of a hydraulic drive; None for others. The engine does not see it.
+    Attributes:
+        name: Name of the actuation.
+        kp: Stiffness [Nm/rad], shape (joints,).
+        kd: Damping [Nm s/rad], shape (joints,).
+        torque: Largest torque at any speed [Nm], shape (joints,).
+        stall_torque: Torque of the line at standstill [Nm], shape (joints,).
+        no_load_speed: Speed at which the line reaches zero torque [rad/s], shape (joints,).
+        time_constant: First-order lag from commanded to delivered torque [s]; 0 for none.
+        supply_pressure: Supply pressure of a hydraulic drive [Pa]. None for other drives. The engine does not use it.
     """
 
     name: str
@@ -71,7 +80,7 @@ class DCMotor:
     def attach(self, spec: mujoco.MjSpec, joint_names: Sequence[str], *, gain_scale: float = 1.0) -> None:
         """Add one actuator per joint to ``spec``, in the order given and named after its joint."""
         for i, joint in enumerate(joint_names):
-            # The unit of voltage is free: with V = no_load_speed the motor constant is 1 and the current is the torque.
+            # The unit of voltage is arbitrary: with V = no_load_speed the motor constant is 1 and the current is the torque.
             voltage = speed = float(self.no_load_speed[i])
             torque = float(self.torque[i])
             _add(spec, joint).set_to_dcmotor(
@@ -80,8 +89,8 @@ class DCMotor:
                 nominal=[voltage, float(self.stall_torque[i]), speed],
                 saturation=[torque if np.isfinite(torque) else 0.0, 0.0, 0.0],
                 inductance=[0.0, self.time_constant],
-                # Without its last number, the voltage limit, the driver makes up for any back-EMF: no line, no bound on
-                # the current that the lag then has to unwind.
+                # Without the last number, the voltage limit, the driver compensates any back-EMF. Then there is no line, and
+                # no bound on the current that the lag has to unwind.
                 controller=[float(self.kp[i] * gain_scale), 0.0, float(self.kd[i] * gain_scale), 0.0, 0.0, voltage],
                 ctrlspec=_POSITION_AND_VELOCITY,
             )

@@ -1,4 +1,4 @@
-"""Where a robot's trunk and joints are in a model's qpos and qvel: the one place that looks them up.
+"""Look up where a robot's trunk and joints are in a model's qpos and qvel. No other module does this.
 
 at = Addresses.of(model, robot.trunk, robot.joint_names)
 data.qpos[at.trunk_pose] = [0, 0, 0.6, 1, 0, 0, 0]
@@ -13,18 +13,18 @@ from dataclasses import dataclass
 import mujoco
 
 Index = slice | list[int]
-"""Addresses of several numbers: a slice where they are evenly spaced, so that indexing makes a view, not a copy."""
+"""Addresses of several numbers: a slice if they are evenly spaced, so that indexing makes a view, not a copy."""
 
 
 @dataclass(frozen=True)
 class Addresses:
-    """Addresses in the vectors of one model.
+    """Holds addresses in the vectors of one model.
 
     Attributes:
-        root_qpos: Where the trunk's free joint begins in qpos.
-        root_qvel: Where it begins in qvel.
-        joint_qpos: Where the joints' angles are in qpos, in the order of their names.
-        joint_qvel: Where the joints' velocities are in qvel.
+        root_qpos: First address of the trunk's free joint in qpos.
+        root_qvel: First address of the trunk's free joint in qvel.
+        joint_qpos: Addresses of the joint angles in qpos, in the order of the names.
+        joint_qvel: Addresses of the joint velocities in qvel, in the order of the names.
     """
 
     root_qpos: int
@@ -35,6 +35,11 @@ class Addresses:
     @classmethod
     def of(cls, model: mujoco.MjModel, trunk: str, joint_names: Sequence[str]) -> Addresses:
         """Look up a trunk, whose first joint is free, and hinges by name.
+
+        Args:
+            model: The model.
+            trunk: Name of the trunk's body.
+            joint_names: Names of the hinges.
 
         Raises:
             KeyError: If the model has no such body or joint.
@@ -50,32 +55,32 @@ class Addresses:
 
     @property
     def trunk_position(self) -> slice:
-        """The trunk frame's position in qpos."""
+        """Addresses of the trunk frame's position in qpos."""
         return slice(self.root_qpos, self.root_qpos + 3)
 
     @property
     def trunk_quaternion(self) -> slice:
-        """The trunk frame's attitude in qpos, w-x-y-z."""
+        """Addresses of the trunk frame's attitude in qpos, w-x-y-z."""
         return slice(self.root_qpos + 3, self.root_qpos + 7)
 
     @property
     def trunk_pose(self) -> slice:
-        """The trunk frame's position and attitude in qpos."""
+        """Addresses of the trunk frame's position and attitude in qpos."""
         return slice(self.root_qpos, self.root_qpos + 7)
 
     @property
     def trunk_linear_velocity(self) -> slice:
-        """The trunk's linear velocity in qvel, in world axes."""
+        """Addresses of the trunk's linear velocity in qvel, in world axes."""
         return slice(self.root_qvel, self.root_qvel + 3)
 
     @property
     def trunk_angular_velocity(self) -> slice:
-        """The trunk's angular velocity in qvel, in trunk axes."""
+        """Addresses of the trunk's angular velocity in qvel, in trunk axes."""
         return slice(self.root_qvel + 3, self.root_qvel + 6)
 
 
 def compact(indices: list[int]) -> Index:
-    """The same addresses as a slice, if they are evenly spaced."""
+    """Return addresses as a slice if they are evenly spaced, otherwise as an array."""
     if len(indices) > 1:
         stride = indices[1] - indices[0]
         if stride > 0 and indices == list(range(indices[0], indices[-1] + 1, stride)):

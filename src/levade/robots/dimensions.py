@@ -1,7 +1,7 @@
-"""How large a robot is: the lengths and the time that tasks are stated in, so that they mean the same on every robot.
+"""Dimensions of a robot: the lengths and the time in which tasks are stated, so that they mean the same on every robot.
 
-Two robots that differ in size alone, driven by shares of their own limits, do the same in lengths of `height` and times of
-`fall` (Froude similarity: gravity is the same for both).
+Two robots that differ only in size, and are driven by equal shares of their own limits, move alike when measured in lengths of
+`height` and times of `fall` (Froude similarity: gravity is the same for both).
 """
 
 from __future__ import annotations
@@ -16,16 +16,18 @@ from levade.arrays import Array
 from levade.robots.robot import Leg, Robot
 
 GRAVITY = 9.81
-"""[m/s^2]"""
+"""Gravitational acceleration [m/s^2]."""
 
 
 @dataclass(frozen=True)
 class Dimensions:
-    """A robot's own units.
+    """Holds a robot's own units.
 
-    height: [m], the trunk's centre of mass over the ground, standing level in the neutral posture, joints unloaded.
-    leg: [m], the longest leg: sum of the distances from each joint's axis to the next one's, and to the foot's centre.
-    trunk: [m], from the front hips to the hind hips along x; 0 where there are no such.
+    Attributes:
+        height: Height of the trunk's centre of mass above the ground [m], standing level in the neutral posture with unloaded
+            joints.
+        leg: Length of the longest leg [m]: sum of the distances between successive joint axes, and to the foot's centre.
+        trunk: Distance from the front hips to the hind hips along x [m]; 0 if the robot has no such pairs.
     """
 
     height: float
@@ -34,12 +36,16 @@ class Dimensions:
 
     @property
     def fall(self) -> float:
-        """[s], the time to fall from the neutral height: sqrt(2 height / g)."""
+        """Time to fall from the neutral height: sqrt(2 height / g) [s]."""
         return math.sqrt(2.0 * self.height / GRAVITY)
 
 
 def dimensions(robot: Robot) -> Dimensions:
-    """The robot's own units, from its kinematics alone: they depend neither on gains nor on time steps."""
+    """Measure a robot's own units. They follow from its kinematics and depend neither on gains nor on time steps.
+
+    Args:
+        robot: The robot.
+    """
     data = robot.data_at(robot.posture("neutral"))
     axes = {joint: (data.joint(joint).xanchor.copy(), data.joint(joint).xaxis.copy()) for joint in robot.joint_names}
     hips = {end: [_hip(axes, leg) for leg in robot.standing if leg.end == end] for end in ("front", "hind")}
@@ -59,7 +65,7 @@ def _length(axes: dict[str, tuple[Array, Array]], leg: Leg, foot: Array) -> floa
 
 
 def _distance(anchor: Array, axis: Array, other_anchor: Array, other_axis: Array) -> float:
-    """Shortest distance [m] between two lines; where on its axis a joint is anchored does not count."""
+    """Return the shortest distance between two lines [m]; the position of an anchor on its axis has no effect."""
     normal, between = np.cross(axis, other_axis), other_anchor - anchor
     length = float(np.linalg.norm(normal))
     if length < 1e-6:
@@ -68,6 +74,6 @@ def _distance(anchor: Array, axis: Array, other_anchor: Array, other_axis: Array
 
 
 def _hip(axes: dict[str, tuple[Array, Array]], leg: Leg) -> float:
-    """x [m] of the leg's first joint that does not turn about x: along such an axis an anchor may be anywhere."""
+    """Return x of the leg's first joint that does not turn about x [m]: along an x axis the anchor's position is arbitrary."""
     across = [axes[joint] for joint in leg.joints if abs(axes[joint][1][0]) < 0.5]
     return float((across or [axes[leg.joints[0]]])[0][0][0])

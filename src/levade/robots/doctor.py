@@ -1,9 +1,9 @@
-"""The doctor: what is suspicious about a robot, and what to do about it.
+"""The doctor: find what is suspicious about a robot, and say what to do about it.
 
 for finding in inspect(load_robot("my.urdf")):
     print(finding.kind, finding)
 
-What was noticed on loading comes along (`Robot.findings`); the checks here look at the robot as it will be simulated.
+The result includes what was noticed on loading (`Robot.findings`). The checks here look at the robot as it will be simulated.
 """
 
 from __future__ import annotations
@@ -33,20 +33,24 @@ from levade.robots.understanding import Leg, joint_positions, moved_bodies
 _MASS = (0.2, 500.0)  # kg, of a robot
 _DOWN = np.array([0.0, 0.0, -1.0])
 _ANGLES = 11
-"""Angles of each joint at which a leg is tried for how high it reaches, of legs of three joints."""
+"""Number of angles per joint when testing how high a leg of three joints reaches."""
 _TRIES = 1500
-"""About the most combinations of angles that are tried, where a description names more joints."""
+"""Approximate limit on the combinations of angles for legs with more joints."""
 
 
 @dataclass(frozen=True)
 class Patient:
-    """A robot, and what several checks ask of it."""
+    """Holds a robot and values that several checks need.
+
+    Attributes:
+        robot: The robot.
+    """
 
     robot: Robot
 
     @cached_property
     def bare(self) -> Bare:
-        """The robot as `levade.robots.standing` takes it."""
+        """The robot in the form that `levade.robots.standing` needs."""
         limits = self.robot.limits
         ranges = zip(limits.lower.tolist(), limits.upper.tolist(), strict=True)
         robot = self.robot
@@ -59,26 +63,33 @@ class Patient:
 
     @cached_property
     def neutral(self) -> dict[str, float]:
-        """Joint -> angle [rad]."""
+        """Neutral posture: joint -> angle [rad]."""
         return dict(zip(self.robot.joint_names, self.robot.postures["neutral"].tolist(), strict=True))
 
     @cached_property
     def static_torque(self) -> Array:
-        """(joints,) [Nm], that carries the robot in the neutral posture."""
+        """Torques that carry the robot in the neutral posture [Nm], shape (joints,)."""
         return np.array(list(self.bare.static_torque(self.neutral).values()))
 
     @cached_property
     def leg_length(self) -> float:
-        """[m], of the longest leg."""
+        """Length of the longest leg [m]."""
         return max(self.bare.leg_length(leg) for leg in self.robot.standing)
 
     def mass(self, leg: Leg) -> float:
-        """[kg]"""
+        """Return the mass of the bodies that a leg moves [kg]."""
         return float(self.robot.model.body_mass[moved_bodies(self.robot.model, leg)].sum())
 
 
 def inspect(robot: Robot) -> list[Finding]:
-    """Everything that was noticed about a robot, warnings first."""
+    """Inspect a robot.
+
+    Args:
+        robot: The robot.
+
+    Returns:
+        Everything that was noticed, warnings first.
+    """
     patient = Patient(robot)
     found = list(robot.findings)
     for check in (_masses, _ranges, _torques, _feet, _shapes, _back, _servos, _symmetry, _frame, _physics):
@@ -88,14 +99,21 @@ def inspect(robot: Robot) -> list[Finding]:
 
 
 def warnings(robot: Robot) -> list[Finding]:
-    """Those of `inspect` that may spoil a motion."""
+    """Inspect a robot for what may spoil a motion.
+
+    Args:
+        robot: The robot.
+
+    Returns:
+        The warnings of `inspect`.
+    """
     return [finding for finding in inspect(robot) if finding.kind == "warning"]
 
 
 def _masses(patient: Patient) -> Iterator[Finding]:
     robot, model = patient.robot, patient.robot.model
     if not _MASS[0] <= robot.mass <= _MASS[1]:
-        yield warning("robot", f"weighs {robot.mass:.3g} kg", "masses are in kg: check the unit of the file's")
+        yield warning("robot", f"weighs {robot.mass:.3g} kg", "masses are in kg: check the unit in the file")
     legs = [patient.mass(leg) for leg in robot.legs]
     trunk = robot.mass - sum(legs)
     heavy = [leg.name for leg, mass in zip(robot.legs, legs, strict=True) if mass > trunk]
@@ -128,10 +146,10 @@ def _ranges(patient: Patient) -> Iterator[Finding]:
     endless = ~np.isfinite(width)
     if endless.any():
         remedy = 'give one in the file: <limit lower= upper=> of a URDF, range="..." of an MJCF'
-        yield warning(_joints(patient, endless), "no range: turns without end", remedy)
+        yield warning(_joints(patient, endless), "no range: the joint turns without limit", remedy)
     wide = ~endless & (width > 2 * np.pi)
     if wide.any():
-        what = f"a range of more than a whole turn ({width[wide].max():.3g} rad) is none"
+        what = f"a range of more than a whole turn ({width[wide].max():.3g} rad) does not limit the joint"
         yield note(_joints(patient, wide), what, "the file's range should be that of the hardware, in rad")
     narrow = width < 0.2
     if narrow.any():
@@ -150,7 +168,7 @@ def _torques(patient: Patient) -> Iterator[Finding]:
     free = ~np.isfinite(limits.torque)
     if free.any():
         remedy = "robot.yaml, limits: {torque: ...} gives one"
-        yield warning(_joints(patient, free), "no torque limit: as strong as it takes", remedy)
+        yield warning(_joints(patient, free), "no torque limit: torque is unbounded in simulation", remedy)
     share = np.abs(patient.static_torque) / limits.torque
     worst = int(np.argmax(share))
     needs = f"{np.abs(patient.static_torque[worst]):.3g} Nm to stand"
@@ -159,11 +177,13 @@ def _torques(patient: Patient) -> Iterator[Finding]:
         what = f"needs {needs} in the neutral posture; its limit is {limit}"
         yield warning(where, what, "check masses and limits, or stand straighter: robot.yaml, postures: {neutral: ...}")
     elif share[worst] > 0.6:
-        yield note(where, f"needs {needs}, {share[worst]:.0%} of its limit of {limit}: little is left to move with")
+        yield note(
+            where, f"needs {needs}, {share[worst]:.0%} of its limit of {limit}: little torque is left for motion"
+        )
     slow = ~np.isfinite(limits.velocity)
     if slow.any():
         remedy = "robot.yaml, limits: {velocity: ...} gives one"
-        yield warning(_joints(patient, slow), "no speed limit: as fast as it takes", remedy)
+        yield warning(_joints(patient, slow), "no speed limit: speed is unbounded in simulation", remedy)
 
 
 def _feet(patient: Patient) -> Iterator[Finding]:
@@ -174,7 +194,7 @@ def _feet(patient: Patient) -> Iterator[Finding]:
     if flat:
         shape = kinds[flat[0]].name.removeprefix("mjGEOM_").lower()
         many = kinds[flat[0]] in (mujoco.mjtGeom.mjGEOM_MESH, mujoco.mjtGeom.mjGEOM_BOX)
-        what = f"a {shape}, no sphere" + (": contact jumps from corner to corner" if many else "")
+        what = f"a {shape}, not a sphere" + (": contact jumps from corner to corner" if many else "")
         remedy = "a sphere at the tip is best; robot.yaml, legs: {lf: {foot: ...}} names another shape of the model"
         yield Finding("warning" if many else "note", named("foot", flat), what, remedy)
     data = robot.data_at(robot.postures["neutral"])
@@ -194,7 +214,7 @@ def _feet(patient: Patient) -> Iterator[Finding]:
         and _lowest(model, data, g) < ground - 0.01 * height
     ]
     if lower:
-        what = "below the feet in the neutral posture: the robot stands on that"
+        what = "below the feet in the neutral posture: the robot stands on it"
         yield warning(named("shape", lower), what, "robot.yaml, legs: {lf: {foot: ...}} names the shape to stand on")
 
 
@@ -209,7 +229,7 @@ def _shapes(patient: Patient) -> Iterator[Finding]:
     welded = {b for b in range(model.nbody) if model.body_weldid[b] == model.body_weldid[trunk]}
     if not colliding & welded:
         what = "without a collision shape: falls through the ground"
-        yield warning(f"trunk {robot.trunk}", what, "give it one, a box is enough; falls and boxes need it")
+        yield warning(f"trunk {robot.trunk}", what, "give it one, such as a box; falls and boxes need it")
     shanks = [model.body(int(model.geom(leg.foot).bodyid[0])).name for leg in robot.standing]
     links = [
         model.body(int(model.jnt_bodyid[model.joint(joint).id])).name
@@ -224,9 +244,9 @@ def _shapes(patient: Patient) -> Iterator[Finding]:
 
 
 def _back(patient: Patient) -> Iterator[Finding]:
-    """Whether feet come to the ground when the robot lies on its back, as righting itself asks for."""
+    """Check whether feet reach the ground when the robot lies on its back, which self-righting needs."""
     robot, model = patient.robot, patient.robot.model
-    if robot.stance == "upright":  # it sits up
+    if robot.stance == "upright":  # it sits up instead
         return
     data = robot.data_at(robot.postures["neutral"])
     trunk = int(model.body_weldid[model.body(robot.trunk).id])
@@ -261,15 +281,18 @@ def _back(patient: Patient) -> Iterator[Finding]:
 
 
 def _servos(patient: Patient) -> Iterator[Finding]:
-    """Explicit integration of M dv/dt = -D v - K q over a time step h: unstable for eigenvalues of h D / M above 2 and of
-    h2 K / (M + h D) above 4."""
+    """Check the servos' stability.
+
+    Explicit integration of M dv/dt = -D v - K q over a time step h is unstable for eigenvalues of h D / M above 2 and of
+    h2 K / (M + h D) above 4.
+    """
     robot, model = patient.robot, patient.robot.model
     data = robot.data_at(robot.postures["neutral"])
     mujoco.mj_makeM(model, data)
     inertia = np.zeros((model.nv, model.nv))
     mujoco.mj_fullM(model, data, inertia)
     if not np.isfinite(inertia).all() or not np.isfinite(np.linalg.inv(inertia)).all():
-        return  # masses beyond all measure, which are said elsewhere
+        return  # masses are far out of range, which another check reports
     dofs = [int(model.joint(joint).dofadr[0]) for joint in robot.joint_names]
     stiffness, damping = np.zeros(model.nv), np.zeros(model.nv)
     stiffness[dofs], damping[dofs] = robot.actuation.kp, robot.actuation.kd
@@ -287,12 +310,12 @@ def _servos(patient: Patient) -> Iterator[Finding]:
 
 
 def _times(ratio: float) -> str:
-    """How messages write a ratio above one: 4 % above, 3 times."""
+    """Write a ratio above one for messages: 4 % above, 3 times."""
     return f"{100 * (ratio - 1):.2g} % above" if ratio < 2 else f"{ratio:.2g} times"
 
 
 def _largest(inertia: Array, diagonal: Array) -> tuple[float, int]:
-    """The largest eigenvalue of inertia^-1 diagonal, and the degree of freedom that it moves most."""
+    """Return the largest eigenvalue of inertia^-1 diagonal, and the degree of freedom that it moves most."""
     root = np.sqrt(diagonal)
     values, vectors = np.linalg.eigh(root[:, None] * np.linalg.inv(inertia) * root)
     return float(values[-1]), int(np.argmax(np.abs(vectors[:, -1])))
@@ -314,8 +337,8 @@ def _symmetry(patient: Patient) -> Iterator[Finding]:
             signs = mirror_signs(robot, left, right)
         except LevadeError as error:
             problem = str(error).partition("not mirror images: ")[2] or str(error)
-            remedy = "mend the model; a task with policy: {groups: independent} works"
-            yield warning(where, f"no mirror images: {problem}", remedy)
+            remedy = "fix the model; a task with policy: {groups: independent} works without"
+            yield warning(where, f"not mirror images: {problem}", remedy)
             continue
         masses = [patient.mass(leg) for leg in (left, right)]
         if abs(masses[0] - masses[1]) > 0.05 * max(masses):
@@ -326,7 +349,7 @@ def _symmetry(patient: Patient) -> Iterator[Finding]:
             gaps = np.nan_to_num(np.abs(mirrored - np.stack([limits.lower[one], limits.upper[one]]))).max(axis=0)
         uneven = [f"{a} and {b}" for a, b, gap in zip(left.joints, right.joints, gaps, strict=True) if gap > 0.1]
         if uneven:
-            what = f"ranges that are no mirror images, by {gaps.max():.2g} rad"
+            what = f"ranges that are not mirror images, by {gaps.max():.2g} rad"
             yield warning(f"joints {some(uneven)}", what, "check the limits in the file")
         if not np.allclose(limits.torque[one], limits.torque[other], rtol=0.02):
             yield warning(where, "different torque limits left and right", "check the limits in the file")
@@ -348,23 +371,21 @@ def _frame(patient: Patient) -> Iterator[Finding]:
         if told is not None and told != (leg.side, leg.end):
             what = f"its joints' names ({leg.joints[0]}) say {' '.join(told)}, the kinematics {leg.side} {leg.end}"
             remedy = (
-                f"does x of {robot.trunk} point forward, and y left? turn that frame, or give robot.yaml, legs: ..."
+                f"does x of {robot.trunk} point forward, and y left? rotate that frame, or give robot.yaml, legs: ..."
             )
             yield warning(f"leg {leg.name}", what, remedy)
             return
     data = robot.data_at(robot.postures["neutral"])
     if robot.ahead < 0:
-        what = (
-            "x points backward, by its toes: front and back in tasks are those of the toes, left and right of the frame"
-        )
-        yield note(f"trunk {robot.trunk}", what, "turn that frame")
+        what = "x points backward, judged by its toes: tasks take front and back from the toes, left and right from the frame"
+        yield note(f"trunk {robot.trunk}", what, "rotate that frame")
     if robot.stance != "level":
         return
     hips = np.array([data.joint(leg.joints[0]).xanchor for leg in robot.standing])
     length, width = np.ptp(hips[:, 0]), np.ptp(hips[:, 1])
     if width > 1.5 * length:
         what = f"hips {width:.2g} m apart from left to right, but {length:.2g} m from front to hind"
-        yield warning(f"trunk {robot.trunk}", what, "does its x point forward? turn that frame if not")
+        yield warning(f"trunk {robot.trunk}", what, "does its x point forward? rotate that frame if not")
 
 
 _PLACES = {
@@ -378,7 +399,7 @@ _ENDS = {"front": "front", "fore": "front", "hind": "hind", "rear": "hind", "bac
 
 
 def _place_in_name(joint: str) -> tuple[str, str] | None:
-    """(side, end) that a joint's name speaks of: FL_hip, lh_haa_joint, front_left_hip; None if it does not."""
+    """Read (side, end) from a joint's name, such as FL_hip, lh_haa_joint, front_left_hip; None if it has none."""
     words = re.findall(r"[a-z]+", re.sub(r"([a-z])([A-Z])", r"\1_\2", joint).lower())
     for word in words:
         if word in _PLACES:
@@ -389,11 +410,11 @@ def _place_in_name(joint: str) -> tuple[str, str] | None:
 
 
 def _physics(patient: Patient) -> Iterator[Finding]:
-    """What an MJCF may say that a robot on the ground does not feel."""
+    """Check for settings of an MJCF that do not hold for a robot on the ground."""
     model = patient.robot.model
     if not np.allclose(model.opt.gravity, [0.0, 0.0, -9.81], atol=0.02):
         gravity = ", ".join(f"{value:g}" for value in model.opt.gravity)
-        yield warning("option gravity", f"is ({gravity}) m/s2", "leave it out of the file, for 9.81 m/s2 downward")
+        yield warning("option gravity", f"is ({gravity}) m/s2", "remove it from the file, for 9.81 m/s2 downward")
     off = [
         name.removeprefix("mjDSBL_").lower()
         for name, bit in mujoco.mjtDisableBit.__members__.items()
@@ -401,11 +422,11 @@ def _physics(patient: Patient) -> Iterator[Finding]:
         and model.opt.disableflags & bit
     ]
     if off:
-        yield warning(f"option flag {', '.join(off)}", "is turned off", "leave it out of the file")
+        yield warning(f"option flag {', '.join(off)}", "is turned off", "remove it from the file")
     floating = [model.body(b).name for b in range(1, model.nbody) if model.body_gravcomp[b]]
     if floating:
-        what = "gravity is compensated there: the hardware's is not"
-        yield warning(named("body", floating), what, 'leave gravcomp="..." out of the file')
+        what = "gravity is compensated there, but not on the hardware"
+        yield warning(named("body", floating), what, 'remove gravcomp="..." from the file')
 
 
 def _joints(patient: Patient, chosen: NDArray[np.bool_]) -> str:

@@ -1,4 +1,4 @@
-"""Driving: the limits of a robot's joints and the servos that move them, from its description, its file, or its size."""
+"""Driving: find the limits of a robot's joints and the servos that move them, from its description, its file, or its size."""
 
 from __future__ import annotations
 
@@ -26,17 +26,20 @@ SERVO = "servo"
 """Name of the actuation of a robot whose description names none."""
 
 _FASTEST = 100.0
-"""[rad/s]; above it, a number stands for "no limit": the fastest joints of legs reach about half of it."""
+"""Largest plausible speed limit [rad/s]. The fastest joints of legs reach about half of it; more stands for "no limit"."""
 _NO_LIMIT = 4
-"""Times the torque that could carry the robot; above it, a number in a file stands for "no limit"."""
+"""Largest plausible torque limit, as a multiple of the torque that could carry the robot; more stands for "no limit"."""
 
 
 @dataclass(frozen=True)
 class Drives:
-    """Limits of the joints' drives.
+    """Holds the limits of the joints' drives.
 
-    torque: (joints,) [Nm]. velocity: (joints,) [rad/s]. Infinite where there is none.
-    assumed_torque, assumed_velocity: indices of the joints whose limit is assumed.
+    Attributes:
+        torque: Torque limits [Nm], shape (joints,); infinite for no limit.
+        velocity: Speed limits [rad/s], shape (joints,); infinite for no limit.
+        assumed_torque: Indices of the joints whose torque limit is assumed.
+        assumed_velocity: Indices of the joints whose speed limit is assumed.
     """
 
     torque: Array
@@ -46,14 +49,17 @@ class Drives:
 
 
 def find_limits(draft: Draft, bare: Bare, path: Path, form: RobotForm, actuation: str | None) -> Drives:
-    """The description's limits, else the model's, else those of the actuators that the description gives, else assumed.
+    """Find the joints' limits: the description's, otherwise the model's, otherwise the actuators', otherwise assumed ones.
 
     Args:
-        draft: What was read of the model. What is assumed becomes one of its findings.
-        bare: The legs.
-        path: The description's path.
+        draft: The model as read. Assumed limits are added to its findings.
+        bare: The bare robot.
+        path: Path of the description.
         form: The description.
         actuation: Name of the chosen actuation.
+
+    Returns:
+        The limits, in joint order.
     """
     velocity, assumed_velocity = _velocity(draft, bare, path, form, actuation)
     torque, assumed_torque = _torque(draft, bare, path, form)
@@ -63,7 +69,7 @@ def find_limits(draft: Draft, bare: Bare, path: Path, form: RobotForm, actuation
 def _velocity(
     draft: Draft, bare: Bare, path: Path, form: RobotForm, actuation: str | None
 ) -> tuple[Array, NDArray[np.bool_]]:
-    """(joints,) [rad/s], and which of them are assumed."""
+    """Return speed limits [rad/s], shape (joints,), and which of them are assumed."""
     from levade.robots.description import DCMotorForm, joint_array
 
     joints = bare.joints
@@ -85,7 +91,7 @@ def _velocity(
         assumed = gains.assumed_speed(_leg_length(bare))
         remedy = "robot.yaml, limits: {velocity: ...} gives the real one"
         most = velocity[fast].max(initial=0.0)
-        high = f"speed limits of up to {most:.3g} rad/s are not believed; {assumed:.3g} rad/s is assumed"
+        high = f"speed limits of up to {most:.3g} rad/s are not plausible; {assumed:.3g} rad/s is assumed"
         for some, what in (
             (missing & fast, high),
             (missing & ~fast, f"no speed limit; {assumed:.3g} rad/s is assumed"),
@@ -98,7 +104,10 @@ def _velocity(
 
 
 def _torque(draft: Draft, bare: Bare, path: Path, form: RobotForm) -> tuple[Array, NDArray[np.bool_]]:
-    """(joints,) [Nm], and which of them are assumed; infinite where a description with actuations of its own has none."""
+    """Return torque limits [Nm], shape (joints,), and which are assumed.
+
+    A limit is infinite if a description with its own actuations gives none.
+    """
     from levade.robots.description import joint_array
 
     joints, none = bare.joints, np.zeros(len(bare.joints), bool)
@@ -123,7 +132,7 @@ def _torque(draft: Draft, bare: Bare, path: Path, form: RobotForm) -> tuple[Arra
 
 
 def _arm_torque(bare: Bare, most: float) -> Array:
-    """(joints,) [Nm], assumed of joints that do not stand: what they carry, held out straight, a few times over."""
+    """Assume torque limits of arms [Nm], shape (joints,): a multiple of what carries them when held out straight."""
     data = bare.data_at({joint: bare.resting(joint) for joint in bare.joints})
     model = bare.model
     torque = np.full(len(bare.joints), most)
@@ -136,7 +145,7 @@ def _arm_torque(bare: Bare, most: float) -> Array:
 
 
 def _say_assumed(draft: Draft, bare: Bare, torque: Array, missing: NDArray[np.bool_], assumed: float) -> None:
-    """Warn of torque limits that are made up, by reason."""
+    """Warn of assumed torque limits, grouped by reason."""
     remedy = "robot.yaml, limits: {torque: ...} gives the real one"
     undriven = np.array([bool(draft.driven) and joint not in draft.driven for joint in bare.joints])
     limited = np.isfinite(torque)
@@ -145,7 +154,7 @@ def _say_assumed(draft: Draft, bare: Bare, torque: Array, missing: NDArray[np.bo
         (missing & undriven, f"without an actuator in the model: servos of {assumed:.3g} Nm are added"),
         (
             missing & ~undriven & limited,
-            f"torque limits of up to {most:.3g} Nm are none for its weight; {assumed:.3g} Nm is assumed",
+            f"torque limits of up to {most:.3g} Nm are not plausible for its weight; {assumed:.3g} Nm is assumed",
         ),
         (missing & ~undriven & ~limited, f"no torque limit; {assumed:.3g} Nm is assumed"),
     ):
@@ -181,7 +190,22 @@ def find_actuation(
     kp: float | None,
     kd: float | None,
 ) -> Actuation:
-    """The actuators: the description's, else the model's own servos, else servos with derived gains."""
+    """Choose the actuators: the description's, otherwise the model's own servos, otherwise servos with derived gains.
+
+    Args:
+        name: Name of the actuation. None for the default.
+        draft: The model as read.
+        bare: The bare robot.
+        path: Path of the description.
+        form: The description.
+        neutral: Joint -> angle in the neutral posture [rad].
+        limits: The joints' limits.
+        kp: Stiffness for all joints [Nm/rad]. None for the actuation's own.
+        kd: Damping for all joints [Nm s/rad]. None for the actuation's own.
+
+    Returns:
+        The actuation, in joint order.
+    """
     from levade.robots.description import PIDForm, joint_array
 
     joints = bare.joints
@@ -221,10 +245,15 @@ def find_actuation(
 def _gains(
     draft: Draft, bare: Bare, neutral: Mapping[str, float], torque: Array, kps: Array | None, *, keep: bool
 ) -> tuple[Array, Array, str]:
-    """(joints,) kp and kd: those of the model's own servos, where it has them, else derived; and which it was.
+    """Return kp and kd, shape (joints,) each, and where they come from: the model's own servos, or derived.
 
-    torque: (joints,) [Nm], limits. kps: stiffness that is given already, for which the damping is to be found. keep: whether
-    the model's own count.
+    Args:
+        draft: The model as read.
+        bare: The bare robot.
+        neutral: Joint -> angle in the neutral posture [rad].
+        torque: Torque limits [Nm], shape (joints,).
+        kps: Given stiffness [Nm/rad], for which to find the damping. None to derive both.
+        keep: Whether to use the gains of the model's own servos.
     """
     joints = bare.joints
     servos = {joint: draft.servos[joint] for joint in joints if keep and joint in draft.servos}
@@ -242,7 +271,7 @@ def _gains(
 
 
 def _same_gains(bare: Bare, neutral: Mapping[str, float], kps: Array | None) -> tuple[list[float], list[float]]:
-    """Stiffness and damping of each joint, of legs whose joints are all alike."""
+    """Return stiffness and damping of each joint, for legs whose joints share one gain."""
     mass = float(bare.model.body_mass.sum())
     stiffness = gains.stiffness(mass, _leg_length(bare))
     inertia = max(bare.joint_inertia(neutral).values())
@@ -253,7 +282,7 @@ def _same_gains(bare: Bare, neutral: Mapping[str, float], kps: Array | None) -> 
 def _own_gains(
     bare: Bare, neutral: Mapping[str, float], torque: Array, kps: Array | None
 ) -> tuple[list[float], list[float]]:
-    """Stiffness and damping of each joint by itself, stable at the time step."""
+    """Return each joint's own stiffness and damping, stable at the time step."""
     load = np.abs(list(bare.static_torque(neutral).values()))
     most = np.maximum(
         gains.stiffness(float(bare.model.body_mass.sum()), _leg_length(bare)), load / gains.GIVE_UNDER_LOAD

@@ -1,4 +1,4 @@
-"""Files: what kind of file a robot's is, by what it holds rather than by its name, and its text, whatever its encoding."""
+"""Files: tell the kind of a robot's file by its content rather than its name, and read its text in any encoding."""
 
 from __future__ import annotations
 
@@ -20,21 +20,21 @@ _BOMS = (
 _DECLARATION = re.compile(rb"""^\s*<\?xml[^>]*\bencoding\s*=\s*["']([\w.:-]{1,40})["']""")
 _PARTS = re.compile(r"""<(include|model)\b[^>]*?\bfile\s*=\s*["']([^"']+)["']""")
 _LARGEST = 50_000_000
-"""[bytes], of a robot's XML; meshes are in files of their own."""
+"""Largest size of a robot's XML [bytes]; meshes are in other files."""
 
 
 def is_pointer(content: bytes) -> bool:
-    """Whether a file is only a git-lfs pointer to what it should hold."""
+    """Tell whether a file is only a git-lfs pointer to its content."""
     return content.startswith(_LFS)
 
 
 def pointer_problem(name: str) -> str:
-    """What a message says of a git-lfs pointer, with the remedy."""
+    """Describe a git-lfs pointer for a message, with the remedy."""
     return f"{name} is a git-lfs pointer, not the file itself: git lfs pull fetches it"
 
 
 def is_model(path: Path) -> bool:
-    """Whether a file holds XML, so that it is a robot's model and no description, whatever its name is."""
+    """Tell whether a file holds XML, and so is a robot's model rather than a description, whatever its name."""
     try:
         with path.open("rb") as file:
             head = file.read(4096)
@@ -46,16 +46,24 @@ def is_model(path: Path) -> bool:
 
 
 def read_xml(path: Path) -> str:
-    """The text of an XML file, without a byte order mark and without the encoding that it declares.
+    """Read an XML file.
 
-    UTF-8 is tried before what it declares: files that were saved again often declare what they were.
+    UTF-8 is tried before the declared encoding, since files that were saved again often declare their former one.
+
+    Args:
+        path: Path of the file.
+
+    Returns:
+        The text, without byte order mark and declared encoding.
 
     Raises:
-        LevadeError: If it cannot be read, or is no text.
+        LevadeError: If the file cannot be read, or is not text.
     """
     try:
         if path.stat().st_size > _LARGEST:
-            raise LevadeError(f"{path}: has {path.stat().st_size / 1e6:.0f} MB; an MJCF or URDF is text of far less")
+            raise LevadeError(
+                f"{path}: has {path.stat().st_size / 1e6:.0f} MB; an MJCF or URDF is far smaller; give one"
+            )
         content = path.read_bytes()
     except OSError as error:
         raise LevadeError(f"{path}: cannot be read ({error.strerror})") from None
@@ -69,7 +77,7 @@ def _decode(path: Path, content: bytes) -> str:
     marked = [encoding for mark, encoding in _BOMS if content.startswith(mark)]
     unmarked = [name for name, start in (("utf-16-le", b"<\0"), ("utf-16-be", b"\0<")) if content.startswith(start)]
     named = [declared[1].decode("ascii")] if declared else []
-    last = ["latin-1"] if content.lstrip().startswith(b"<") else []  # most often a letter in a comment
+    last = ["latin-1"] if content.lstrip().startswith(b"<") else []  # usually because of a letter in a comment
     for encoding in marked or unmarked or ["utf-8", *named, *last]:
         try:
             text = content.decode(encoding)
@@ -81,14 +89,14 @@ def _decode(path: Path, content: bytes) -> str:
 
 
 def parts(path: Path, text: str) -> Iterator[tuple[str, Path, str]]:
-    """Files that an MJCF includes or attaches, and those that they name.
+    """Find the files that an MJCF includes or attaches, and those that they name in turn.
 
     Args:
-        path: Of the MJCF; MuJoCo looks for what it includes beside it.
-        text: What it holds.
+        path: Path of the MJCF. MuJoCo looks for included files next to it.
+        text: Content of the MJCF.
 
     Yields:
-        How the file is named, where it is, and its text; files that are not there are left out.
+        Name by which the file is included, its path, and its text. Missing files are left out.
     """
     seen: set[str] = set()
     waiting = [(path.parent, text)]

@@ -1,4 +1,4 @@
-"""Findings: what levade noticed about a robot's file, and what to do about it."""
+"""Findings about a robot's file, and what to do about them."""
 
 from __future__ import annotations
 
@@ -9,10 +9,13 @@ from typing import Literal
 
 @dataclass(frozen=True)
 class Finding:
-    """One thing worth knowing about a robot.
+    """Describes one thing worth knowing about a robot.
 
-    kind: "note", of what levade chose or left out, or "warning", of what may spoil the motion. where: joint, body, geom or
-    file. what: one line. remedy: what to change, and where; empty for notes that ask for nothing.
+    Attributes:
+        kind: "note" for something that levade chose or left out, "warning" for something that may spoil the motion.
+        where: Joint, body, geom or file.
+        what: One line.
+        remedy: What to change, and where. Empty for notes that need no action.
     """
 
     kind: Literal["note", "warning"]
@@ -25,27 +28,27 @@ class Finding:
 
 
 def note(where: str, what: str, remedy: str = "") -> Finding:
-    """A `Finding` of what levade chose."""
+    """Make a `Finding` about something that levade chose."""
     return Finding("note", where, what, remedy)
 
 
 def warning(where: str, what: str, remedy: str) -> Finding:
-    """A `Finding` of what may spoil the motion."""
+    """Make a `Finding` about something that may spoil the motion."""
     return Finding("warning", where, what, remedy)
 
 
 def some(names: Sequence[str], most: int = 4) -> str:
-    """The names, or the first few and how many more there are."""
+    """Join names; of many, give the first few and the number of the others."""
     more = f" and {len(names) - most} more" if len(names) > most else ""
     return ", ".join(names[:most]) + more
 
 
 def named(kind: str, names: Sequence[str]) -> str:
-    """Where a finding is that several joints, links or bodies share, such as "joints a, b, c, d and 8 more"."""
+    """Name the joints, links or bodies that share a finding, such as "joints a, b, c, d and 8 more"."""
     plural = kind if len(names) == 1 else {"body": "bodies", "foot": "feet"}.get(kind, f"{kind}s")
     return f"{plural} {some(names)}"
 
 
 def counted(number: int, noun: str) -> str:
-    """The number and the noun in its plural, such as "1 geom" and "2 geoms"."""
+    """Combine a number with a noun in singular or plural, such as "1 geom" and "2 geoms"."""
     return f"{number} {noun}{'' if number == 1 else 's'}"

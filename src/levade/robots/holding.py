@@ -1,4 +1,4 @@
-"""Holding: joints that no leg has are taken out of the model, and their bodies stay where the joints' angles put them."""
+"""Holding: remove joints that belong to no leg from the model. Their bodies stay where the joints' angles put them."""
 
 from __future__ import annotations
 
@@ -18,15 +18,21 @@ from levade.robots.world import delete_tendons
 _HINGE, _SLIDE, _BALL = mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE, mujoco.mjtJoint.mjJNT_BALL
 
 Angle = float | Array
-"""Of a hinge [rad], of a slide [m], or the quaternion (4,) of a ball."""
+"""Position of a joint: of a hinge [rad], of a slide [m], or the quaternion of a ball, shape (4,)."""
 
 
 @dataclass(frozen=True)
 class Held:
-    """A joint that was taken out, and where its body was without it, so that it can be held elsewhere.
+    """Holds a joint that was removed and the pose of its body without it, so that it can be held elsewhere.
 
-    body: its name. kind: of joint. axis, anchor: (3,), in the body's frame. ref: the angle at which the body is where
-    ``position`` and ``quaternion`` put it.
+    Attributes:
+        body: Name of the body.
+        kind: Kind of joint (`mujoco.mjtJoint`).
+        axis: Axis in the body's frame, shape (3,).
+        anchor: Anchor in the body's frame [m], shape (3,).
+        ref: Angle at which the body has ``position`` and ``quaternion`` [rad], or [m] of a slide.
+        position: Position of the body in its parent [m], shape (3,).
+        quaternion: Attitude of the body in its parent, shape (4,).
     """
 
     body: str
@@ -38,7 +44,7 @@ class Held:
     quaternion: Array
 
     def pose(self, angle: Angle) -> tuple[Array, Array]:
-        """Position (3,) and quaternion (4,) of the body in its parent, with the joint at an angle."""
+        """Return the body's position [m], shape (3,), and quaternion, shape (4,), in its parent, with the joint at an angle."""
         turned, product = np.empty(3), self.quaternion.copy()
         if self.kind == _SLIDE:
             shift = self.axis / np.linalg.norm(self.axis) * (float(angle) - self.ref)
@@ -52,7 +58,7 @@ class Held:
         return self.position + turned, product
 
     def turn(self, angle: Angle) -> Array:
-        """Quaternion (4,) by which a hinge or ball at an angle turns its body."""
+        """Return the quaternion, shape (4,), by which a hinge or ball at an angle turns its body."""
         turn = np.empty(4)
         if self.kind == _BALL:
             turn = np.array([1.0, 0.0, 0.0, 0.0]) if np.ndim(angle) == 0 else np.array(angle, dtype=float)
@@ -63,26 +69,26 @@ class Held:
 
 
 def fix_joints(draft: Draft, angles: Mapping[str, Angle], path: Path) -> dict[str, Held]:
-    """Take joints out of the model, their bodies staying where the angles put them.
+    """Remove joints from the model. Their bodies stay where the angles put them.
 
     Args:
         draft: The model; it is changed.
-        angles: Joint name to angle.
-        path: The description, for messages.
+        angles: Joint name -> angle [rad], or [m] of a slide.
+        path: Path of the description, for messages.
 
     Returns:
-        Joint name to what was held, for `hold_elsewhere`.
+        Joint name -> held joint, for `hold_elsewhere`.
 
     Raises:
         LevadeError: If a joint cannot be held at that angle.
     """
-    if not draft.urdf:  # as text, frames and Euler angles are gone, and angles are in radians
+    if not draft.urdf:  # in the saved text, frames and Euler angles are resolved and angles are in radians
         survive_text(draft)
         draft.spec = mujoco.MjSpec.from_string(draft.spec.to_xml(), assets=draft.assets)
         draft.spec.assets = draft.assets
     spec = draft.spec
     _loosen(spec, set(angles))
-    # joints of one body turn one after the other: each takes the ones before it along
+    # joints of one body act in sequence: each one carries those before it
     order = [joint.name for body in spec.bodies for joint in body.joints if joint.name in angles]
     found = {}
     for name in order:
@@ -113,14 +119,21 @@ def fix_joints(draft: Draft, angles: Mapping[str, Angle], path: Path) -> dict[st
 
 
 def hold_elsewhere(draft: Draft, name: str, held: Held, angle: float) -> None:
-    """Move the body of a joint that is held, and whose body has no other joint."""
+    """Move the body of a held joint to another angle. The body must have no other joint.
+
+    Args:
+        draft: The model; it is changed.
+        name: Name of the joint.
+        held: The held joint.
+        angle: Angle of the joint [rad], or [m] of a slide.
+    """
     body = draft.spec.body(held.body)
     body.pos, body.quat = held.pose(angle)
     draft.held[name] = float(angle)
 
 
 def _carry_earlier(body: mujoco.MjsBody, name: str, held: Held, angle: Angle) -> None:
-    """Restate the joints of a body that stay and come before one that goes: the body turns under them.
+    """Restate the remaining joints of a body that come before a removed one, since the body turns under them.
 
     With T the pose without joints, E an earlier joint and H the one that is held, T E H = (T H) (H^-1 E H).
     """
@@ -141,7 +154,7 @@ def _carry_earlier(body: mujoco.MjsBody, name: str, held: Held, angle: Angle) ->
 
 
 def _loosen(spec: mujoco.MjSpec, joints: set[str]) -> None:
-    """Delete the tendons that run over joints, and the equalities that bind them."""
+    """Delete the tendons that run over the joints, and the equalities that bind them."""
     kinds = mujoco.mjtWrap.mjWRAP_JOINT
     delete_tendons(spec, [t for t in spec.tendons if any(w.type == kinds and w.target.name in joints for w in t.path)])
     for equality in list(spec.equalities):

@@ -1,7 +1,7 @@
-"""Inertias: those of plates and rods lie at the edge of what a body can have, where six digits decide.
+"""Inertias of plates and rods lie at the limit of what a body can have, so rounding to six digits can make them invalid.
 
-Of the principal moments A <= B <= C of a body, A + B >= C, with equality for a plate; A = 0 for a rod. Files round them,
-and so does the text that is simulated. A moment about every axis, far below a file's precision, makes up for that.
+The principal moments A <= B <= C of a body satisfy A + B >= C, with equality for a plate; A = 0 for a rod. Files round them,
+and so does the text that is simulated. A small added moment about every axis, far below a file's precision, compensates that.
 """
 
 from __future__ import annotations
@@ -18,22 +18,22 @@ if TYPE_CHECKING:
     from levade.robots.reading import Draft
 
 _ROOM = 3e-5
-"""Share of C by which A + B is to be larger: more than what rounding to six digits can take away."""
+"""Share of C by which A + B should exceed C: more than rounding to six digits can remove."""
 _LEAST = 1e-14
-"""[kg m2]; MuJoCo takes less for nothing."""
+"""Smallest moment [kg m2]; MuJoCo treats less as zero."""
 ROUNDED = 0.01
-"""Share of C by which A + B may be below it, and A below zero: a file that has two or three digits."""
+"""Share of C by which A + B may be below C, and A below zero, in a file with two or three digits."""
 
 
 def lifted(tensor: Array) -> Array | None:
-    """An inertia at the edge, clear of it.
+    """Make an inertia that is at the limit safely valid.
 
     Args:
         tensor: Inertia about the centre of mass [kg m2], shape (3, 3).
 
     Returns:
-        The tensor with the same moment added about every axis; unchanged if it is clear of the edge; None if it is
-        beyond what rounding explains.
+        The tensor with the same moment added about every axis. Unchanged if it is valid anyway. None if it violates the
+        limit by more than rounding explains.
     """
     least, middle, most = np.linalg.eigvalsh(tensor)
     if not np.isfinite(most) or most <= 0 or least < -ROUNDED * most or middle <= ROUNDED * most:
@@ -46,7 +46,11 @@ def lifted(tensor: Array) -> Array | None:
 
 
 def lift_explicit(spec: mujoco.MjSpec) -> None:
-    """Lift the inertias that the file of an MJCF gives and that only rounding keeps from being a body's."""
+    """Correct the inertias of an MJCF that are invalid only because of rounding.
+
+    Args:
+        spec: The model; it is changed.
+    """
     for body in spec.bodies[1:]:
         if not body.explicitinertial:
             continue
@@ -65,13 +69,16 @@ def lift_explicit(spec: mujoco.MjSpec) -> None:
 
 
 def survive_text(draft: Draft) -> mujoco.MjModel:
-    """Compile what the draft's text says, which is what is simulated, with inertias that six digits do not break.
+    """Compile the draft's text, which is what is simulated, with inertias that stay valid when rounded to six digits.
+
+    Args:
+        draft: The model; its inertias may be changed.
 
     Returns:
         The model that the text describes.
 
     Raises:
-        LevadeError: If MuJoCo does not take the text.
+        LevadeError: If MuJoCo does not accept the text.
     """
     model = draft.compile()
     try:
@@ -95,7 +102,7 @@ def survive_text(draft: Draft) -> mujoco.MjModel:
 
 
 def _given(body: mujoco.MjsBody) -> Array:
-    """(3, 3), in the frame of the file."""
+    """Return the inertia in the frame of the file [kg m2], shape (3, 3)."""
     xx, yy, zz, xy, xz, yz = body.fullinertia
     full = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     return np.diag(np.array(body.inertia, dtype=float)) if np.isnan(full).any() else full

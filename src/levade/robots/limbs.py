@@ -1,8 +1,8 @@
-"""Limbs of any robot: which branches of its kinematics stand on the ground, which do not, and what lies between.
+"""Find the limbs of any robot: which branches of its kinematics stand on the ground, which do not, and what lies between.
 
-A limb is a way from the trunk outward to where it ends or falls apart into small parts, as a hand into fingers. What carries
-two or more limbs is a waist. Limbs that have a mirror image on the trunk's other side, and reach about as deep as any, are
-legs; other pairs are arms. Names are not looked at.
+A limb is a path from the trunk outward to where it ends or splits into small parts, as a hand into fingers. Joints that carry
+two or more limbs are a waist. Limbs that have a mirror image on the other side, and reach about as deep as any, are legs. Other
+pairs are arms. Names have no effect.
 """
 
 from __future__ import annotations
@@ -21,20 +21,20 @@ from levade.robots.shapes import reach, support, thickness
 from levade.robots.understanding import Leg, Tree, find_foot, level
 
 _HAND = 0.8
-"""Parts beyond a fork that reach less than this share of the limb before it are a hand's, not limbs of their own."""
+"""Parts beyond a fork that reach less than this share of the limb before it belong to a hand and are not separate limbs."""
 _DEEP = 0.75
-"""Of how deep the deepest limb reaches below the trunk, what a leg reaches at least."""
+"""Least depth below the trunk that a leg reaches, as a share of the deepest limb's."""
 _BELOW = 0.2
-"""Of a leg's length, by which legs reach below the trunk at least."""
+"""Least depth below the trunk that legs reach, as a share of their length."""
 _ABOVE = 0.25
-"""Of a leg's length, by which legs may begin above the robot's centre of mass at most."""
+"""Largest height above the robot's centre of mass at which legs begin, as a share of their length."""
 _SAMPLES = 200
 _LEVER = 0.4
-"""Of an arm's length: joints that move its end by less, such as a wrist's, are held."""
+"""Share of an arm's length: joints that move its end by less, such as a wrist's, are held."""
 _PAD = 0.5
-"""Of a foot's thickness: shapes on its link whose lowest point is this near to the lowest of all are part of the sole."""
+"""Share of a foot's thickness: shapes on its link whose lowest point is within this of the lowest are part of the sole."""
 _SAME_PLACE = 0.05
-"""Of the distance between two limbs, or 2 cm: how far from mirror images they may be."""
+"""Largest deviation of two limbs from mirror images, as a share of the distance between them; at least 2 cm."""
 _ENDS = {1: ("middle",), 2: ("front", "hind"), 3: ("front", "middle", "hind")}
 _SHORT = {"front": "f", "middle": "m", "hind": "h"}
 _DOWN = np.array([0.0, 0.0, -1.0])
@@ -42,11 +42,16 @@ _DOWN = np.array([0.0, 0.0, -1.0])
 
 @dataclass
 class Branch:
-    """A way from the trunk outward.
+    """Describes a path from the trunk outward.
 
-    stem: joints that it shares with other branches, from the trunk. joints: its own. body: the last that it moves.
-    low: z [m] of the deepest that it reaches. tip: (3,) [m], its end at zero angles.
-    length: [m], along its joints. start: z [m] of its first joint.
+    Attributes:
+        stem: Joints that it shares with other branches, from the trunk outward.
+        joints: Its own joints.
+        body: The last body that it moves.
+        low: z of the deepest point that it reaches [m].
+        length: Length along its joints [m].
+        start: z of its first joint [m].
+        tip: Its end at zero angles [m], shape (3,).
     """
 
     stem: tuple[int, ...]
@@ -60,9 +65,13 @@ class Branch:
 
 @dataclass(frozen=True)
 class Limbs:
-    """What was found. legs: limbs that move, those that stand first. held: names of the other joints. wheels: of those, wheels.
+    """Lists the limbs of a robot.
 
-    problem: why there are no legs, in one line; empty if there are.
+    Attributes:
+        legs: Limbs that move, those that stand first.
+        held: Names of the other joints.
+        wheels: Names of those that turn wheels.
+        problem: Why there are no legs, in one line. Empty if there are legs.
     """
 
     legs: tuple[Leg, ...]
@@ -77,11 +86,14 @@ def read_limbs(model: mujoco.MjModel, trunk: int, where: str, wanted: Mapping[st
     Args:
         model: The robot, floating freely.
         trunk: Id of its trunk.
-        where: What messages start with.
-        wanted: "arm", "waist", "head" or "wheel" -> "free" or "held", where it is not as usual.
+        where: Prefix of messages.
+        wanted: "arm", "waist", "head" or "wheel" -> "free" or "held", to override the default.
+
+    Returns:
+        The limbs, or the reason why there are no legs.
 
     Raises:
-        LevadeError: If its legs are not in the trunk's frame, or end in nothing that collides.
+        LevadeError: If the trunk's frame does not fit its legs, or a leg ends without a collision shape.
     """
     data = mujoco.MjData(model)
     level(model, data, trunk)
@@ -108,7 +120,7 @@ def read_limbs(model: mujoco.MjModel, trunk: int, where: str, wanted: Mapping[st
     stray = _stray(data, branches, standing)
     if stray is not None:
         name = model.joint(stray.joints[0]).name
-        return Limbs((), (), (), f"the limb from {name} reaches as deep as the legs, and is none of them")
+        return Limbs((), (), (), f"the limb from {name} reaches as deep as the legs, but is not one of them")
     if len(standing) < 2:
         return Limbs((), (), (), _census(model, branches))
     legs = _named_legs(model, data, trunk, standing, where)
@@ -121,15 +133,20 @@ def read_limbs(model: mujoco.MjModel, trunk: int, where: str, wanted: Mapping[st
 
 
 def stands(model: mujoco.MjModel, trunk: int) -> bool:
-    """Whether legs of any kind hang on the body of that id."""
+    """Tell whether legs of any kind hang on a body.
+
+    Args:
+        model: The model.
+        trunk: Id of the body.
+    """
     try:
         return not read_limbs(model, trunk, "", {}).problem
-    except LevadeError:  # legs, which something else is wrong with
+    except LevadeError:  # it has legs, but something else is wrong with them
         return True
 
 
 def _branches(tree: Tree, data: mujoco.MjData, body: int, stem: tuple[int, ...]) -> list[Branch]:
-    """The branches from a body with joints outward."""
+    """Return the branches that start at a body with joints."""
     joints: list[int] = []
     first = data.xanchor[tree.joints(body)[0]].copy()
     place, length = first, 0.0
@@ -158,7 +175,7 @@ def _starts(tree: Tree, body: int) -> list[int]:
 
 
 def _size(tree: Tree, data: mujoco.MjData, body: int, place: Array) -> float:
-    """[m], how far from a place what a body carries reaches."""
+    """Return how far the things that a body carries reach from a place [m]."""
     model, below = tree.model, tree.below(body)
     ends = [data.xanchor[j] for b in below for j in tree.joints(b)]
     far = [float(np.linalg.norm(end - place)) for end in ends]
@@ -175,7 +192,7 @@ def _colliding(model: mujoco.MjModel, bodies: set[int]) -> list[int]:
 
 
 def _take_wheels(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, branches: list[Branch]) -> list[int]:
-    """Take last joints that turn without end, about the middle of what they carry, off their branches."""
+    """Remove wheels from their branches: last joints that turn without limit about the middle of what they carry."""
     found = []
     for branch in branches:
         while branch.joints and _is_wheel(model, data, tree, branch.joints[-1]):
@@ -200,7 +217,7 @@ def _is_wheel(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, joint: int
 
 
 def _measure(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, trunk: int, branches: Sequence[Branch]) -> None:
-    """How deep every branch reaches within its ranges, sampled, and where it ends."""
+    """Measure, by sampling, how deep every branch reaches within its ranges, and where it ends."""
     generator = np.random.default_rng(0)
     geoms = [_colliding(model, tree.below(int(model.jnt_bodyid[branch.joints[-1]]))) for branch in branches]
     for branch, own in zip(branches, geoms, strict=True):
@@ -229,7 +246,7 @@ def _ranges(model: mujoco.MjModel, joints: Sequence[int]) -> tuple[Array, Array]
 
 
 def _pairs(model: mujoco.MjModel, data: mujoco.MjData, branches: Sequence[Branch]) -> dict[int, int]:
-    """Index of a branch -> that of its mirror image across the trunk's sagittal plane."""
+    """Map the index of each branch to that of its mirror image across the trunk's sagittal plane."""
     found: dict[int, int] = {}
     for i, one in enumerate(branches):
         for k in range(i + 1, len(branches)):
@@ -240,12 +257,12 @@ def _pairs(model: mujoco.MjModel, data: mujoco.MjData, branches: Sequence[Branch
             apart = float(np.linalg.norm(one.tip - other.tip))
             tolerance = max(0.02, _SAME_PLACE * apart)
             image = np.array([1.0, -1.0, 1.0])
-            # where on its axis a joint is anchored does not count: the ends do, and all axes
+            # the position of an anchor on its axis has no effect: the ends count, and all axes
             axes = [
                 float(np.linalg.norm(np.cross(image * data.xaxis[p], data.xaxis[q])))
                 for p, q in zip(one.joints, other.joints, strict=True)
             ]
-            places = [(one.tip, other.tip)]  # files have feet that are no images, on legs that are
+            places = [(one.tip, other.tip)]  # in some files the legs are mirror images but the feet are not
             places.append(tuple(data.xanchor[branch.joints].mean(axis=0) for branch in (one, other)))
             off = min(float(np.linalg.norm(image * p - q)) for p, q in places)
             near = off <= 2 * tolerance and a[1] * b[1] <= 0
@@ -257,7 +274,7 @@ def _pairs(model: mujoco.MjModel, data: mujoco.MjData, branches: Sequence[Branch
 def _standing(
     model: mujoco.MjModel, data: mujoco.MjData, branches: Sequence[Branch], pairs: Mapping[int, int]
 ) -> list[Branch]:
-    """The branches that stand: hinges alone, one of which lifts the limb, reaching about as deep as any."""
+    """Choose the branches that stand: they have only hinges, one of which lifts the limb, and reach about as deep as any."""
     hinge = mujoco.mjtJoint.mjJNT_HINGE
     able = [
         i
@@ -267,15 +284,15 @@ def _standing(
         and "hfe" in limb_roles(model, data, [model.joint(j).name for j in branch.joints], branch.tip)
     ]
     paired = [i for i in able if i in pairs]
-    if not paired:  # legs that point every way, as spokes
+    if not paired:  # legs that point in all directions, like spokes
         paired = able if len(able) > 2 else []
     if not paired:
         return []
-    lowest = min(branches[i].low for i in able)  # one that is deeper, and has no image, is a leg that lacks its other
+    lowest = min(branches[i].low for i in able)  # a deeper one without an image is a leg that lacks its partner
     deep = [i for i in paired if branches[i].low <= (_DEEP * lowest if lowest < 0 else lowest + 1e-9)]
     alike = [
         i
-        for i in able  # spokes straight ahead and behind have no image, and are as the others
+        for i in able  # spokes straight ahead and behind have no image, but are like the others
         if i not in deep and len(branches[i].joints) in {len(branches[k].joints) for k in deep}
         and branches[i].low <= _DEEP * lowest and len(deep) > 2 and not branches[i].stem
     ]  # fmt: skip
@@ -284,7 +301,7 @@ def _standing(
 
 
 def _stray(data: mujoco.MjData, branches: Sequence[Branch], standing: Sequence[Branch]) -> Branch | None:
-    """A limb on one side that reaches as deep as legs, and is no leg; an arm or a tail in the middle may."""
+    """Find a limb on one side that reaches as deep as legs but is not one; an arm or a tail in the middle may do so."""
     if not standing:
         return None
     deep = _DEEP * max(branch.low for branch in standing)
@@ -307,7 +324,7 @@ def _named_legs(
     if len(standing) == 2 and along > across:
         raise LevadeError(
             f"{where}: its two legs are not left and right in the frame of {name} (x forward, y left, z up); it seems that y"
-            " is forward there: turn that frame"
+            " is forward there: rotate that frame"
         )
     sides = {side: [i for i in range(len(standing)) if (centres[i, 1] >= middle[1]) == (side == "left")]
              for side in ("left", "right")}  # fmt: skip
@@ -335,9 +352,9 @@ def _order(end: str) -> int:
 
 
 def _pads(model: mujoco.MjModel, data: mujoco.MjData, foot: str) -> tuple[str, ...]:
-    """Names of the shapes that stand on the ground with the foot: those of its link that reach as deep, hanging down.
+    """Name the shapes that stand on the ground with the foot: those of its link that reach as deep when it hangs down.
 
-    Empty where the foot alone does.
+    The result is empty if only the foot does.
     """
     geom = model.geom(foot).id
     own = _colliding(model, {int(model.geom_bodyid[geom])})
@@ -355,7 +372,7 @@ def _others(
     standing: Sequence[Branch],
     wanted: Mapping[str, str],
 ) -> list[Leg]:
-    """Arms, where they move, and the waist and the head, where they are asked for."""
+    """Return arms that move, and waist and head if they are asked for."""
     usual = {"arm": "free" if len(standing) == 2 else "held", "waist": "held", "head": "held"}
     kinds = {**usual, **wanted}
     found: list[Leg] = []
@@ -391,7 +408,7 @@ def _limb(
     geoms: Sequence[int],
     counts: dict[str, int],
 ) -> Leg:
-    """A limb that does not stand; its foot is the shape that reaches farthest."""
+    """Make a limb that does not stand; its foot is the shape that reaches farthest."""
     short = f"{side[0]}a" if kind == "arm" and side != "middle" else kind
     counts[short] = counts.get(short, 0) + 1
     name = short if counts[short] == 1 else f"{short}{counts[short]}"
@@ -403,14 +420,14 @@ def _limb(
 
 
 def _arms(model: mujoco.MjModel, data: mujoco.MjData, rest: Sequence[Branch]) -> list[Branch]:
-    """Limbs of three hinges and more that do not stand: those with an image, or else the longest."""
+    """Choose the arms: limbs of three hinges or more that do not stand and have an image, otherwise the longest one."""
     long = [branch for branch in rest if len(branch.joints) >= 3]
     mirrored = [rest[i] for i in _pairs(model, data, rest)]
     return [branch for branch in long if any(branch is one for one in mirrored)] or long
 
 
 def _levers(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, branch: Branch) -> list[int]:
-    """The joints of an arm that move its end by much: all but those of the wrist."""
+    """Return the joints of an arm that move its end far: all except those of the wrist."""
     moved = mujoco.MjData(model)
     generator = np.random.default_rng(0)
     lower, upper = _ranges(model, branch.joints)
@@ -433,12 +450,19 @@ def _levers(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, branch: Bran
 
 
 def limb_roles(model: mujoco.MjModel, data: mujoco.MjData, joints: Sequence[str], tip: Array) -> tuple[str, ...]:
-    """Role of each joint by what it does at zero angles, in the plane in which the limb points outward.
+    """Find the role of each joint by its effect at zero angles, in the plane in which the limb points outward.
 
-    "haa" spreads the limb, "hfe" lifts it, "kfe" folds it, "pitch" and "roll" turn what is beyond; "yaw" turns about the
-    vertical, which is called "swing" of a limb that points outward.
+    "haa" spreads the limb, "hfe" lifts it, "kfe" folds it, and "pitch" and "roll" turn what lies beyond. "yaw" turns about the
+    vertical; for a limb that points outward this is called "swing".
 
-    data: kinematics at zero angles, the trunk frame on the world frame. tip: (3,) [m], where the limb ends.
+    Args:
+        model: The model.
+        data: Kinematics at zero angles, with the trunk frame at the world frame.
+        joints: Names of the limb's joints.
+        tip: End of the limb [m], shape (3,).
+
+    Returns:
+        One role per joint.
     """
     away = tip - data.joint(joints[0]).xanchor
     flat = np.array([away[0], away[1], 0.0])
@@ -461,6 +485,6 @@ def limb_roles(model: mujoco.MjModel, data: mujoco.MjData, joints: Sequence[str]
 
 def _census(model: mujoco.MjModel, branches: Sequence[Branch]) -> str:
     if not branches:
-        return "this model has no joints beside its free base"
+        return "this model has no joints besides its free base"
     counted = [f"{len(b.joints)} from {model.joint(b.joints[0]).name}" for b in branches]
-    return f"no two limbs of two to eight hinges stand alike left and right of the trunk (limbs: {some(counted, 6)})"
+    return f"no two limbs of two to eight hinges stand symmetrically left and right of the trunk (limbs: {some(counted, 6)})"

@@ -1,4 +1,4 @@
-"""Loading: from a name, an MJCF, a URDF or a robot.yaml to a `Robot`."""
+"""Loading: make a `Robot` from a name, an MJCF, a URDF or a robot.yaml."""
 
 from __future__ import annotations
 
@@ -37,7 +37,11 @@ _MODELS = (".xml", ".urdf", ".mjcf")
 
 
 def builtin_robots() -> list[tuple[str, str]]:
-    """(name, description) of every built-in robot, by name."""
+    """List the built-in robots.
+
+    Returns:
+        Name and description of each robot, sorted by name.
+    """
     from levade.robots.description import read_description
 
     return [(name, read_description(path).description) for name, path in _built_in().items()]
@@ -52,13 +56,22 @@ def load_robot(
     kp: float | None = None,
     kd: float | None = None,
 ) -> Robot:
-    """A built-in robot by name, one of an installed package by ``package:robot``, or any robot by the path of its MJCF,
-    URDF or robot.yaml (or of the folder that holds one).
+    """Load a robot.
 
-    What a robot.yaml leaves out is derived from the model, and for a model alone everything is; ``Robot.findings`` says
-    what and how. actuation, variant: names from the description; the default actuation and the plain model if left out.
-    linkage: lower the torque limits by the linkage's curves. kp [Nm/rad], kd [Nm s/rad]: for all joints, instead of the
-    description's. Raises `LevadeError`.
+    What a robot.yaml leaves out is derived from the model. Without a robot.yaml, everything is. ``Robot.findings`` says what
+    was derived, and how.
+
+    Args:
+        name_or_path: Name of a built-in robot; ``package:robot`` for a robot of an installed package; or the path of an MJCF,
+            URDF or robot.yaml, or of a folder that holds one.
+        actuation: Name of an actuation in the description. Defaults to its default actuation.
+        variant: Name of a variant in the description. Defaults to the plain model.
+        linkage: Whether to lower the torque limits by the linkage's curves.
+        kp: Stiffness for all joints [Nm/rad]. Defaults to the description's.
+        kd: Damping for all joints [Nm s/rad]. Defaults to the description's.
+
+    Raises:
+        LevadeError: If the robot is unknown, or its files cannot be read or understood.
     """
     path = _find(str(name_or_path))
     form = _describe(path)
@@ -156,7 +169,7 @@ def _find(name_or_path: str) -> Path:
 
 
 def _describe(path: Path) -> RobotForm:
-    """The description at a path; for a model, the robot.yaml beside it that describes it, or else a bare one."""
+    """Read the description at a path. For a model, use the robot.yaml next to it that describes it, or a bare description."""
     from levade.robots.description import RobotForm, read_description
 
     if path.suffix.lower() not in _MODELS and not is_model(path):
@@ -178,7 +191,9 @@ def _apply_variant(draft: Draft, path: Path, form: RobotForm, variant: str) -> N
             where = f"{path}: variants.{variant}.inertials"
             raise LevadeError(f"{where}: no body {name!r} in {form.model}; {did_you_mean(name, bodies)}")
         body = spec.body(name)
-        if not body.explicitinertial:  # mass and inertia come from the geoms: write them down before replacing a part
+        if (
+            not body.explicitinertial
+        ):  # mass and inertia come from the geoms: make them explicit before replacing a part
             compiled = model.body(name)
             body.explicitinertial = True
             body.mass, body.ipos = float(compiled.mass[0]), compiled.ipos

@@ -1,8 +1,8 @@
-"""Loops: joints that follow others, and bodies that a constraint holds together; levade moves serial legs only.
+"""Loops: handle joints that follow others, and bodies that a constraint holds together. Levade moves only serial legs.
 
 A follower (``<mimic>`` of a URDF, a joint equality of an MJCF) is held where its leader's neutral angle puts it. A loop
-(``<connect>``, ``<weld>``) is opened where one side of it is loose: no motor drives that side, so that nothing but its
-own weight comes through it. What would push on a leg is refused.
+(``<connect>``, ``<weld>``) is opened where one side is loose: no motor drives that side, so it transmits only its own
+weight. A loop that would push on a leg is refused.
 """
 
 from __future__ import annotations
@@ -19,16 +19,19 @@ from levade.robots.world import delete_tendons, label, sides, tendon_bodies
 
 _OF_BODIES = (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD)
 _SUM = 3
-"""Joints in a tendon from which on it binds a sum, and does not tie one joint to another."""
+"""Number of joints from which on a tendon binds a sum instead of coupling one joint to another."""
 _SERIAL = "levade moves legs without closed loops: give it a serial model, each of whose joints has a motor"
 
 
 @dataclass(frozen=True)
 class Coupling:
-    """A joint that another one leads: its angle is the polynomial of the leader's.
+    """Describes a joint whose angle is a polynomial of another joint's.
 
-    follower, leader: joint names; the leader is empty where the angle is constant. coefficients: lowest power first.
-    kind: what the file calls it.
+    Attributes:
+        follower: Name of the joint.
+        leader: Name of the joint that it follows. Empty if the angle is constant.
+        coefficients: Coefficients of the polynomial, lowest power first.
+        kind: Name of this coupling in the file.
     """
 
     follower: str
@@ -37,23 +40,26 @@ class Coupling:
     kind: str
 
     def at(self, leader: float) -> float:
-        """The follower's angle."""
+        """Return the follower's angle [rad] for the leader's [rad]."""
         return float(np.polynomial.polynomial.polyval(leader, self.coefficients))
 
     @property
     def relation(self) -> str:
-        """How messages write the polynomial."""
+        """The polynomial as messages write it."""
         powers = ["", *(f" {self.leader}{f'^{k}' if k > 1 else ''}" for k in range(1, len(self.coefficients)))]
         terms = [f"{c:g}{power}" for c, power in zip(self.coefficients, powers, strict=True) if c]
         return " + ".join(terms).replace("+ -", "- ") or "0"
 
 
 def take_couplings(spec: mujoco.MjSpec, model: mujoco.MjModel) -> list[Coupling]:
-    """Take the joint equalities out of the spec of an MJCF; those that are switched off go, too.
+    """Remove the joint equalities from the spec of an MJCF, including inactive ones.
 
     Args:
         spec: The robot; it is changed.
-        model: Compiled from the file, for the joints' reference angles.
+        model: Model compiled from the file, for the joints' reference angles.
+
+    Returns:
+        The active ones.
     """
     found = []
     for equality in [e for e in spec.equalities if e.type == mujoco.mjtEq.mjEQ_JOINT]:
@@ -64,7 +70,14 @@ def take_couplings(spec: mujoco.MjSpec, model: mujoco.MjModel) -> list[Coupling]
 
 
 def follower_angles(couplings: Iterable[Coupling], angles: Mapping[str, float]) -> dict[str, float]:
-    """Follower -> angle, given the angles of the other joints; a leader that has none counts as zero.
+    """Compute the angles of followers.
+
+    Args:
+        couplings: Which joints follow which.
+        angles: Joint -> angle of the other joints [rad]. A leader without one counts as zero.
+
+    Returns:
+        Follower -> angle [rad].
 
     Raises:
         LevadeError: If joints follow each other in a circle.
@@ -83,7 +96,16 @@ def follower_angles(couplings: Iterable[Coupling], angles: Mapping[str, float]) 
 
 
 def say_followers(couplings: Iterable[Coupling], held: Mapping[str, float], legs: Iterable[str]) -> list[Finding]:
-    """Findings about followers that are held: warnings where their leader is a joint of a leg."""
+    """Describe held followers.
+
+    Args:
+        couplings: Which joints follow which.
+        held: Follower -> angle at which it is held [rad].
+        legs: Names of the legs' joints.
+
+    Returns:
+        Warnings about followers of a leg's joint, notes about others.
+    """
     legs = set(legs)
     findings = []
     for in_leg, add in ((True, warning), (False, note)):
@@ -108,14 +130,26 @@ def say_followers(couplings: Iterable[Coupling], held: Mapping[str, float], legs
 
 @dataclass(frozen=True)
 class Loop:
-    """Two bodies that a constraint holds together. name: for messages. joints: on the way from one to the other."""
+    """Describes two bodies that a constraint holds together.
+
+    Attributes:
+        name: Name for messages.
+        joints: Names of the joints between the two bodies.
+    """
 
     name: str
     joints: frozenset[str]
 
 
 def take_loops(spec: mujoco.MjSpec) -> list[Loop]:
-    """Take connects and welds out of a model; those that are switched off, or hold nothing that moves, count for nothing."""
+    """Remove connects and welds from a model.
+
+    Args:
+        spec: The robot; it is changed.
+
+    Returns:
+        The loops, without inactive ones and those that hold nothing that moves.
+    """
     found = []
     for equality in [e for e in spec.equalities if e.type in _OF_BODIES]:
         one, other = sides(spec, equality)
@@ -127,14 +161,22 @@ def take_loops(spec: mujoco.MjSpec) -> list[Loop]:
 
 
 def why_no_legs(loops: Sequence[Loop], couplings: Sequence[Coupling]) -> str:
-    """What about loops and followers may be the reason that no legs were found; empty if there are none."""
+    """Explain which loops and followers may be the reason that no legs were found.
+
+    Args:
+        loops: The loops.
+        couplings: Which joints follow which.
+
+    Returns:
+        The reason for a message. Empty without loops and followers.
+    """
     reasons = []
     if couplings:
         first = couplings[0]
         verb = "follows" if len(couplings) == 1 else "follow"
         reasons.append(
             f"{named('joint', [c.follower for c in couplings])} {verb} other joints ({first.kind}: {first.follower} ="
-            f" {first.relation}), and levade drives every joint of a leg by itself"
+            f" {first.relation}), but levade drives every joint of a leg separately"
         )
     if loops:
         verb = "closes a loop" if len(loops) == 1 else "close loops"
@@ -145,17 +187,17 @@ def why_no_legs(loops: Sequence[Loop], couplings: Sequence[Coupling]) -> str:
 def open_loops(
     loops: Iterable[Loop], legs: Iterable[str], held: Iterable[str], driven: set[str], where: str
 ) -> list[Finding]:
-    """Judge the loops that were taken out of a model.
+    """Judge the loops that were removed from a model.
 
     Args:
-        loops: From `take_loops`.
+        loops: Loops from `take_loops`.
         legs: Joints of the legs.
         held: Joints that are held fixed.
-        driven: Joints that have an actuator; empty if the file has none.
-        where: What messages start with.
+        driven: Joints that have an actuator. Empty if the file has none.
+        where: Prefix of messages.
 
     Returns:
-        A warning of loops beside legs, a note of others.
+        A warning about loops with a leg, and a note about others.
 
     Raises:
         LevadeError: If opening a loop changes how a leg is driven.
@@ -183,18 +225,24 @@ def open_loops(
         what = f"{verb} with a leg: opened, and {named('joint', list(loose))}, which nothing drives, held fixed"
         findings.append(warning(some(opened, 2), what, "check that motors act on the joints of the leg themselves"))
     if idle:
-        findings.append(note(some(idle, 2), "holds together what is held fixed anyway: left out"))
+        findings.append(note(some(idle, 2), "holds together parts that are held fixed anyway: left out"))
     return findings
 
 
 def open_tendons(spec: mujoco.MjSpec, legs: Iterable[str], where: str) -> list[Finding]:
-    """Delete tendons whose length is bound.
+    """Delete tendons whose length is constrained.
+
+    Args:
+        spec: The robot; it is changed.
+        legs: Joints of the legs.
+        where: Prefix of messages.
 
     Returns:
-        A warning of those that bind a sum of three joints of a leg or more: the leg gets a freedom that its drives do not have.
+        A warning about tendons that bind a sum of three or more joints of a leg. Without them the leg has a degree of freedom
+        that its drives do not have.
 
     Raises:
-        LevadeError: For others over joints of legs, which they couple as a belt does.
+        LevadeError: If another tendon couples joints of a leg, as a belt does.
     """
     bound = {
         name
@@ -211,17 +259,21 @@ def open_tendons(spec: mujoco.MjSpec, legs: Iterable[str], where: str) -> list[F
             sums.append(tendon.name)
         elif tendon_bodies(tendon) & bodies:
             raise LevadeError(
-                f"{where}: <tendon> {tendon.name}, whose length is bound, couples joints of a leg; {_SERIAL}"
+                f"{where}: <tendon> {tendon.name}, whose length is constrained, couples joints of a leg; {_SERIAL}"
             )
         delete_tendons(spec, [tendon])
     if not sums:
         return []
-    what = "binds a sum of joints of a leg: left out, and each of them gets a servo of its own"
-    return [warning(named("tendon", sums), what, "motions may bend them as the robot's own drives do not")]
+    what = "binds a sum of joints of a leg: left out, and each of these joints gets its own servo"
+    return [
+        warning(
+            named("tendon", sums), what, "check that motions do not bend them in a way that the robot's drives cannot"
+        )
+    ]
 
 
 def _between(spec: mujoco.MjSpec, one: str, other: str) -> set[str]:
-    """Names of the joints on the way from one body to another, free joints left aside."""
+    """Name the joints between two bodies, without free joints."""
     ways = [_way(spec, body) for body in (one, other)]
     bodies = set(ways[0]) ^ set(ways[1])
     free = mujoco.mjtJoint.mjJNT_FREE
@@ -229,7 +281,7 @@ def _between(spec: mujoco.MjSpec, one: str, other: str) -> set[str]:
 
 
 def _way(spec: mujoco.MjSpec, name: str) -> list[str]:
-    """Names of a body and of those between it and the world."""
+    """Name a body and those between it and the world."""
     found = []
     body = spec.body(name)
     while body is not None and body.name != "world":
@@ -239,9 +291,9 @@ def _way(spec: mujoco.MjSpec, name: str) -> list[str]:
 
 
 def _coupling(spec: mujoco.MjSpec, model: mujoco.MjModel, equality: mujoco.MjsEquality) -> Coupling:
-    """A joint equality: joint1 - ref1 is the polynomial of joint2 - ref2.
+    """Read a joint equality, in which joint1 - ref1 is a polynomial of joint2 - ref2.
 
-    The one of the two that carries nothing that collides (a rotor, a rod) follows, if only one does.
+    If exactly one of the two carries nothing that collides (a rotor, a rod), that one follows.
     """
     first, second = equality.name1, equality.name2
     shape = [float(c) for c in np.asarray(equality.data)[:5]]
@@ -259,6 +311,6 @@ def _coupling(spec: mujoco.MjSpec, model: mujoco.MjModel, equality: mujoco.MjsEq
 
 
 def _collides(spec: mujoco.MjSpec, joint: str) -> bool:
-    """Whether anything that moves with a joint collides."""
+    """Tell whether anything that moves with a joint collides."""
     body = spec.joint(joint).parent
     return any(geom.contype or geom.conaffinity for geom in [*body.geoms, *body.find_all("geom")])

@@ -1,4 +1,4 @@
-"""Numbers of a model that nothing simulates: infinite ones, and ones beyond what MuJoCo takes for a state."""
+"""Check for numbers that cannot be simulated: infinite ones, and ones beyond what MuJoCo accepts in a state."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 from levade.errors import LevadeError
 
 LARGEST: float = mujoco.mjMAXVAL
-"""Whatever the unit: MuJoCo stops a simulation whose state goes beyond it."""
+"""Largest number, in any unit: MuJoCo stops a simulation whose state exceeds it."""
 
 _FIELDS = {
     "body": (
@@ -26,8 +26,12 @@ _FIELDS = {
 def check_magnitudes(path: Path, model: mujoco.MjModel) -> None:
     """Check that masses, lengths and joint properties are numbers that can be simulated.
 
+    Args:
+        path: Path of the file, for messages.
+        model: The model.
+
     Raises:
-        LevadeError: If one is not; the message names the element.
+        LevadeError: If a number cannot be simulated; the message names the element.
     """
     for kind, fields in _FIELDS.items():
         for field, what in fields:
@@ -43,5 +47,5 @@ def check_magnitudes(path: Path, model: mujoco.MjModel) -> None:
                     name = f"{kind} {getattr(model, kind)(index).name}"
                 value = values.reshape(len(values), -1)[index, column]
                 raise LevadeError(
-                    f"{path}: {name}: {what} {value:g} is not a number that can be simulated; at most {LARGEST:g}"
+                    f"{path}: {name}: {what} {value:g} is not a number that can be simulated; it should be at most {LARGEST:g}"
                 )

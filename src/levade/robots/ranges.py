@@ -1,4 +1,4 @@
-"""Ranges: limits of joints that cannot be what they say, since no joint turns that far: degrees, or numbers for "none"."""
+"""Ranges: correct implausible joint limits, which are degrees or stand for "no limit", since no joint turns that far."""
 
 from __future__ import annotations
 
@@ -9,19 +9,29 @@ from levade.errors import LevadeError
 from levade.robots.findings import Finding, named, warning
 
 BELIEVED = 4 * np.pi
-"""[rad], two turns from zero: beyond it, a limit is no range of a leg's joint."""
+"""Largest plausible limit of a leg's joint [rad]: two turns from zero."""
 _DEGREES = 720.0
-"""The most that is taken for degrees."""
+"""Largest number that is interpreted as degrees."""
 
 
 def check_ranges(spec: mujoco.MjSpec, where: str) -> None:
-    """Raise LevadeError for joints whose limits are inverted, which MuJoCo takes for none, or no numbers."""
+    """Check joint ranges.
+
+    Args:
+        spec: The model.
+        where: Prefix of messages.
+
+    Raises:
+        LevadeError: If limits are inverted, which MuJoCo would treat as no limits, or are not numbers.
+    """
     for joint in spec.joints:
         lower, upper = joint.range
         if joint.limited == mujoco.mjtLimited.mjLIMITED_FALSE:
             continue
         if np.isnan([lower, upper]).any():
-            raise LevadeError(f"{where}: joint {joint.name}: its range ({lower:g} to {upper:g}) is no pair of numbers")
+            raise LevadeError(
+                f"{where}: joint {joint.name}: its range ({lower:g} to {upper:g}) is not a pair of finite numbers; fix it"
+            )
         if lower > upper:
             raise LevadeError(
                 f"{where}: joint {joint.name}: limits are inverted, lower {lower:g} is above upper {upper:g};"
@@ -30,14 +40,14 @@ def check_ranges(spec: mujoco.MjSpec, where: str) -> None:
 
 
 def doubt_ranges(spec: mujoco.MjSpec, model: mujoco.MjModel) -> list[Finding]:
-    """Take ranges that look like degrees for such, and others that no joint has for none.
+    """Convert ranges that look like degrees to radians, and remove other implausible ranges.
 
     Args:
-        spec: It is changed.
-        model: Compiled from it.
+        spec: The model; it is changed.
+        model: The compiled model.
 
     Returns:
-        Warnings of what was changed.
+        Warnings about what was changed.
     """
     limits = {
         joint.name: model.joint(joint.name).range.copy()
@@ -51,15 +61,20 @@ def doubt_ranges(spec: mujoco.MjSpec, model: mujoco.MjModel) -> list[Finding]:
     if most <= _DEGREES and 2 * len(far) >= len(limits):
         for name, limit in limits.items():
             _set_range(spec.joint(name), np.radians(limit))
-        what = f"ranges of up to {most:.4g} rad look like degrees: taken as such, {np.radians(most):.3g} rad"
+        what = f"ranges of up to {most:.4g} rad look like degrees: read as degrees, {np.radians(most):.3g} rad"
         where = "all joints with a range" if len(far) == len(limits) else named("joint", far)
-        return [warning(where, what, "write them in radians (a URDF has no degrees; an MJCF may say which it has)")]
+        return [warning(where, what, "write them in radians (a URDF never has degrees; an MJCF may declare its unit)")]
     for name in far:
         spec.joint(name).limited = mujoco.mjtLimited.mjLIMITED_FALSE
-    what = f"limits of up to {most:.4g} rad are no range: not believed"
+    what = f"limits of up to {most:.4g} rad are not plausible: ignored"
     return [warning(named("joint", far), what, "the file's range should be that of the hardware, in rad")]
 
 
 def _set_range(joint: mujoco.MjsJoint, limits: np.ndarray) -> None:
-    """limits: (2,) [rad]."""
+    """Set the range of a joint.
+
+    Args:
+        joint: The joint; it is changed.
+        limits: Lower and upper limit [rad], shape (2,).
+    """
     joint.range = np.degrees(limits) if joint.compiler.degree else limits

@@ -1,7 +1,7 @@
-"""Reading: from an MJCF or URDF file to a spec of the bare robot, and what the file says of its joints.
+"""Reading: convert an MJCF or URDF file to a spec of the bare robot, and collect what the file says about its joints.
 
-Bare: one free joint on the trunk, no actuators, no ground, every body, joint and colliding geom named, every file that
-it needs in memory.
+A bare robot has one free joint on the trunk, no actuators and no ground. Every body, joint and colliding geom has a name, and
+every file that it needs is in memory.
 """
 
 from __future__ import annotations
@@ -38,9 +38,13 @@ _FUSED = " The static bodies of the spec were fused before this error, and remai
 
 @dataclass(frozen=True)
 class Keyframe:
-    """A pose that an MJCF comes with.
+    """Holds a pose that an MJCF defines.
 
-    quaternion: of the trunk. angles: joint -> [rad] of hinges, [m] of slides. balls: joint -> quaternion (4,).
+    Attributes:
+        name: Name of the keyframe.
+        quaternion: Attitude of the trunk, shape (4,).
+        angles: Joint -> angle of a hinge [rad], or position of a slide [m].
+        balls: Ball joint -> quaternion, shape (4,).
     """
 
     name: str
@@ -51,13 +55,25 @@ class Keyframe:
 
 @dataclass
 class Draft:
-    """A robot's file, read.
+    """Holds the content of a robot's file.
 
-    effort [Nm], velocity [rad/s]: joint -> limit, of those that have one. servos: joint -> position servo.
-    driven: joints of an MJCF that an actuator drives. couplings: joints that follow others. loops: bodies that were
-    held together. held: joint that was taken out -> its angle [rad], or [m]; held_bodies: -> its body, of those that the
-    description or another joint holds. origins: what of the robot came from where,
-    see `Robot`. joints: of the file except the free one, in its order.
+    Attributes:
+        path: Path of the file.
+        spec: The model.
+        assets: File name in the model -> content.
+        urdf: Whether the file is a URDF.
+        effort: Joint -> torque limit [Nm], for joints that have one.
+        velocity: Joint -> speed limit [rad/s], for joints that have one.
+        servos: Joint -> what drives it.
+        driven: Joints of an MJCF that an actuator drives.
+        keyframes: Poses that an MJCF defines.
+        couplings: Joints that follow others.
+        loops: Bodies that were held together by a constraint.
+        held: Removed joint -> angle at which it is held [rad], or [m] of a slide.
+        held_bodies: Removed joint -> its body, for joints that the description or another joint holds.
+        findings: What was noticed.
+        origins: Where properties of the robot come from (see `Robot`).
+        joints: Joints of the file except the free one, in its order.
     """
 
     path: Path
@@ -78,7 +94,11 @@ class Draft:
     joints: list[str] = field(default_factory=list)
 
     def compile(self) -> mujoco.MjModel:
-        """The model. Raises LevadeError in one line."""
+        """Compile the model.
+
+        Raises:
+            LevadeError: If MuJoCo does not accept it; the message has one line.
+        """
         try:
             return self.spec.compile()
         except ValueError as error:
@@ -89,9 +109,12 @@ def read_model(path: Path, *, trunk: str | None = None, joints: Iterable[str] = 
     """Read an MJCF or URDF file.
 
     Args:
-        path: The file.
-        trunk: Name of a body of the robot, where a description gives one: the rest of the world is left out.
-        joints: Names of joints of the robot, likewise.
+        path: Path of the file.
+        trunk: Name of a body of the robot, if a description gives one. The rest of the world is left out.
+        joints: Names of joints of the robot, if a description gives some. They identify the robot in the same way.
+
+    Returns:
+        The content of the file.
 
     Raises:
         LevadeError: If the file cannot be read or simulated.
@@ -112,7 +135,9 @@ def _read(path: Path, trunk: str | None, joints: Iterable[str]) -> Draft:
     model = compile_readable(draft)
     check_magnitudes(path, model)
     if hides(model.names.decode(errors="replace").replace("\0", " ")):
-        raise LevadeError(f"{path}: names hold control characters, which no terminal can show; rename what has them")
+        raise LevadeError(
+            f"{path}: names contain control characters, which no terminal can show; rename those elements"
+        )
     doubts = doubt_ranges(draft.spec, model)
     if doubts:
         draft.findings += doubts
@@ -133,7 +158,7 @@ def _read(path: Path, trunk: str | None, joints: Iterable[str]) -> Draft:
 
 
 def _parse(path: Path, content: str) -> ET.Element | None:
-    """The root of an XML file; None for an MJCF that MuJoCo's more lenient parser may still take."""
+    """Parse an XML file and return its root; None for an MJCF that MuJoCo's more lenient parser may still accept."""
     if not content.strip():
         raise LevadeError(f"{path}: is empty; give an MJCF or URDF")
     try:
@@ -143,7 +168,7 @@ def _parse(path: Path, content: str) -> ET.Element | None:
             with suppress(ValueError):
                 mujoco.MjSpec.from_string(re.sub(r"<include\b[^>]*>", "", content))
                 return None
-        raise LevadeError(f"{path}: broken XML ({error}); mend it there") from None
+        raise LevadeError(f"{path}: broken XML ({error}); fix it there") from None
     if root.tag not in ("robot", "mujoco"):
         tag = root.tag.rpartition("}")[2][:40]
         raise LevadeError(f"{path}: starts with <{tag}>; a URDF starts with <robot>, an MJCF with <mujoco>")
@@ -160,12 +185,12 @@ def _read_urdf(path: Path, root: ET.Element) -> Draft:
     for mesh in spec.meshes:
         mesh.inertia = (
             mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
-        )  # flat ones have no volume; links have their own inertia
+        )  # flat meshes have no volume; links have their own inertia
     for body in spec.bodies:
         if any(not (geom.contype or geom.conaffinity) for geom in body.geoms):
             for geom in body.geoms:
                 if geom.contype or geom.conaffinity:
-                    geom.group = 3  # where there is something to look at, what collides need not be drawn
+                    geom.group = 3  # collision shapes need not be drawn if there are visual ones
     return Draft(
         path,
         spec,
@@ -185,7 +210,7 @@ def _read_mjcf(path: Path, content: str) -> Draft:
     except ValueError as error:
         raise LevadeError(f"{path}: {_explain(error)}") from None
     draft = Draft(path, spec, {}, False)
-    for skin in list(spec.skins):  # only looked at
+    for skin in list(spec.skins):  # visual only
         spec.delete(skin)
     folders = [path.parent, *dict.fromkeys(place.parent for place, _ in pieces.values())]
     read_assets(draft, folders)
@@ -193,7 +218,7 @@ def _read_mjcf(path: Path, content: str) -> Draft:
 
 
 def _mjcf_spec(path: Path, content: str, pieces: Mapping[str, tuple[Path, str]]) -> mujoco.MjSpec:
-    """What MuJoCo makes of an MJCF. Its own reader goes by the file's name, and takes every encoding for UTF-8."""
+    """Parse an MJCF with MuJoCo from text, since its own file reader judges by file names and assumes UTF-8."""
     if path.suffix == ".xml" and all(map(_is_utf8, (path, *(place for place, _ in pieces.values())))):
         return mujoco.MjSpec.from_file(str(path))
     return mujoco.MjSpec.from_string(content, include={name: text.encode() for name, (_, text) in pieces.items()})
@@ -208,7 +233,7 @@ def _is_utf8(path: Path) -> bool:
 
 
 def _name_everything(spec: mujoco.MjSpec) -> None:
-    """Names for bodies, joints and colliding geoms that have none."""
+    """Name the bodies, joints and colliding geoms that have no name."""
     bodies, joints, geoms = ({e.name for e in kind if e.name} for kind in (spec.bodies, spec.joints, spec.geoms))
     for i, body in enumerate(spec.bodies[1:], start=1):
         body.name = body.name or _free_name(f"body{i}", bodies)
@@ -220,14 +245,14 @@ def _name_everything(spec: mujoco.MjSpec) -> None:
 
 
 def _free_name(name: str, taken: set[str]) -> str:
-    """The name, with a number behind it if it is taken; taken from now on."""
+    """Return the name, with a number appended if it is taken, and mark it as taken."""
     free = name if name not in taken else next(n for i in count(1) if (n := f"{name}_{i}") not in taken)
     taken.add(free)
     return free
 
 
 def _say_what_is_mended(draft: Draft) -> None:
-    """Warn of inertias that MuJoCo's compiler replaces without a word."""
+    """Warn of inertias that MuJoCo's compiler replaces silently."""
     broken = []
     for body in draft.spec.bodies[1:]:
         if body.explicitinertial and body.compiler.balanceinertia:
@@ -240,19 +265,21 @@ def _say_what_is_mended(draft: Draft) -> None:
         what = (
             "the inertia breaks the triangle inequality; balanceinertia takes the mean of its moments about every axis"
         )
-        draft.findings.append(warning(named("body", broken), what, "mend it in the file"))
+        draft.findings.append(warning(named("body", broken), what, "fix it in the file"))
     compiler = draft.spec.compiler
     for name, least, unit in (
         ("boundmass", compiler.boundmass, "kg"),
         ("boundinertia", compiler.boundinertia, "kg m2"),
     ):
         if least > 0:
-            what = f"raises whatever is below it to {least:g} {unit}, missing values too"
-            draft.findings.append(warning(f"compiler {name}", what, "give every body its own, and leave it out"))
+            what = f"raises smaller and missing values to {least:g} {unit}"
+            draft.findings.append(
+                warning(f"compiler {name}", what, "give every body its own value, and remove this setting")
+            )
 
 
 def _keep_massless(draft: Draft, model: mujoco.MjModel) -> None:
-    """Write down the mass of fixed bodies that have none: geoms of mass zero get their density back from ``to_xml``."""
+    """Write down zero masses of fixed bodies explicitly, since ``to_xml`` gives geoms of mass zero a density again."""
     for body in draft.spec.bodies[1:]:
         if not body.explicitinertial and body.geoms and model.body(body.name).mass[0] == 0 and not body.joints:
             body.explicitinertial, body.mass = True, 1e-9
@@ -280,13 +307,13 @@ def _keyframes(model: mujoco.MjModel, root: str | None) -> list[Keyframe]:
 
 
 def _strip(draft: Draft, model: mujoco.MjModel, root: str | None) -> None:
-    """Leave the bare robot: without actuators, sensors, keyframes, and what stands in the world beside it."""
+    """Reduce the model to the bare robot: remove actuators, sensors, keyframes, and the rest of the world."""
     spec = draft.spec
     for element in [*spec.sensors, *spec.actuators, *spec.keys]:
         spec.delete(element)
     usual = spec.default.actuator
     if usual.ctrllimited == mujoco.mjtLimited.mjLIMITED_TRUE or usual.dyntype != mujoco.mjtDyn.mjDYN_NONE:
-        plain = mujoco.MjSpec().default.actuator  # servos that are added would have what the file's own have
+        plain = mujoco.MjSpec().default.actuator  # otherwise added servos would inherit the file's defaults
         for name in ("ctrllimited", "ctrlrange", "dyntype", "dynprm", "gaintype", "gainprm", "biastype", "biasprm"):
             setattr(usual, name, getattr(plain, name))
     if not draft.urdf:
@@ -296,7 +323,7 @@ def _strip(draft: Draft, model: mujoco.MjModel, root: str | None) -> None:
 
 
 def _explain(error: Exception) -> str:
-    """MuJoCo's message in one line, with a remedy where it is a usual one."""
+    """Write MuJoCo's message in one line, with a remedy for common errors."""
     text = " ".join(str(error).split())
     text = text.removeprefix("Error: ").removeprefix("XML Error: ").removesuffix(_FUSED)
     element = re.search(r"Element name '([^']+)'", text)
@@ -305,9 +332,9 @@ def _explain(error: Exception) -> str:
         return f"{body} moves but has no mass or no inertia; give it both, in {_UNITS}"
     if "A + B >= C" in text:
         return (
-            f"{body}: its inertia breaks the triangle inequality (two of its moments are below the third); mend it, or set"
+            f"{body}: its inertia breaks the triangle inequality (two of its moments are below the third); fix it, or set"
             ' <compiler balanceinertia="true"/>'
         )
     if "positive eigenvalues" in text:
-        return f"{body}: its inertia is not positive; mend it"
+        return f"{body}: its inertia is not positive; fix it"
     return text

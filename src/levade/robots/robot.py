@@ -1,13 +1,13 @@
-"""The robot: model, legs, joint order, limits, actuators, postures.
+"""The robot: model, legs, joint order, limits, actuators and postures.
 
     robot = load_robot("hyq2max")
     spec = robot.spec()                     # with actuators, without ground
     robot.joint_names                       # ("lf_haa", "lf_hfe", "lf_kfe", "rf_haa", ...)
     robot.postures["neutral"]               # (12,) [rad], in that order
 
-Joint order is that of the legs, each from the trunk outward; every array over joints follows it. Nothing says that the
-model's own order is the same: look joints up by name (``model.joint(name).qposadr``). Actuators are attached in joint
-order and take two controls each, position and velocity, interleaved.
+The joint order is that of the legs, each from the trunk outward. Every array over joints follows it. The model's own order may
+differ, so look joints up by name (``model.joint(name).qposadr``). Actuators are attached in joint order and take two controls
+each, position and velocity, interleaved.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from levade.robots.shapes import balls, support
 from levade.robots.understanding import Leg
 
 _TOES = 0.02
-"""Of its height, by which the soles of a robot are ahead of its ankles at least where they tell the way that it faces."""
+"""Share of the height by which soles must be ahead of the ankles to show which way the robot faces."""
 _ROLES = {"haa": "hip abduction", "hfe": "hip flexion", "kfe": "knee"}
 _SPRAWLED_ROLES = {"swing": "swing", "haa": "spread", "hfe": "lift", "kfe": "fold"}
 _ARM_ROLES = {"swing": "yaw", "haa": "spread", "hfe": "lift", "kfe": "fold"}
@@ -36,17 +36,25 @@ _ARM_ROLES = {"swing": "yaw", "haa": "spread", "hfe": "lift", "kfe": "fold"}
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Robot:
-    """A legged robot, ready to be put into a scene.
+    """Represents a legged robot that can be put into a scene.
 
-    mjcf: MJCF text, one free joint on the trunk, no actuators, no ground. assets: file name in ``mjcf`` -> content.
-    trunk: body name. limits: in joint order. actuation: the chosen one.
-    postures: name -> (joints,) [rad], always with "neutral".
-    variant: name of the description's variant, None for the plain model.
-    linkage: whether ``limits`` has the linkage's torque curves. source: the description's path, for messages.
-    findings: what was noticed, chosen and left out when the robot was read.
-    origins: of "legs", "neutral", "torque", "velocity", "gains" and, where there are such joints, "fixed": what decided.
-    held: joints of the file that are held fixed -> where [rad], slides [m].
-    model_joints: all joints of the file except the free one, in its order, with those that are held.
+    Attributes:
+        name: Name of the robot.
+        mjcf: MJCF text with one free joint on the trunk, without actuators and ground.
+        assets: File name in ``mjcf`` -> content.
+        trunk: Name of the trunk's body.
+        legs: The legs, and other limbs that move.
+        limits: Joint limits, in joint order.
+        actuation: The chosen actuation.
+        postures: Name -> joint angles [rad], shape (joints,). "neutral" is always there.
+        description: One line for listings.
+        variant: Name of the description's variant. None for the plain model.
+        linkage: Whether ``limits`` has the linkage's torque curves.
+        source: Path of the description, for messages.
+        findings: What was noticed, chosen and left out when the robot was read.
+        origins: "legs", "neutral", "torque", "velocity", "gains" and, if joints are held, "fixed" -> where it comes from.
+        held: Joint of the file that is held fixed -> its angle [rad], or position of a slide [m].
+        model_joints: All joints of the file except the free one, in its order, including held ones.
     """
 
     name: str
@@ -77,14 +85,15 @@ class Robot:
 
     @property
     def standing(self) -> tuple[Leg, ...]:
-        """The legs that stand: all of them but arms and others that only move."""
+        """The legs that stand: all limbs except arms and others that only move."""
         return tuple(leg for leg in self.legs if leg.stands)
 
     @property
     def stance(self) -> str:
-        """How it stands.
+        """How the robot stands.
 
-        "upright" on two legs; "sprawled" on more that begin with a joint about the vertical, as an insect's; else "level".
+        "upright" means on two legs. "sprawled" means on more legs that begin with a joint about the vertical, as an insect's.
+        All others are "level".
         """
         standing = self.standing
         if len(standing) == 2:
@@ -93,7 +102,7 @@ class Robot:
 
     @cached_property
     def ahead(self) -> float:
-        """1 where a robot on two legs faces along x of its trunk, -1 where it faces the other way, by where its toes are."""
+        """1 if a robot on two legs faces along x of its trunk, -1 if it faces the other way, judged by its toes."""
         if self.stance != "upright":
             return 1.0
         data = self.data_at(self.postures["neutral"])
@@ -102,22 +111,36 @@ class Robot:
 
     @property
     def feet(self) -> tuple[str, ...]:
-        """Geom names of the feet, in leg order; of an arm, the geom at its end."""
+        """Names of the feet's geoms, in leg order. For an arm it is the geom at its end."""
         return tuple(leg.foot for leg in self.legs)
 
     def leg(self, name: str) -> Leg:
-        """The leg of that name; `LevadeError` if there is none."""
+        """Return a leg by name.
+
+        Args:
+            name: Name of the leg.
+
+        Raises:
+            LevadeError: If there is no such leg.
+        """
         for leg in self.legs:
             if leg.name == name:
                 return leg
         raise LevadeError(f"robot {self.name}: no leg {name!r}; {did_you_mean(name, [leg.name for leg in self.legs])}")
 
     def posture(self, posture: str | Mapping[str, float | str]) -> Array:
-        """(joints,) [rad]: the posture of that name, or the neutral one with some legs or joints changed.
+        """Return a posture by name, or the neutral posture with some legs or joints changed.
 
-        posture: name; or joint (or pattern, such as "*_kfe") -> angle [rad]; or leg, "front", "hind", "left" or "right"
-        -> name of the posture that these legs take, which joints named besides may still change.
-        Raises `LevadeError` for unknown names and angles out of range.
+        Args:
+            posture: Name of a posture, or a mapping of changes. A change is a joint or pattern, such as "*_kfe" -> angle
+                [rad]; or a leg, "front", "hind", "left" or "right" -> name of the posture that these legs take. Changes of
+                joints take precedence over those of legs.
+
+        Returns:
+            Joint angles [rad], shape (joints,).
+
+        Raises:
+            LevadeError: If a name is unknown or an angle is out of range.
         """
         if isinstance(posture, str):
             if posture not in self.postures:
@@ -150,20 +173,31 @@ class Robot:
         return angles
 
     def role_words(self, leg: Leg) -> tuple[str, ...]:
-        """What each joint of a limb does, in words."""
+        """Describe in words what each joint of a limb does.
+
+        Args:
+            leg: The limb.
+        """
         words = _SPRAWLED_ROLES if self.stance == "sprawled" and leg.stands else _ROLES if leg.stands else _ARM_ROLES
         return tuple(words.get(role, role) for role in leg.roles or ("other",) * len(leg.joints))
 
     def joint_indices(self, leg: Leg) -> slice:
-        """Where the leg's joints are in arrays over joints."""
+        """Return the indices of a leg's joints in arrays over joints.
+
+        Args:
+            leg: The leg.
+        """
         first = self.joint_names.index(leg.joints[0])
         return slice(first, first + len(leg.joints))
 
     def spec(self, *, gain_scale: float = 1.0, damping_scale: float = 1.0) -> mujoco.MjSpec:
-        """A fresh `mujoco.MjSpec` of the robot with its actuators, to be completed by a scene.
+        """Make a new `mujoco.MjSpec` of the robot with its actuators, to be completed by a scene.
 
-        gain_scale: factor on kp and kd. damping_scale: factor on the passive damping of the joints.
-        ``to_xml()`` of it writes six digits, so simulate what was compiled from that text, not from the spec.
+        ``to_xml()`` writes six digits, so simulate what is compiled from that text, not from the spec.
+
+        Args:
+            gain_scale: Factor on kp and kd.
+            damping_scale: Factor on the passive damping of the joints.
         """
         spec = mujoco.MjSpec.from_string(self.mjcf, assets=dict(self.assets))
         self.actuation.attach(spec, self.joint_names, gain_scale=gain_scale)
@@ -175,14 +209,22 @@ class Robot:
 
     @cached_property
     def model(self) -> mujoco.MjModel:
-        """The robot alone, compiled; for kinematics. Not to be changed. Raises `LevadeError`."""
+        """The compiled model of the robot alone, for kinematics. Do not change it.
+
+        Raises:
+            LevadeError: If MuJoCo does not accept the model.
+        """
         try:
             return mujoco.MjModel.from_xml_string(self.mjcf, dict(self.assets))
         except ValueError as error:
             raise LevadeError(f"robot {self.name}: {' '.join(str(error).split())}") from None
 
     def data_at(self, joint_position: Array) -> mujoco.MjData:
-        """`mujoco.MjData` of `model` at (joints,) [rad], the trunk frame on the world frame, kinematics computed."""
+        """Compute kinematics of `model`, with the trunk frame at the world frame.
+
+        Args:
+            joint_position: Joint angles [rad], shape (joints,).
+        """
         data = mujoco.MjData(self.model)
         data.qpos[:] = 0.0
         data.qpos[self.model.jnt_qposadr[self._free_joint] + 3] = 1.0
@@ -193,25 +235,45 @@ class Robot:
         return data
 
     def foot_positions(self, joint_position: Array) -> Array:
-        """(standing legs, 3) [m], centres of the feet in the trunk frame, at (joints,) [rad]."""
+        """Compute the centres of the feet in the trunk frame.
+
+        Args:
+            joint_position: Joint angles [rad], shape (joints,).
+
+        Returns:
+            Positions [m], shape (standing legs, 3).
+        """
         data = self.data_at(joint_position)
         return np.array([_middle(data, leg) for leg in self.standing])
 
     def foot_depths(self, joint_position: Array) -> Array:
-        """(standing legs,) [m], how far the lowest point of each foot is below the trunk's origin at (joints,) [rad]."""
+        """Compute how far the lowest point of each foot is below the trunk's origin.
+
+        Args:
+            joint_position: Joint angles [rad], shape (joints,).
+
+        Returns:
+            Depths [m], shape (standing legs,).
+        """
         data = self.data_at(joint_position)
         return np.array([max(_depth(self.model, data, geom) for geom in leg.soles) for leg in self.standing])
 
     def standing_height(self, posture: str | Mapping[str, float | str] = "neutral") -> float:
-        """[m], the trunk's origin above the lowest point of the feet, the trunk level; see `levade.robots.dimensions`.
+        """Compute the height of the trunk's origin above the lowest point of the feet, with a level trunk.
 
-        Negative where the file puts the origin on the ground, or below it.
+        It may be negative if the file puts the origin on the ground or below it. See also `levade.robots.dimensions`.
+
+        Args:
+            posture: The posture, as in `posture`.
+
+        Returns:
+            Height [m].
         """
         return float(self.foot_depths(self.posture(posture)).max())
 
     @cached_property
     def neutral_height(self) -> float:
-        """[m], `standing_height` of the neutral posture."""
+        """`standing_height` of the neutral posture [m]."""
         return self.standing_height("neutral")
 
     @cached_property
@@ -251,19 +313,19 @@ class Robot:
 
     @cached_property
     def mass(self) -> float:
-        """[kg], of the whole robot."""
+        """Mass of the whole robot [kg]."""
         return float(self.model.body_mass.sum())
 
     @cached_property
     def trunk_parts(self) -> tuple[int, ...]:
-        """Ids of the bodies with mass that are fixed to the trunk, such as a held arm; with the trunk's own, which is first."""
+        """Ids of the trunk, which is first, and of the bodies with mass that are fixed to it, such as a held arm."""
         model, trunk = self.model, self.model.body(self.trunk).id
         fixed = np.flatnonzero((model.body_weldid == model.body_weldid[trunk]) & (model.body_mass > 0))
         return (trunk, *(int(body) for body in fixed if body != trunk))
 
     @cached_property
     def trunk_com_offset(self) -> Array:
-        """(3,) [m], centre of mass of the trunk, with what is fixed to it and without the legs, in the trunk frame."""
+        """Centre of mass of the trunk and everything fixed to it, without the legs, in the trunk frame [m], shape (3,)."""
         if len(self.trunk_parts) == 1:
             return self.model.body(self.trunk).ipos.copy()
         parts = list(self.trunk_parts)
@@ -272,7 +334,7 @@ class Robot:
 
     @cached_property
     def trunk_balls(self) -> Array:
-        """(k, 4) [m], what of the trunk, and of what is fixed to it, can touch: see `levade.embodiment.Embodiment`."""
+        """Balls around the parts of the trunk that can touch [m], shape (k, 4); see `levade.embodiment.Embodiment`."""
         model, data = self.model, self.data_at(np.zeros(len(self.joint_names)))
         touching = (model.geom_contype | model.geom_conaffinity) != 0
         geoms = np.flatnonzero(touching & np.isin(model.geom_bodyid, self.trunk_parts))
@@ -284,12 +346,12 @@ class Robot:
 
 
 def _middle(data: mujoco.MjData, leg: Leg) -> Array:
-    """(3,) [m], centre of the leg's foot, or of the shapes that are its sole."""
+    """Return the centre of the leg's foot, or of the shapes that are its sole [m], shape (3,)."""
     if not leg.pads:
         return data.geom(leg.foot).xpos.copy()
     return np.mean([data.geom(pad).xpos for pad in leg.pads], axis=0)
 
 
 def _depth(model: mujoco.MjModel, data: mujoco.MjData, geom: str) -> float:
-    """How far the geom reaches below the world's origin [m]."""
+    """Return how far the geom reaches below the world's origin [m]."""
     return -float(support(model, data, model.geom(geom).id, np.array([0.0, 0.0, -1.0]))[2])

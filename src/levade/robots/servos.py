@@ -1,4 +1,4 @@
-"""What the actuators of an MJCF say about its joints: torque limits, and gains where they are position servos."""
+"""Read what the actuators of an MJCF say about its joints: torque limits, and the gains of position servos."""
 
 from __future__ import annotations
 
@@ -10,9 +10,13 @@ import mujoco
 
 @dataclass(frozen=True)
 class Servo:
-    """What drives a joint. torque [Nm], infinite if it has no limit; kp [Nm/rad] and kd [Nm s/rad], None for a motor.
+    """Describes what drives a joint.
 
-    driven: whether there is an actuator at all, and not just a limit on the joint.
+    Attributes:
+        torque: Torque limit [Nm]; infinite for no limit.
+        kp: Stiffness [Nm/rad]. None for a motor.
+        kd: Damping [Nm s/rad]. None for a motor.
+        driven: Whether there is an actuator, not only a limit on the joint.
     """
 
     torque: float
@@ -22,10 +26,16 @@ class Servo:
 
 
 def read_servos(model: mujoco.MjModel) -> dict[str, Servo]:
-    """Joint -> servo, of every hinge that an actuator drives.
+    """Read the servos of all hinges that an actuator drives.
 
-    MuJoCo's affine position servo, force = gain * ctrl - kp * length - kd * velocity with gain = kp, is kept as it is; of
-    other actuators only the limit counts.
+    MuJoCo's affine position servo, force = gain * ctrl - kp * length - kd * velocity with gain = kp, keeps its gains. Of other
+    actuators only the limit is used.
+
+    Args:
+        model: The model, with its actuators.
+
+    Returns:
+        Joint -> servo.
     """
     servos: dict[str, Servo] = {}
     for i in range(model.nactuator):  # an actuator may take several controls: nu is the number of these

@@ -1,7 +1,7 @@
-"""Settling: whether a robot that is put down in its neutral posture stands there, and how deep its feet sink in.
+"""Settling: check whether a robot that is put down in its neutral posture stands, and how deep its feet sink in.
 
-The start of most tasks is this: the robot is put down, holds the posture with its own gains, and what stands then is where
-every trial begins.
+Most tasks start this way: the robot is put down and holds the posture with its own gains. The resulting state is where every
+trial begins.
 """
 
 from __future__ import annotations
@@ -23,22 +23,25 @@ from levade.robots.robot import Robot
 from levade.robots.shapes import thickness
 
 TIME = 1.0
-"""[s], as the built-in tasks settle."""
+"""Settling time of the built-in tasks [s]."""
 BALANCE_TIME, PUSH_TIME = 3.0, 0.2
-"""[s], for which a robot that balances on two legs has to stand, and for which it is pushed in the middle of that."""
+"""Time for which a robot on two legs has to balance [s], and duration of a push in the middle of it [s]."""
 _PUSH = 0.05
-"""Of the robot's weight."""
+"""Force of the push, as a share of the robot's weight."""
 _GROUND = "levade-ground"
 _SAG, _TILT, _SINK = 0.15, math.radians(15), 0.25
-"""Share of the height, [rad], and share of a foot's radius that are worth a warning."""
+"""Thresholds of warnings: sag as a share of the height, tilt [rad], and sink as a share of a foot's radius."""
 
 
 @dataclass(frozen=True)
 class Settled:
-    """A robot that was put down and held its neutral posture for `TIME`.
+    """Describes a robot that was put down and held its neutral posture for `TIME`.
 
-    sag: [m], by which its trunk is lower than the posture puts it. tilt: [rad], between the trunk's up and the world's.
-    sink: geom name of each foot -> [m], by which it is below the ground's surface. broken: whether the simulation broke.
+    Attributes:
+        sag: How much lower the trunk is than in the posture [m].
+        tilt: Angle between the trunk's up and the world's [rad].
+        sink: Geom name of a foot -> how far it is below the ground's surface [m].
+        broken: Whether the simulation diverged.
     """
 
     sag: float
@@ -48,13 +51,16 @@ class Settled:
 
 
 def settle(robot: Robot, *, stiff: bool = False, time: float = TIME, push: tuple[float, float] = (0.0, 0.0)) -> Settled:
-    """Put a robot down on flat ground, in its neutral posture, level, its lowest foot touching.
+    """Put a robot down on flat ground, level and in its neutral posture, with its lowest foot touching.
 
     Args:
         robot: The robot.
-        stiff: Whether contact is that of a scene with ``contact: stiff``, instead of the robot's own.
-        time: How long it stands [s].
-        push: Force on its trunk along x and y, as shares of its weight, for `PUSH_TIME` in the middle of that.
+        stiff: Whether contact is as in a scene with ``contact: stiff``, instead of the robot's own.
+        time: Time for which it stands [s].
+        push: Force on its trunk along x and y, as shares of its weight, for `PUSH_TIME` in the middle of that time.
+
+    Returns:
+        The state at the end.
     """
     model = _on_ground(robot, stiff=stiff)
     data = mujoco.MjData(model)
@@ -88,11 +94,18 @@ def settle(robot: Robot, *, stiff: bool = False, time: float = TIME, push: tuple
 
 
 def doubt_standing(robot: Robot) -> Iterator[Finding]:
-    """Warn of robots that do not stand in their neutral posture, and of feet that sink into the ground."""
+    """Warn of robots that do not stand in their neutral posture, and of feet that sink into the ground.
+
+    Args:
+        robot: The robot.
+
+    Yields:
+        Findings.
+    """
     try:
         balances = robot.stance == "upright"
         settled = settle(robot, time=BALANCE_TIME if balances else TIME)
-    except (ValueError, LevadeError):  # what MuJoCo does not take is said elsewhere
+    except (ValueError, LevadeError):  # another check reports what MuJoCo does not accept
         return
     height = dimensions(robot).height
     if settled.broken or settled.tilt > _TILT or abs(settled.sag) > _SAG * height:
@@ -100,7 +113,7 @@ def doubt_standing(robot: Robot) -> Iterator[Finding]:
             f", tilted by {math.degrees(settled.tilt):.0f} deg" if settled.tilt > _TILT and not settled.broken else ""
         )
         what = (
-            "its simulation breaks down"
+            "its simulation diverges"
             if settled.broken
             else f"its trunk is {abs(settled.sag):.2g} m {'lower' if settled.sag > 0 else 'higher'} after"
             f" {BALANCE_TIME if balances else TIME:g} s{tilt}"
@@ -133,7 +146,7 @@ def _doubt_balance(robot: Robot, height: float) -> Iterator[Finding]:
 
 
 def _remedy(robot: Robot) -> str:
-    """Gains that hold the robot, since it is mostly those that do not."""
+    """Suggest gains that hold the robot, since gains are the most common cause."""
     from levade.robots import gains
 
     model = robot.model
@@ -152,7 +165,7 @@ def _sunk(robot: Robot, settled: Settled) -> Iterator[Finding]:
     worst = max(deep, key=lambda foot: settled.sink[foot] / deep[foot])
     what = (
         f"sink {_millimetres(settled.sink[worst])} into the ground in standing ({_millimetres(deep[worst])} is their"
-        " radius), and more in landing: contact is soft"
+        " radius), and more in landing: contact is too soft"
     )
     hard = settle(robot, stiff=True)
     less = _millimetres(max(0.0, *(hard.sink[foot] for foot in deep)))
@@ -179,7 +192,7 @@ def _millimetres(length: float) -> str:
 
 
 def _on_ground(robot: Robot, *, stiff: bool) -> mujoco.MjModel:
-    """The robot with its actuators on flat ground, without what is only looked at; options are those of the tasks."""
+    """Compile the robot with its actuators on flat ground, without visual parts, with the options of the tasks."""
     spec = robot.spec()
     for geom in list(spec.geoms):
         if not (geom.contype or geom.conaffinity) and geom.parent.explicitinertial:

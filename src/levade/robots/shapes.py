@@ -1,4 +1,4 @@
-"""How far geoms reach: the farthest point of a shape in a direction, exactly, from MuJoCo's model."""
+"""Compute how far geoms reach: the exact farthest point of a shape in a direction, from MuJoCo's model."""
 
 from __future__ import annotations
 
@@ -11,7 +11,17 @@ from levade.arrays import Array
 
 
 def support(model: mujoco.MjModel, data: mujoco.MjData, geom: int, direction: Array) -> Array:
-    """(3,) [m], the point of a geom that is farthest in a direction (3,), in the world. data: with kinematics."""
+    """Find the point of a geom that is farthest in a direction.
+
+    Args:
+        model: The model.
+        data: Its kinematics.
+        geom: Id of the geom.
+        direction: Direction in world axes, shape (3,).
+
+    Returns:
+        The point in the world [m], shape (3,).
+    """
     rotation = data.geom_xmat[geom].reshape(3, 3)
     unit = np.asarray(direction, dtype=float) / np.linalg.norm(direction)
     d = rotation.T @ unit
@@ -40,26 +50,54 @@ def support(model: mujoco.MjModel, data: mujoco.MjData, geom: int, direction: Ar
 
 
 def reach(model: mujoco.MjModel, data: mujoco.MjData, geom: int, origin: Array) -> float:
-    """[m], about how far a geom reaches from a point: its farthest point in the direction of its centre."""
+    """Estimate how far a geom reaches from a point, by its farthest point in the direction of its centre.
+
+    Args:
+        model: The model.
+        data: Its kinematics.
+        geom: Id of the geom.
+        origin: The point in the world [m], shape (3,).
+
+    Returns:
+        Distance [m].
+    """
     away = data.geom_xpos[geom] - origin
     if np.linalg.norm(away) < 1e-9:
         return float(model.geom_rbound[geom])
     best = 0.0
-    for _ in range(3):  # the farthest point's own direction leads to one that is farther still
+    for _ in range(3):  # the direction of the farthest point leads to an even farther one
         point = support(model, data, geom, away)
         best, away = max(best, float(np.linalg.norm(point - origin))), point - origin
     return best
 
 
 def thickness(model: mujoco.MjModel, geom: int) -> float:
-    """[m], the radius of a sphere or capsule; of other shapes, half their least extent."""
+    """Return the radius of a sphere or capsule; for other shapes, half their least extent.
+
+    Args:
+        model: The model.
+        geom: Id of the geom.
+
+    Returns:
+        Thickness [m].
+    """
     if model.geom_type[geom] in (int(mujoco.mjtGeom.mjGEOM_SPHERE), int(mujoco.mjtGeom.mjGEOM_CAPSULE)):
         return float(model.geom_size[geom, 0])
     return float(model.geom_aabb[geom, 3:].min())
 
 
 def tip(model: mujoco.MjModel, data: mujoco.MjData, geom: int, joint: int) -> Array:
-    """(3,) [m], in the world: where a foot ends: the centre of a sphere, else the point farthest from its joint."""
+    """Find where a foot ends: at the centre of a sphere, otherwise at the point farthest from its joint.
+
+    Args:
+        model: The model.
+        data: Its kinematics.
+        geom: Id of the foot's geom.
+        joint: Id of the foot's joint.
+
+    Returns:
+        The point in the world [m], shape (3,).
+    """
     if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_SPHERE:
         return data.geom_xpos[geom].copy()
     away = data.geom_xpos[geom] - data.xanchor[joint]
@@ -69,10 +107,18 @@ def tip(model: mujoco.MjModel, data: mujoco.MjData, geom: int, joint: int) -> Ar
 
 
 def balls(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> Array:
-    """Balls whose lowest point is a geom's, whichever way it is turned: centres in the world and radii, shape (k, 4) [m].
+    """Find balls that together have the same lowest point as a geom in any attitude.
 
-    Exact for spheres, capsules, boxes and the boxes around what has no better shape; others are sampled in a hundred
-    directions, to a few per mille of their size.
+    The result is exact for spheres, capsules, boxes, and shapes that are replaced by their bounding box. Others are sampled in
+    a hundred directions, to a few per mille of their size.
+
+    Args:
+        model: The model.
+        data: Its kinematics.
+        geom: Id of the geom.
+
+    Returns:
+        Centres in the world and radii [m], shape (k, 4).
     """
     size, kind, place = model.geom_size[geom], model.geom_type[geom], data.geom_xpos[geom]
     if kind == mujoco.mjtGeom.mjGEOM_SPHERE:
@@ -88,7 +134,7 @@ def balls(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> Array:
 
 
 def _spiral(n: int) -> Array:
-    """n unit vectors, spread evenly."""
+    """Return evenly spread unit vectors, shape (n, 3)."""
     k = np.arange(n) + 0.5
     polar, azimuth = np.arccos(1 - 2 * k / n), np.pi * (1 + 5**0.5) * k
     return np.column_stack([np.sin(polar) * np.cos(azimuth), np.sin(polar) * np.sin(azimuth), np.cos(polar)])

@@ -1,4 +1,4 @@
-"""A robot from a `mujoco.MjSpec` that was made or changed in Python."""
+"""Make a robot from a `mujoco.MjSpec` that was made or changed in Python."""
 
 from __future__ import annotations
 
@@ -17,13 +17,16 @@ def robot_of_spec(spec: mujoco.MjSpec, *, name: str | None = None, like: Robot |
     """Understand the robot in a spec, as `levade.robots.load_robot` does for a file.
 
     Args:
-        spec: A model of one robot; it is not changed. Its meshes have to be in ``spec.assets`` or in files that it finds.
-        name: What to call the robot. Defaults to the spec's model name.
+        spec: A model of one robot; it is not changed. Its meshes must be in ``spec.assets`` or in files that it finds.
+        name: Name of the robot. Defaults to the spec's model name.
         like: The robot whose `Robot.spec` was changed, with the same joints and feet. Its legs, limits, actuation and
             postures are kept, and the actuators in ``spec`` are left out.
 
+    Returns:
+        The robot.
+
     Raises:
-        LevadeError: If MuJoCo does not take the spec, or the robot is not understood, or has not what ``like`` has.
+        LevadeError: If MuJoCo does not accept the spec, the robot is not understood, or it lacks something that ``like`` has.
     """
     name = name or spec.modelname or "robot"
     copy = spec.copy()
@@ -34,7 +37,7 @@ def robot_of_spec(spec: mujoco.MjSpec, *, name: str | None = None, like: Robot |
         model = copy.compile()
         text = copy.to_xml()
     except ValueError as error:
-        raise LevadeError(f"robot {name}: MuJoCo does not take the spec: {' '.join(str(error).split())}") from None
+        raise LevadeError(f"robot {name}: MuJoCo does not accept the spec: {' '.join(str(error).split())}") from None
     assets = {asset: data if isinstance(data, bytes) else str(data).encode() for asset, data in spec.assets.items()}
     if like is not None:
         return _changed(like, f"{name}-changed" if name == like.name else name, model, text, assets)
@@ -50,7 +53,7 @@ def robot_of_spec(spec: mujoco.MjSpec, *, name: str | None = None, like: Robot |
 
 
 def _changed(robot: Robot, name: str, model: mujoco.MjModel, text: str, assets: dict[str, bytes]) -> Robot:
-    """A robot with another model, which has to have what the robot names."""
+    """Return the robot with another model, which must have everything that the robot names."""
     for kind, find, wanted in (
         ("body", mujoco.mjtObj.mjOBJ_BODY, (robot.trunk,)),
         ("joint", mujoco.mjtObj.mjOBJ_JOINT, robot.joint_names),

@@ -1,4 +1,4 @@
-"""Standing: postures with the feet under the hips, found from kinematics, and what they ask of the joints."""
+"""Standing: find postures with the feet under the hips from the kinematics, and compute the joint torques they need."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from levade.robots.shapes import tip
 from levade.robots.understanding import Leg
 
 NEUTRAL_EXTENSION = (0.75, 0.8, 0.85, 0.9)
-"""Hip above foot as a share of the leg's length: the first at which the joints can carry the robot is the neutral one."""
+"""Heights of the hip above the foot, as shares of the leg's length. The first that the joints can carry is neutral."""
 CROUCHED_EXTENSION, STRETCHED_EXTENSION = 0.45, 0.95
 
 _NAMES = ("home", "stand", "standing", "neutral", "default", "nominal")
@@ -26,7 +26,14 @@ _MARGIN = 0.02  # rad from the end of a range
 
 @dataclass(frozen=True)
 class Bare:
-    """A model without ground or actuators, its legs, and the joints' ranges: joint -> (lower, upper) [rad]."""
+    """Holds a model without ground or actuators, and its legs.
+
+    Attributes:
+        model: The model.
+        trunk: Id of the trunk's body.
+        legs: The legs, and other limbs that move.
+        ranges: Joint -> lower and upper end of its range [rad].
+    """
 
     model: mujoco.MjModel
     trunk: int
@@ -35,6 +42,7 @@ class Bare:
 
     @property
     def joints(self) -> tuple[str, ...]:
+        """Names of the legs' joints, in leg order."""
         return tuple(joint for leg in self.legs for joint in leg.joints)
 
     @property
@@ -44,22 +52,33 @@ class Bare:
 
     @property
     def columnar(self) -> bool:
-        """Whether it stands on four legs or more of two or three joints that lift and fold, whose postures have a closed
-        form."""
+        """Whether the postures have a closed form: four or more standing legs of two or three joints that lift and fold."""
         short = all(len(leg.joints) <= 3 and {"hfe", "kfe"} <= set(leg.roles) for leg in self.standing)
         return short and len(self.standing) >= 4 and all(leg.roles[0] != "swing" for leg in self.standing)
 
     def data_at(self, angles: Mapping[str, float]) -> mujoco.MjData:
-        """Kinematics with the trunk frame on the world frame; joints that are not named at zero."""
+        """Compute kinematics with the trunk frame at the world frame.
+
+        Args:
+            angles: Joint -> angle [rad]. Other joints are at zero.
+        """
         return self.put(mujoco.MjData(self.model), angles)
 
     @cached_property
     def _data(self) -> mujoco.MjData:
-        """For many postures in turn: to make one takes longer than the kinematics of a posture."""
+        """Data that many postures reuse, since making one takes longer than the kinematics of a posture."""
         return mujoco.MjData(self.model)
 
     def put(self, data: mujoco.MjData, angles: Mapping[str, float]) -> mujoco.MjData:
-        """`data_at`, in data that is there already."""
+        """Compute kinematics as `data_at` does, in existing data.
+
+        Args:
+            data: Data of the model; it is changed.
+            angles: Joint -> angle [rad]. Other joints are at zero.
+
+        Returns:
+            The data.
+        """
         data.qpos[:] = 0.0
         data.qpos[int(self.model.jnt_qposadr[self.model.body_jntadr[self.trunk]]) + 3] = 1.0
         for joint, angle in angles.items():
@@ -69,17 +88,40 @@ class Bare:
         return data
 
     def tip(self, data: mujoco.MjData, leg: Leg) -> Array:
-        """(3,) [m], where the leg's foot ends, in the trunk frame."""
+        """Find where the leg's foot ends.
+
+        Args:
+            data: Kinematics, as of `data_at`.
+            leg: The leg.
+
+        Returns:
+            The point in the trunk frame [m], shape (3,).
+        """
         return tip(self.model, data, self.model.geom(leg.foot).id, self.model.joint(leg.joints[-1]).id)
 
     def stand_point(self, data: mujoco.MjData, leg: Leg) -> Array:
-        """(3,) [m], where the ground pushes: the middle of several shapes, else the foot's tip."""
+        """Find where the ground pushes: at the middle if the sole has several shapes, otherwise at the foot's tip.
+
+        Args:
+            data: Kinematics, as of `data_at`.
+            leg: The leg.
+
+        Returns:
+            The point in the trunk frame [m], shape (3,).
+        """
         if not leg.pads:
             return self.tip(data, leg)
         return np.mean([data.geom(pad).xpos for pad in leg.pads], axis=0)
 
     def leg_length(self, leg: Leg) -> float:
-        """[m], from hip flexion over the knee to the end of the foot, along the links; of other legs, along all of them."""
+        """Measure the length from hip flexion over the knee to the end of the foot; for other legs, along all links.
+
+        Args:
+            leg: The leg.
+
+        Returns:
+            Length [m].
+        """
         data = self.put(self._data, self._zero(leg))
         if not {"hfe", "kfe"} <= set(leg.roles) or leg.roles[0] == "swing":
             points = [*(data.joint(joint).xanchor for joint in leg.joints), self.tip(data, leg)]
@@ -90,14 +132,28 @@ class Bare:
         return float(np.linalg.norm(flat @ (knee - hip)) + np.linalg.norm(flat @ (self.tip(data, leg) - knee)))
 
     def resting(self, joint: str) -> float:
-        """[rad], zero, or the end of the range that is nearest to it."""
+        """Return zero, or the nearest angle in range.
+
+        Args:
+            joint: Name of the joint.
+
+        Returns:
+            Angle [rad].
+        """
         return float(np.clip(0.0, *self.ranges[joint]))
 
     def _zero(self, leg: Leg) -> dict[str, float]:
         return {joint: float(np.clip(0.0, *self.ranges[joint])) for joint in leg.joints}
 
     def posture(self, extension: float) -> dict[str, float] | None:
-        """Joint -> angle [rad] with every foot under its hip, ``extension`` leg lengths below; None if out of range."""
+        """Find a posture with every foot under its hip.
+
+        Args:
+            extension: Height of the hip above the foot, as a share of the leg's length.
+
+        Returns:
+            Joint -> angle [rad]. None if a joint would be out of range.
+        """
         angles: dict[str, float] = {}
         for leg in self.standing:
             found = self._stand(leg, extension)
@@ -107,7 +163,7 @@ class Bare:
         return angles
 
     def _stand(self, leg: Leg, extension: float) -> dict[str, float] | None:
-        """Knee angles at which hip and foot are so far apart, each with the hip angle that puts the foot below the hip."""
+        """Find knee angles for a distance of hip and foot, each with the hip angle that puts the foot below the hip."""
         angles = self._zero(leg)
         hip, knee = (leg.joints[leg.roles.index(role)] for role in ("hfe", "kfe"))
         wanted = extension * self.leg_length(leg)
@@ -119,7 +175,7 @@ class Bare:
         sideways, along = np.cross(hinge, shank), hinge * (hinge @ shank)
 
         def across(bend: Array) -> Array:
-            """(n, 3) [m], from hip to foot across the hip's axis, with the knee bent further by (n,) [rad]."""
+            """Return vectors from hip to foot across the hip's axis [m], shape (n, 3), for extra bends [rad], shape (n,)."""
             c, s = np.cos(bend)[:, None], np.sin(bend)[:, None]
             turned = shank * c + sideways * s + along * (1 - c)
             return (pivot - anchor + turned) @ flat
@@ -150,21 +206,30 @@ class Bare:
         return min(candidates, key=lambda bent: self._outward(leg, bent))
 
     def _outward(self, leg: Leg, angles: Mapping[str, float]) -> float:
-        """How far the knee is from the line hip - foot, away from the middle of the robot [m]: where both ways are in range,
-        knees bend inward, as HyQ's and ANYmal's."""
+        """Return how far outward the knee is from the line between hip and foot [m].
+
+        If both ways are in range, knees bend inward, as HyQ's and ANYmal's do.
+        """
         data = self.put(self._data, angles)
         hip, knee = (data.joint(leg.joints[leg.roles.index(role)]).xanchor for role in ("hfe", "kfe"))
         ahead = float(knee[0] - 0.5 * (hip[0] + self.tip(data, leg)[0]))
         return ahead if leg.end == "front" else -ahead
 
     def static_torque(self, angles: Mapping[str, float]) -> dict[str, float]:
-        """Joint -> torque [Nm] that carries the robot on vertical foot forces of least norm."""
+        """Compute the torques that carry the robot on vertical foot forces of least norm.
+
+        Args:
+            angles: Joint -> angle [rad].
+
+        Returns:
+            Joint -> torque [Nm].
+        """
         data = self.data_at(angles)
         mujoco.mj_forward(self.model, data)
         return self._carried(data, data.qfrc_bias, data.qfrc_bias - data.qfrc_passive)
 
     def _carried(self, data: mujoco.MjData, bias: Array, load: Array) -> dict[str, float]:
-        """Joint -> torque [Nm] against a load (nv,), the feet carrying the weight, which is in bias (nv,)."""
+        """Return joint -> torque [Nm] against a load, shape (nv,), while the feet carry the weight in ``bias``, shape (nv,)."""
         model = self.model
         contacts, rows = [], []
         for leg in self.standing:
@@ -180,7 +245,14 @@ class Bare:
         return {joint: float(torque[int(model.joint(joint).dofadr[0])]) for joint in self.joints}
 
     def joint_inertia(self, angles: Mapping[str, float]) -> dict[str, float]:
-        """Joint -> inertia [kg m2] about its axis of all that it carries outward, armature included."""
+        """Compute the inertia about each joint's axis of everything that it carries outward, including armature.
+
+        Args:
+            angles: Joint -> angle [rad].
+
+        Returns:
+            Joint -> inertia [kg m2].
+        """
         data = self.data_at(angles)
         mujoco.mj_makeM(self.model, data)
         full = np.zeros((self.model.nv, self.model.nv))
@@ -189,7 +261,15 @@ class Bare:
 
 
 def neutral_from(bare: Bare, keyframes: Sequence[Keyframe]) -> tuple[dict[str, float], str] | None:
-    """(angles, name) of the keyframe that stands: trunk level, joints in range, feet below the hips; None if none does."""
+    """Find a keyframe in which the robot stands: trunk level, joints in range, feet below the hips.
+
+    Args:
+        bare: The bare robot.
+        keyframes: Keyframes of the model.
+
+    Returns:
+        Joint -> angle [rad], and the name of the keyframe. None if the robot stands in none.
+    """
     standing = [frame for frame in keyframes if _stands(bare, frame)]
     if not standing:
         return None
@@ -214,12 +294,12 @@ def _stands(bare: Bare, frame: Keyframe) -> bool:
 
 
 def _lift(leg: Leg) -> int:
-    """Index of the joint that lifts the leg."""
+    """Return the index of the joint that lifts the leg."""
     return leg.roles.index("hfe") if "hfe" in leg.roles else 0
 
 
 def _within(angle: float, lower: float, upper: float) -> float | None:
-    """Of an angle and those that are turns away, the one inside a range that is nearest to zero; None if none is."""
+    """Add whole turns to an angle to bring it into a range, as near to zero as possible; None if that is impossible."""
     turned = (angle + turns * 2 * np.pi for turns in (0, -1, 1, -2, 2))
     inside = [float(a) for a in turned if lower + _MARGIN <= a <= upper - _MARGIN]
     return min(inside, key=abs) if inside else None

@@ -1,6 +1,6 @@
-"""Symmetry between legs: which sign takes one leg's joint angles to its mirror image's, derived from the kinematics.
+"""Symmetry between legs: derive from the kinematics the signs that turn one leg's joint angles into its mirror image's.
 
-A mirror S (a diagonal matrix of +-1) takes a rotation about the axis a to one about det(S) S a: about -S a for one
+A mirror S (a diagonal matrix of +-1) maps a rotation about the axis a to one about det(S) S a: about -S a for one
 plane, about S a for both together. If a leader's joint turns about a and its follower's about b = s det(S) S a, then
 the follower moves as the leader's mirror image when its angle is s times the leader's.
 """
@@ -17,17 +17,27 @@ from levade.robots.understanding import Leg
 _ANGLE_TOLERANCE = np.radians(1.0)
 _DISTANCE_TOLERANCE = 0.02  # m
 _SHARE = 0.05
-"""Of the distance between two legs: robots that were measured are not symmetric to the millimetre."""
+"""Tolerance as a share of the distance between two legs, since measured robots are not symmetric to the millimetre."""
 
 
 def mirror_signs(robot: Robot, leader: Leg, follower: Leg) -> Array:
-    """(joints per leg,) of +-1: follower angle = sign * leader angle makes the follower the leader's mirror image.
+    """Find the signs with which follower angle = sign * leader angle makes the follower the leader's mirror image.
 
     Legs on different sides are reflected across the trunk's sagittal plane y = 0. Front and hind legs are reflected across
-    the transverse plane halfway between their first joints, or shifted along x where all knees bend the same way: whichever
-    takes the neutral posture of the leader to that of the follower. An insect's legs that are no images are turned about the
-    vertical. Axes and positions are those at zero angles. Raises
-    `LevadeError` if the legs are not images of each other to 2 cm (or 5 % of the distance between them) and 1 degree.
+    the transverse plane halfway between their first joints, or shifted along x if all knees bend the same way. The choice is
+    the one that maps the leader's neutral posture to the follower's. An insect's legs that are not mirror images are turned
+    about the vertical. Axes and positions are those at zero angles.
+
+    Args:
+        robot: The robot.
+        leader: The leg whose angles are given.
+        follower: The leg that mirrors it.
+
+    Returns:
+        Signs of +-1, shape (joints per leg,).
+
+    Raises:
+        LevadeError: If the legs are not mirror images to 2 cm (or 5 % of the distance between them) and 1 degree.
     """
     where = f"robot {robot.name}: legs {leader.name} and {follower.name} are not mirror images"
     if len(leader.joints) != len(follower.joints):
@@ -55,9 +65,9 @@ def mirror_signs(robot: Robot, leader: Leg, follower: Leg) -> Array:
 
 
 def _turned_signs(robot: Robot, leader: Leg, follower: Leg) -> Array | None:
-    """The signs for legs that point outward and are the same but for where they point; None if they are not.
+    """Find the signs for legs that point outward and differ only in their direction; None if they differ in more.
 
-    Each is taken in its own frame: outward, across and up, across the other way for legs on different sides.
+    Each leg is described in its own frame: outward, across and up; across is reversed for legs on different sides.
     """
     data = robot.data_at(np.zeros(len(robot.joint_names)))
     shapes = []
@@ -69,7 +79,7 @@ def _turned_signs(robot: Robot, leader: Leg, follower: Leg) -> Array | None:
         hand = -1.0 if leader.side != follower.side and leg is follower else 1.0
         frame = np.array([outward, hand * np.cross([0.0, 0.0, 1.0], outward), [0.0, 0.0, 1.0]])
         points = np.array([*(joint.xanchor - first for joint in joints), data.geom(leg.foot).xpos - first])
-        # a mirror takes the axis of a rotation to the opposite of its image
+        # a mirror maps the axis of a rotation to the opposite of its image
         shapes.append((hand * np.array([joint.xaxis for joint in joints]) @ frame.T, points @ frame.T))
     (axes, points), (other_axes, other_points) = shapes
     reach = float(np.linalg.norm(points[-1]))
@@ -82,7 +92,7 @@ def _turned_signs(robot: Robot, leader: Leg, follower: Leg) -> Array | None:
 
 
 def _signs(robot: Robot, leader: Leg, follower: Leg, mirror: Array) -> Array:
-    """The signs for one mirror, (3,) of +-1; LevadeError says how far from images the legs are."""
+    """Find the signs for one mirror of +-1, shape (3,). A LevadeError says how far the legs are from mirror images."""
     data = robot.data_at(np.zeros(len(robot.joint_names)))
     both = [[data.joint(joint) for joint in leg.joints] for leg in (leader, follower)]
     axes = np.array([[joint.xaxis for joint in leg] for leg in both])  # (2, joints, 3)
@@ -99,7 +109,7 @@ def _signs(robot: Robot, leader: Leg, follower: Leg, mirror: Array) -> Array:
         angle = np.arcsin(min(1.0, float(np.linalg.norm(np.cross(image_axes[k], axes[1, k])))))
         if angle > _ANGLE_TOLERANCE:
             raise LevadeError(f"axes of {one} and {other} differ by {np.degrees(angle):.3g} deg after reflection")
-        # only the distance between the two axes counts: where on its axis a joint is anchored does not
+        # only the distance between the two axes counts; the position of an anchor on its axis has no effect
         distance = float(np.linalg.norm(np.cross(axes[1, k], anchors[1, k] - image_anchors[k])))
         if distance > tolerance:
             raise LevadeError(f"joints {one} and {other} are {distance:.3g} m apart after reflection")

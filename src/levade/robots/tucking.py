@@ -1,9 +1,9 @@
-"""Legs drawn in: the posture in which a robot that fell has the fewest ways to lie.
+"""Tuck the legs in, so that a fallen robot can lie in the fewest poses.
 
     tucked(load_robot("go1"))           # knees bent nearly to their ends, feet under the hips
 
-A robot with its legs spread lies on any of them. Tucked in, it lies on its back, a side or its belly, and what gets it up from
-there once does so again.
+A robot with spread legs may lie on any of them. With tucked legs it lies on its back, a side or its belly, and a motion that
+gets it up from there once works again.
 """
 
 from __future__ import annotations
@@ -15,17 +15,17 @@ from levade.errors import LevadeError
 from levade.robots.robot import Robot
 
 _END = 0.05
-"""Of a knee's range, left to its end."""
+"""Share of a knee's range that is left to its end."""
 
 _DEEPER = 0.5
-"""Bend of a knee at most, beyond the crouched posture [rad]: shank and thigh would overlap, whatever its range."""
+"""Largest bend of a knee beyond the crouched posture [rad]; beyond it, shank and thigh would overlap, whatever the range."""
 
 _HIPS = np.linspace(-0.5, 0.5, 51)
-"""Changes of a hip's angle that are looked at [rad], against the crouched posture."""
+"""Tested changes of a hip's angle against the crouched posture [rad]."""
 
 
 def tucked(robot: Robot) -> Array:
-    """Each knee bent nearly as far as it goes, with the foot under the hip as in the crouched posture.
+    """Bend each knee nearly as far as it goes, with the foot under the hip as in the crouched posture.
 
     Args:
         robot: The robot.
@@ -34,7 +34,7 @@ def tucked(robot: Robot) -> Array:
         Joint angles [rad], shape (joints,).
 
     Raises:
-        LevadeError: If the robot's legs are no hips and knees, or it has no crouched posture.
+        LevadeError: If the robot's legs do not consist of hips and knees, or it has no crouched posture.
     """
     if "crouched" not in robot.postures or not all({"hfe", "kfe"} <= set(leg.roles) for leg in robot.standing):
         raise LevadeError(f"robot {robot.name}: its legs have no tucked posture; name another, such as neutral")
@@ -53,7 +53,7 @@ def tucked(robot: Robot) -> Array:
 
 
 def _bent(robot: Robot, knee: int, crouched: float, *, bends: float) -> float:
-    """A knee's angle, nearly at the end of its range to which it bends, but not too far beyond the crouched posture."""
+    """Return a knee's angle near the bent end of its range, but not too far beyond the crouched posture."""
     lower, upper = robot.limits.lower[knee], robot.limits.upper[knee]
     sign = 1.0 if bends > 0 else -1.0
     end, other = (upper, lower) if bends > 0 else (lower, upper)
@@ -66,7 +66,7 @@ def _bent(robot: Robot, knee: int, crouched: float, *, bends: float) -> float:
 
 
 def _foot(robot: Robot, posture: Array, hip: int, angle: float, foot: int) -> float:
-    """Where a foot is along x [m], in trunk axes, with another angle of its hip."""
+    """Return the position of a foot along x of the trunk, with another angle of its hip [m]."""
     changed = posture.copy()
     changed[hip] = angle
     return float(robot.foot_positions(changed)[foot, 0])

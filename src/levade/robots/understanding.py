@@ -1,7 +1,7 @@
-"""Understanding: which body is the trunk, which joints make a leg, what stands on the ground; from kinematics alone.
+"""Understanding: find the trunk, the joints of each leg, and what stands on the ground, from kinematics alone.
 
-Names are not looked at. A limb is a chain of joints that hangs on the trunk; legs are four serial limbs of two or three
-hinges each, about the axes of a leg, one in every quadrant of the trunk's frame (x forward, y left). Whatever else moves,
+Names have no effect. A limb is a chain of joints that hangs on the trunk. Legs are four serial limbs of two or three hinges
+each, about the axes of a leg, one in every quadrant of the trunk's frame (x forward, y left). Everything else that moves,
 such as an arm, is held fixed.
 """
 
@@ -21,28 +21,33 @@ LEG_NAMES = {("left", "front"): "lf", ("right", "front"): "rf", ("left", "hind")
 """(side, end) -> the name that levade gives a leg."""
 
 _ALONG = 0.7
-"""Least share of an axis along x or y by which a joint's role is told."""
+"""Least component of an axis along x or y that determines a joint's role."""
 _CLEARLY = 0.9
-"""Of two branches of a limb, one is the leg where the other reaches less than this share of its length."""
+"""One of two branches of a limb is the leg if the other reaches less than this share of its length."""
 
 
 class NoFootError(LevadeError):
-    """Nothing collides where a leg ends."""
+    """Reports that nothing collides where a leg ends."""
 
 
 class FrameError(LevadeError):
-    """The trunk's frame does not have x forward, y left and z up."""
+    """Reports that the trunk's frame does not have x forward, y left and z up."""
 
 
 @dataclass(frozen=True)
 class Leg:
-    """One leg.
+    """Describes a leg, or another limb that moves.
 
-    joints: names from the trunk outward. foot: name of the geom that stands on the ground. side: "left" or "right".
-    end: "front" or "hind"; "middle", or "row1", "row2" and so on, of other numbers of legs than four. roles: of the joints:
-    "haa" (hip abduction), "hfe" (hip flexion), "kfe" (knee); see `levade.robots.limbs.limb_roles`.
-    kind: "leg"; or "arm", "waist", "head", which move and do not stand: their foot is the geom at their end.
-    pads: names of all geoms that stand on the ground, where these are several, the foot among them.
+    Attributes:
+        name: Name of the leg.
+        joints: Names of the joints, from the trunk outward.
+        foot: Name of the geom that stands on the ground.
+        side: "left" or "right".
+        end: "front" or "hind". With another number of legs than four also "middle", or "row1", "row2" and so on.
+        roles: Roles of the joints, such as "haa" (hip abduction), "hfe" (hip flexion) and "kfe" (knee); see
+            `levade.robots.limbs.limb_roles`.
+        kind: "leg"; or "arm", "waist", "head" for limbs that move but do not stand. Their foot is the geom at their end.
+        pads: Names of all geoms that stand on the ground, including the foot, if there are several.
     """
 
     name: str
@@ -56,7 +61,7 @@ class Leg:
 
     @property
     def stands(self) -> bool:
-        """Whether it is there to stand on."""
+        """Whether the robot stands on it."""
         return self.kind == "leg"
 
     @property
@@ -67,14 +72,30 @@ class Leg:
 
 @dataclass
 class Limb:
-    """A chain of joints from the trunk outward. branches: whether it forks, so that it is no serial chain."""
+    """Describes a chain of joints from the trunk outward.
+
+    Attributes:
+        joints: Ids of the joints.
+        branches: Whether it forks, so that it is not a serial chain.
+    """
 
     joints: list[int] = field(default_factory=list)
     branches: bool = False
 
 
 def find_trunk(model: mujoco.MjModel, where: str) -> int:
-    """Id of the body with the one free joint. Raises LevadeError if the robot has no free base, or several parts."""
+    """Find the body with the one free joint.
+
+    Args:
+        model: The model.
+        where: Prefix of messages.
+
+    Returns:
+        Id of the body.
+
+    Raises:
+        LevadeError: If the robot has no free base, or several bodies float freely.
+    """
     free = [j for j in range(model.njnt) if model.jnt_type[j] == mujoco.mjtJoint.mjJNT_FREE]
     if not free:
         raise LevadeError(
@@ -88,7 +109,11 @@ def find_trunk(model: mujoco.MjModel, where: str) -> int:
 
 
 class Tree:
-    """Bodies and the moving ones below them."""
+    """Finds the moving bodies below a body.
+
+    Args:
+        model: The model.
+    """
 
     def __init__(self, model: mujoco.MjModel) -> None:
         self.model = model
@@ -97,37 +122,45 @@ class Tree:
             self.children.setdefault(int(model.body_parentid[body]), []).append(body)
 
     def moves(self, body: int) -> bool:
-        """Whether the body, or one below it, has a joint."""
+        """Tell whether a body, or one below it, has a joint."""
         return self.model.body_jntnum[body] > 0 or any(self.moves(child) for child in self.children.get(body, []))
 
     def moving(self, body: int) -> list[int]:
-        """The children that move."""
+        """Return the children of a body that move."""
         return [child for child in self.children.get(body, []) if self.moves(child)]
 
     def starts(self, body: int) -> list[int]:
-        """The first bodies with joints below a body, through those that are fixed to it."""
+        """Return the first bodies with joints below a body, passing through those that are fixed to it."""
         found = []
         for child in self.children.get(body, []):
             found += [child] if self.model.body_jntnum[child] else self.starts(child)
         return found
 
     def joints(self, body: int) -> list[int]:
-        """Ids of the body's own joints."""
+        """Return the ids of a body's own joints."""
         first = int(self.model.body_jntadr[body])
         return list(range(first, first + int(self.model.body_jntnum[body])))
 
     def chains(self, body: int) -> list[list[int]]:
-        """The joints of every way from a body outward to an end."""
+        """Return the joints of every path from a body outward to an end."""
         further = [chain for child in self.moving(body) for chain in self.chains(child)]
         return [self.joints(body) + chain for chain in further or [[]]]
 
     def below(self, body: int) -> set[int]:
-        """The body and everything that it carries."""
+        """Return a body and everything that it carries."""
         return {body}.union(*(self.below(child) for child in self.children.get(body, [])))
 
 
 def find_limbs(model: mujoco.MjModel, trunk: int) -> list[Limb]:
-    """The limbs, in the model's order."""
+    """Find the limbs.
+
+    Args:
+        model: The model.
+        trunk: Id of the trunk.
+
+    Returns:
+        The limbs, in the model's order.
+    """
     tree = Tree(model)
 
     def follow(body: int, limb: Limb) -> None:
@@ -146,9 +179,18 @@ def find_limbs(model: mujoco.MjModel, trunk: int) -> list[Limb]:
 
 
 def find_legs(model: mujoco.MjModel, trunk: int, where: str) -> tuple[tuple[Leg, ...], list[str]]:
-    """The four legs, and the names of the joints that belong to none.
+    """Find four legs.
 
-    Raises LevadeError, with the limbs that were found, if there are not four legs.
+    Args:
+        model: The model.
+        trunk: Id of the trunk.
+        where: Prefix of messages.
+
+    Returns:
+        The legs, and the names of the joints that belong to none.
+
+    Raises:
+        LevadeError: If there are not four legs; the message lists the limbs that were found.
     """
     limbs = find_limbs(model, trunk)
     data = mujoco.MjData(model)
@@ -171,7 +213,7 @@ def find_legs(model: mujoco.MjModel, trunk: int, where: str) -> tuple[tuple[Leg,
         kind = FrameError if turned else LevadeError
         raise kind(
             f"{where}: its four legs are not left, right, front and hind in the frame of {model.body(trunk).name}"
-            f" (x forward, y left, z up); {f'it seems that {turned} there: ' if turned else ''}turn that frame"
+            f" (x forward, y left, z up); {f'it seems that {turned} there: ' if turned else ''}rotate that frame"
         )
     found = {}
     for limb, (side, end) in zip(legs, quadrants, strict=True):
@@ -189,12 +231,17 @@ def find_legs(model: mujoco.MjModel, trunk: int, where: str) -> tuple[tuple[Leg,
 
 
 def has_legs(model: mujoco.MjModel, trunk: int) -> bool:
-    """Whether four legs hang on the body of that id."""
+    """Tell whether four legs hang on a body.
+
+    Args:
+        model: The model.
+        trunk: Id of the body.
+    """
     return (_four_alike(model, find_limbs(model, trunk)) or _four_within(model, trunk)) is not None
 
 
 def _four_alike(model: mujoco.MjModel, limbs: list[Limb]) -> list[Limb] | None:
-    """The four serial limbs of three hinges, or of two; where there are more, the four whose hinges are those of a leg."""
+    """Choose the four serial limbs of three hinges, or of two. Of more than four, choose those with the hinges of a leg."""
     for count in (3, 2):
         serial = [limb for limb in limbs if _is_serial(model, limb) and len(limb.joints) == count]
         if len(serial) == 4:
@@ -211,7 +258,7 @@ def _four_alike(model: mujoco.MjModel, limbs: list[Limb]) -> list[Limb] | None:
 
 
 def _four_within(model: mujoco.MjModel, trunk: int) -> list[Limb] | None:
-    """Four legs of the same number of hinges that have branches, such as rods, or hang on a spine that can be held."""
+    """Find four legs with equal numbers of hinges that have branches, such as rods, or hang on a spine that can be held."""
     tree = Tree(model)
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
@@ -232,7 +279,7 @@ def _four_within(model: mujoco.MjModel, trunk: int) -> list[Limb] | None:
 
 
 def _branching_leg(tree: Tree, data: mujoco.MjData, body: int, count: int) -> Limb | None:
-    """The chain of so many hinges from a body outward that is a leg: the one that reaches farthest, if it is clear."""
+    """Find the chain of this many hinges from a body outward that reaches farthest; None if the choice is not clear."""
     model = tree.model
     reaches: list[tuple[float, list[int]]] = []
     for chain in tree.chains(body):
@@ -266,7 +313,7 @@ def _check_roles(model: mujoco.MjModel, data: mujoco.MjData, trunk: int, limb: L
         return
     axes = np.array([data.xaxis[j] for j in limb.joints])
     turned = _turned(model, data, limb, axes)
-    remedy = f"it seems that {turned} there: turn the model" if turned else "this limb is no such leg"
+    remedy = f"it seems that {turned} there: turn the model" if turned else "this limb is not such a leg"
     kind = FrameError if turned else LevadeError
     raise kind(
         f"{where}: joints {', '.join(names)} turn about {', '.join(map(_axis_name, axes))} of {model.body(trunk).name};"
@@ -275,7 +322,7 @@ def _check_roles(model: mujoco.MjModel, data: mujoco.MjData, trunk: int, limb: L
 
 
 def _turned(model: mujoco.MjModel, data: mujoco.MjData, limb: Limb, axes: Array) -> str:
-    """Which axes point forward and up, if the limb is a leg in another frame; empty if it is none."""
+    """Describe which axes point forward and up if the limb is a leg in another frame; empty if it is not a leg."""
     along = _role_axes(axes)
     left = along[-1]
     if along[-2] != left or (len(along) > 2 and along[0] == left):
@@ -287,7 +334,7 @@ def _turned(model: mujoco.MjModel, data: mujoco.MjData, limb: Limb, axes: Array)
     hang = tips[0] - data.xanchor[limb.joints[0]]
     if int(np.argmax(np.abs(hang))) == left:
         return ""
-    # three hinges say which way is up; of two, the leg hangs down more than it reaches forward
+    # three hinges determine which way is up; a leg of two hangs down more than it reaches forward
     up = 3 - left - along[0] if len(along) > 2 else int(np.argmax(np.abs(hang)))
     forward = 3 - left - up
     if (forward, left, up) == (0, 1, 2):
@@ -298,7 +345,7 @@ def _turned(model: mujoco.MjModel, data: mujoco.MjData, limb: Limb, axes: Array)
 
 
 def _role_axes(axes: Array) -> list[int]:
-    """Along which axis each of (n, 3) is for the most part."""
+    """Return the index of each vector's largest component, for vectors of shape (n, 3)."""
     return [int(k) for k in np.argmax(np.abs(axes), axis=1)]
 
 
@@ -310,7 +357,15 @@ def _axis_name(axis: Array) -> str:
 
 
 def roles(model: mujoco.MjModel, joints: tuple[str, ...]) -> tuple[str, ...]:
-    """Role of each joint of a leg by its axis at zero angles: about x abduction, about y hip flexion and then knee."""
+    """Find the role of each joint of a leg by its axis at zero angles: abduction about x, hip flexion and then knee about y.
+
+    Args:
+        model: The model.
+        joints: Names of the leg's joints.
+
+    Returns:
+        One role per joint.
+    """
     data = mujoco.MjData(model)
     level(model, data, int(model.body_rootid[model.jnt_bodyid[model.joint(joints[0]).id]]))
     named = []
@@ -326,9 +381,18 @@ def roles(model: mujoco.MjModel, joints: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def find_foot(model: mujoco.MjModel, joint: int, where: str) -> str:
-    """Name of the colliding geom that reaches farthest from the leg's last joint; a round one of nearly the same reach wins.
+    """Find the colliding geom that reaches farthest from a leg's last joint; a round one of nearly the same reach wins.
 
-    Raises NoFootError if nothing that moves with the joint collides.
+    Args:
+        model: The model.
+        joint: Id of the leg's last joint.
+        where: Prefix of messages.
+
+    Returns:
+        Name of the geom.
+
+    Raises:
+        NoFootError: If nothing that moves with the joint collides.
     """
     body = int(model.jnt_bodyid[joint])
     below = {body}
@@ -343,7 +407,7 @@ def find_foot(model: mujoco.MjModel, joint: int, where: str) -> str:
     if not geoms:
         raise NoFootError(
             f"{where}: no foot: nothing collides on {model.body(body).name}, behind {model.joint(joint).name}; give it a"
-            " collision shape, best a sphere at the tip"
+            " collision shape, preferably a sphere at the tip"
         )
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
@@ -359,7 +423,12 @@ def find_foot(model: mujoco.MjModel, joint: int, where: str) -> str:
 
 
 def moved_bodies(model: mujoco.MjModel, leg: Leg) -> list[int]:
-    """Ids of the bodies that a leg moves, from the trunk outward."""
+    """Return the ids of the bodies that a leg moves, from the trunk outward.
+
+    Args:
+        model: The model.
+        leg: The leg.
+    """
     bodies = [int(model.jnt_bodyid[model.joint(leg.joints[0]).id])]
     for body in range(bodies[0] + 1, model.nbody):
         if int(model.body_parentid[body]) in bodies:
@@ -368,7 +437,13 @@ def moved_bodies(model: mujoco.MjModel, leg: Leg) -> list[int]:
 
 
 def level(model: mujoco.MjModel, data: mujoco.MjData, trunk: int) -> None:
-    """Compute kinematics at zero angles, the trunk frame on the world frame."""
+    """Compute kinematics at zero angles, with the trunk frame at the world frame.
+
+    Args:
+        model: The model.
+        data: Its data; they are changed.
+        trunk: Id of the trunk.
+    """
     data.qpos[:] = 0.0
     for j in range(model.njnt):
         if model.jnt_type[j] == mujoco.mjtJoint.mjJNT_FREE:
@@ -378,9 +453,9 @@ def level(model: mujoco.MjModel, data: mujoco.MjData, trunk: int) -> None:
 
 
 def _census(model: mujoco.MjModel, limbs: list[Limb]) -> str:
-    """What there is instead of four legs, and what may help."""
+    """Describe what there is instead of four legs, and what may help."""
     if not limbs:
-        return "this model has no joints beside its free base"
+        return "this model has no joints besides its free base"
     kinds: dict[str, list[str]] = {}
     for limb in limbs:
         hinges = sum(1 for j in limb.joints if model.jnt_type[j] == mujoco.mjtJoint.mjJNT_HINGE)
@@ -405,5 +480,10 @@ def _census(model: mujoco.MjModel, limbs: list[Limb]) -> str:
 
 
 def joint_positions(model: mujoco.MjModel, joints: tuple[str, ...]) -> Array:
-    """(joints,) addresses of the joints' angles in qpos."""
+    """Return the addresses of joint angles in qpos, shape (joints,).
+
+    Args:
+        model: The model.
+        joints: Names of the joints.
+    """
     return np.array([int(model.joint(joint).qposadr[0]) for joint in joints])

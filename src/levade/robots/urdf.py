@@ -1,7 +1,7 @@
-"""URDF: from what robot makers publish to what MuJoCo's own URDF reader takes.
+"""URDF: repair the files that robot makers publish, so that MuJoCo's own URDF reader accepts them.
 
-The reader then makes the bodies: links that are fixed to another are fused with it (mass, inertia and shapes), the root
-link gets a free joint. What is mended on the way, and why, goes into the findings.
+The reader then makes the bodies. Links that are fixed to another are fused with it (mass, inertia and shapes), and the root
+link gets a free joint. The findings list each repair and its reason.
 """
 
 from __future__ import annotations
@@ -23,21 +23,26 @@ from levade.robots.meshes import coarse, find_mesh, read_mesh
 _WORLD = "levade-world"
 _NAME_OF_WORLD = "world"
 _DUMMY = 1e-4
-"""[kg]: links below it are markers that somebody's parser needed, not bodies."""
+"""Links with less mass are markers for some parser, not bodies [kg]."""
 _LARGE_VISUAL, _HUGE_VISUAL = 1_500_000, 12_000_000
-"""[bytes]: visual meshes above it become coarse, and above this are not even read."""
+"""Sizes above which visual meshes become coarse, and above which they are not even read [bytes]."""
 _SMALLEST = 1e-4
-"""[m]: bodies with a smaller radius of gyration have no inertia, for all that their file says."""
+"""Bodies with a smaller radius of gyration count as having no inertia [m]."""
 _KNOWN_JOINTS = ("revolute", "continuous", "prismatic", "fixed")
 
 
 @dataclass
 class UrdfSource:
-    """A URDF, mended.
+    """Holds a repaired URDF.
 
-    text: for MuJoCo's reader; its meshes are named by bare, unique names. assets: name -> content.
-    effort [Nm], velocity [rad/s]: joint -> limit, where the file has a positive one. couplings: joints that mimic others.
-    files: mesh files that were read -> what `read_mesh` made of them.
+    Attributes:
+        text: Text for MuJoCo's reader, in which meshes have unique names without folders.
+        assets: Name -> content of a mesh.
+        effort: Joint -> torque limit [Nm], if the file has a positive one.
+        velocity: Joint -> speed limit [rad/s], if the file has a positive one.
+        couplings: Joints that mimic others.
+        findings: What was repaired or left out.
+        files: Mesh file -> result of `read_mesh`.
     """
 
     text: str
@@ -50,15 +55,26 @@ class UrdfSource:
 
 
 def read_urdf(path: Path, root: ET.Element) -> UrdfSource:
-    """Mend a URDF, whose root is changed. Raises LevadeError for what cannot be simulated, with link or joint and remedy."""
+    """Repair a URDF.
+
+    Args:
+        path: Path of the file.
+        root: Root of its XML; it is changed.
+
+    Returns:
+        The repaired URDF.
+
+    Raises:
+        LevadeError: If the robot cannot be simulated; the message names link or joint and the remedy.
+    """
     if any(element.tag.startswith("{") and "xacro" in element.tag for element in root.iter()):
-        raise LevadeError(f"{path}: still holds xacro macros; expand them first: xacro {path.name} > robot.urdf")
+        raise LevadeError(f"{path}: still contains xacro macros; expand them first: xacro {path.name} > robot.urdf")
     source = UrdfSource("")
     for extra in [*root.findall("transmission"), *root.findall("gazebo"), *root.findall("ros2_control")]:
         root.remove(extra)
     links = {_name(link, path): link for link in root.findall("link")}
     if not links:
-        raise LevadeError(f"{path}: has no links; it is no robot")
+        raise LevadeError(f"{path}: has no links; give the URDF of a robot")
     joints = {_name(joint, path): joint for joint in root.findall("joint")}
     parents = _tree(path, links, joints)
     roots = [name for name in links if name not in parents]
@@ -83,7 +99,7 @@ def read_urdf(path: Path, root: ET.Element) -> UrdfSource:
             mended.setdefault(problem, {})[name] = moment
         _mend_shapes(path, name, link, source, losses, folders)
     if without:
-        remedy = "give mass and inertia, or the motion is that of nothing"
+        remedy = "give it mass and inertia, otherwise the motion is not that of the robot"
         source.findings.append(warning(named("link", without), "no inertial", remedy))
     source.findings += [_replaced(problem, moments) for problem, moments in mended.items()]
     source.findings += [_lost(kind, links_and_problems) for kind, links_and_problems in losses.items()]
@@ -101,7 +117,7 @@ def _name(element: ET.Element, path: Path) -> str:
 
 
 def _tree(path: Path, links: dict[str, ET.Element], joints: dict[str, ET.Element]) -> dict[str, str]:
-    """Link -> the joint that it hangs on."""
+    """Map each link to the joint on which it hangs."""
     parents: dict[str, str] = {}
     for name, joint in joints.items():
         for end in ("parent", "child"):
@@ -135,7 +151,7 @@ def _real_root(
     base: str,
     findings: list[Finding],
 ) -> str:
-    """The link that floats: not a "world" that the file itself ties the robot to by a floating or fixed joint."""
+    """Return the link that floats, skipping a "world" to which the file ties the robot by a floating or fixed joint."""
     while True:
         hanging = {name: joint for name, joint in joints.items() if _link(joint, "parent") == base}
         bare = links[base].find("inertial") is None and links[base].find("collision") is None
@@ -147,7 +163,7 @@ def _real_root(
                 raise LevadeError(f"{path}: link {base} carries {len(names)} robots ({some(names)}); keep one of them")
             beside = [link for name in hanging if name != carriers[0] for link in _remove(root, links, joints, name)]
             if beside:
-                findings.append(note(named("link", beside), f"fixed to the {base}, left out: no part of the robot"))
+                findings.append(note(named("link", beside), f"fixed to the {base}, left out: not part of the robot"))
             (name,) = carriers
         elif bare and len(hanging) == 1 and [joint.get("type") for joint in hanging.values()] == ["floating"]:
             (name,) = hanging
@@ -166,7 +182,7 @@ def _real_root(
 
 
 def _rename_worlds(links: dict[str, ET.Element], joints: dict[str, ET.Element], base: str) -> str:
-    """Give a link of the robot that is called world another name, since MuJoCo's reader takes it for its own world."""
+    """Rename a link that is called world, since MuJoCo's reader would confuse it with its own world."""
     if _NAME_OF_WORLD not in links:
         return base
     name = next(n for n in (f"{_NAME_OF_WORLD}{'_' * k}link" for k in range(1, len(links) + 2)) if n not in links)
@@ -183,12 +199,12 @@ def _rename_worlds(links: dict[str, ET.Element], joints: dict[str, ET.Element], 
 
 
 def _carries_joints(joints: dict[str, ET.Element], name: str) -> bool:
-    """Whether anything beyond a joint moves."""
+    """Tell whether anything beyond a joint moves."""
     return any(joints[further].get("type") != "fixed" for further in _beyond(joints, name))
 
 
 def _beyond(joints: dict[str, ET.Element], name: str) -> list[str]:
-    """The joints that a joint carries."""
+    """Return the joints that a joint carries."""
     found, waiting = [], [_link(joints[name], "child")]
     while waiting:
         link = waiting.pop()
@@ -199,7 +215,7 @@ def _beyond(joints: dict[str, ET.Element], name: str) -> list[str]:
 
 
 def _remove(root: ET.Element, links: dict[str, ET.Element], joints: dict[str, ET.Element], name: str) -> list[str]:
-    """Take a joint and what it carries out of the file; the names of the links that are gone."""
+    """Remove a joint and what it carries from the file, and return the names of the removed links."""
     gone = []
     for joint in [name, *_beyond(joints, name)]:
         element = joints.pop(joint)
@@ -220,7 +236,7 @@ def _check_joints(path: Path, joints: dict[str, ET.Element], source: UrdfSource)
         kind = joint.get("type", "")
         if kind not in _KNOWN_JOINTS:
             raise LevadeError(
-                f"{path}: joint {name}: type {kind!r} is none that levade simulates; {', '.join(_KNOWN_JOINTS)}"
+                f"{path}: joint {name}: type {kind!r} cannot be simulated; use one of {', '.join(_KNOWN_JOINTS)}"
             )
         mimic = joint.find("mimic")
         if mimic is not None:
@@ -259,14 +275,14 @@ def _mimicry(
     if leader not in joints or leader == name:
         hint = did_you_mean(leader, set(joints) - {name})
         findings.append(
-            warning(f"joint {name}", f"mimics {leader!r}, which is no other joint of the file: held fixed", hint)
+            warning(f"joint {name}", f"mimics {leader!r}, which is not another joint of the file: held fixed", hint)
         )
         return Coupling(name, "", (offset or 0.0,), "<mimic>")
     return Coupling(name, leader, (offset or 0.0, 1.0 if slope is None else slope), "<mimic>")
 
 
 def _mend_inertial(path: Path, name: str, link: ET.Element) -> tuple[str, float]:
-    """Replace an inertia that no body can have; what was wrong with it, and the moment [kg m2] that it has got instead."""
+    """Replace an inertia that no body can have. Return what was wrong with it, and the moment that replaces it [kg m2]."""
     inertial = link.find("inertial")
     if inertial is None:
         return "", 0.0
@@ -297,7 +313,7 @@ def _mend_inertial(path: Path, name: str, link: ET.Element) -> tuple[str, float]
         for (i, k), key in zip(((0, 0), (1, 1), (2, 2)), ("ixx", "iyy", "izz"), strict=True):
             inertia.set(key, repr(float(edge[i, k])))
         return "", 0.0
-    # what no body can have: the sphere of the same mean inertia, or one of water where there is none at all
+    # an impossible inertia becomes that of a sphere with the same mean, or of a sphere of water if there is none at all
     mean = float(np.mean(np.diag(tensor)))
     mended = mean if mean > least else 0.4 * mass * (0.75 * mass / (math.pi * 1000)) ** (2 / 3)
     for key in ("ixx", "iyy", "izz"):
@@ -313,11 +329,11 @@ def _replaced(problem: str, moments: dict[str, float]) -> Finding:
     low, high = min(moments.values()), max(moments.values())
     taken = f"{low:.3g}" if low == high else f"{low:.3g} to {high:.3g}"
     what = f"the inertia {problem}; {taken} kg m2 is taken about every axis"
-    return warning(named("link", list(moments)), what, "mend it in the file")
+    return warning(named("link", list(moments)), what, "fix it in the file")
 
 
 def _name_shapes_apart(links: dict[str, ET.Element]) -> None:
-    """Take names from shapes that share them: the reader would complain on standard error."""
+    """Remove names that several shapes share, since the reader would complain on standard error."""
     taken: set[str] = set()
     for link in links.values():
         for shape in [*link.findall("collision"), *link.findall("visual")]:
@@ -335,7 +351,7 @@ def _mend_shapes(
     losses: dict[str, list[tuple[str, str]]],
     folders: list[Path],
 ) -> None:
-    """Give meshes their content, and leave out those that cannot be had."""
+    """Attach the content of meshes, and leave out those that cannot be read."""
     collisions = link.findall("collision")
     primitives = [shape for shape in collisions if shape.find("geometry/mesh") is None]
     for kind, shapes in (("visual", link.findall("visual")), ("collision", collisions)):
@@ -356,7 +372,7 @@ def _mend_shapes(
 
 
 def _lost(kind: str, losses: list[tuple[str, str]]) -> Finding:
-    """One finding for all links that lost a mesh in the same way."""
+    """Make one finding for all links that lost a mesh in the same way."""
     names = list(dict.fromkeys(name for name, _ in losses))
     problem = losses[0][1]
     where = named("link", names)
@@ -372,14 +388,14 @@ def _lost(kind: str, losses: list[tuple[str, str]]) -> Finding:
 
 
 def _mesh_folders(path: Path, root: ET.Element) -> list[Path]:
-    """Where MuJoCo looks for meshes: in the folder that the URDF's extension for MuJoCo names, and beside the file."""
+    """Return where MuJoCo looks for meshes: in the folder that the URDF's MuJoCo extension names, and next to the file."""
     compiler = root.find("mujoco/compiler")
     named = [] if compiler is None else [compiler.get(key) for key in ("meshdir", "assetdir")]
     return [path.parent / folder for folder in (*filter(None, named), "")]
 
 
 def _attach_mesh(path: Path, mesh: ET.Element, source: UrdfSource, folders: list[Path], *, visual: bool) -> str | None:
-    """Name the mesh's content; a reason if it cannot be had."""
+    """Attach the mesh's content; return the reason if it cannot be read."""
     reference = mesh.get("filename", "")
     bare = PurePosixPath(reference.replace("\\", "/")).name
     also = [folder / name for folder in folders for name in (reference, bare) if name]
@@ -390,7 +406,9 @@ def _attach_mesh(path: Path, mesh: ET.Element, source: UrdfSource, folders: list
     if visual and place.stat().st_size > _HUGE_VISUAL:
         return f"{place.name} is large ({place.stat().st_size / 1e6:.1f} MB)"
     try:
-        if place not in source.files:  # most files are named several times: to look at and to collide, and by every leg
+        if (
+            place not in source.files
+        ):  # most files are named several times: as visual and collision mesh, and by every leg
             source.files[place] = read_mesh(place)
         suffix, content = source.files[place]
     except LevadeError as error:

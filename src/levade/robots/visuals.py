@@ -1,4 +1,4 @@
-"""Visuals: meshes that are only looked at, made small enough to travel with every motion file."""
+"""Visuals: make visual meshes small enough to be part of every motion file."""
 
 from __future__ import annotations
 
@@ -10,13 +10,15 @@ from levade.robots.meshes import cluster, stl
 from levade.robots.reading import Draft
 
 _SMALL = 150_000
-"""[bytes]: meshes below it stay as they are."""
+"""Smaller meshes are kept unchanged [bytes]."""
 
 
 def thin_visuals(draft: Draft, model: mujoco.MjModel) -> None:
-    """Replace large meshes that no collision needs by coarse ones, and drop textures, which then have no place.
+    """Replace large visual meshes by coarse ones, and drop textures, which no longer fit.
 
-    model: compiled from the draft's spec.
+    Args:
+        draft: The model; its spec and assets are changed.
+        model: Model compiled from the draft's spec.
     """
     spec = draft.spec
     colliding = {geom.meshname for geom in spec.geoms if geom.meshname and (geom.contype or geom.conaffinity)}
@@ -30,7 +32,7 @@ def thin_visuals(draft: Draft, model: mujoco.MjModel) -> None:
         draft.assets[name] = stl(cluster(triangles))
         mesh.file, mesh.scale = name, [1.0, 1.0, 1.0]
         mesh.refpos, mesh.refquat = [0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]
-        mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL  # of a surface that need not be closed any more
+        mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL  # the surface need not be closed any more
     for material in spec.materials:
         if any(material.textures):
             material.textures = [""] * len(material.textures)
@@ -42,7 +44,7 @@ def thin_visuals(draft: Draft, model: mujoco.MjModel) -> None:
 
 
 def _triangles(model: mujoco.MjModel, name: str) -> Array:
-    """(n, 3, 3) [m], of a compiled mesh in the frame of its file, scaled."""
+    """Return the scaled triangles of a compiled mesh in the frame of its file [m], shape (n, 3, 3)."""
     i = model.mesh(name).id
     first, count = int(model.mesh_vertadr[i]), int(model.mesh_vertnum[i])
     face, faces = int(model.mesh_faceadr[i]), int(model.mesh_facenum[i])

@@ -1,4 +1,4 @@
-"""World: which bodies of an MJCF are the robot, and what ties it to the rest, which goes.
+"""World: find the bodies of an MJCF that are the robot, and remove the rest and what ties the robot to it.
 
 The robot is the tree under its free joint. Furniture (doors, carts, balls), equalities, tendons and forces that hold the
 floating base from outside are left out: the hardware has none of them.
@@ -32,13 +32,13 @@ def robot_root(
         model: The same, compiled.
         trunk: Name of a body of the robot, if a description gives one.
         joints: Joints of the robot, if a description gives some.
-        where: What messages start with.
+        where: Prefix of messages.
 
     Returns:
-        The body's name; None if nothing floats freely and nothing says which it is.
+        Name of the body. None if nothing floats freely and the description does not identify it.
 
     Raises:
-        LevadeError: If several bodies float freely, and neither the description nor their legs tell which is the robot.
+        LevadeError: If several bodies float freely, and neither the description nor their legs identify the robot.
     """
     roots = list(spec.worldbody.bodies)
     told = {trunk} if trunk is not None else set()
@@ -63,12 +63,12 @@ def robot_root(
 
 
 def leave_only(spec: mujoco.MjSpec, root: str | None, findings: list[Finding]) -> None:
-    """Delete what stands in the world beside the robot, and whatever ties the robot to it.
+    """Delete everything in the world except the robot, and whatever ties the robot to it.
 
     Args:
         spec: A model with names for all bodies; it is changed.
         root: Name of the robot's outermost body; None to keep every tree that has joints.
-        findings: Gets notes of what is left out, and warnings of ties.
+        findings: Notes about what is left out, and warnings about ties, are added here.
     """
     world = spec.worldbody
     trees = [body for body in world.bodies if any(_moves(child) for child in body.bodies)]
@@ -84,14 +84,19 @@ def leave_only(spec: mujoco.MjSpec, root: str | None, findings: list[Finding]) -
         spec.delete(element)
     if gone:
         findings.append(
-            note(named("body", [body.name for body in gone]), "of the world, left out: no part of the robot")
+            note(named("body", [body.name for body in gone]), "of the world, left out: not part of the robot")
         )
     for body in gone:
         spec.delete(body)
 
 
 def float_alone(spec: mujoco.MjSpec, findings: list[Finding]) -> None:
-    """Take away what resists or carries a floating base from outside: resistances of its free joint, wind, gravcomp."""
+    """Remove what resists or carries a floating base from outside: resistances of its free joint, wind, gravcomp.
+
+    Args:
+        spec: The model; it is changed.
+        findings: Warnings are added here.
+    """
     for joint in spec.joints:
         if joint.type != _FREE:
             continue
@@ -107,18 +112,25 @@ def float_alone(spec: mujoco.MjSpec, findings: list[Finding]) -> None:
         setattr(option, name, np.zeros(3) if name == "wind" else 0.0)
     if medium:
         what = "the drag of a medium is left out: levade simulates robots in still air"
-        findings.append(warning(f"option {', '.join(medium)}", what, "leave it out of the file"))
+        findings.append(warning(f"option {', '.join(medium)}", what, "remove it from the file"))
     floating = [body for body in spec.bodies[1:] if body.gravcomp]
     for body in floating:
         body.gravcomp = 0.0
     if floating:
         what = "gravity is compensated there, which no hardware does: the compensation is left out"
-        remedy = 'leave gravcomp="..." out of the file'
+        remedy = 'remove gravcomp="..." from the file'
         findings.append(warning(named("body", [body.name for body in floating]), what, remedy))
 
 
 def collide_as_paired(spec: mujoco.MjSpec, model: mujoco.MjModel, root: str | None, findings: list[Finding]) -> None:
-    """Let shapes collide that touch the world only by a <pair>: a scene's ground is not the one that the pair names."""
+    """Let shapes collide that touch the world only by a <pair>, since a scene's ground is not the one that the pair names.
+
+    Args:
+        spec: The model; it is changed.
+        model: The same, compiled.
+        root: Name of the robot's outermost body.
+        findings: Notes are added here.
+    """
     own = {body.name for body in (_tree(spec.body(root)) if root is not None else spec.bodies[1:])}
     of_world = {geom.name for geom in spec.geoms if geom.name and geom.parent.name not in own}
     paired: dict[str, int] = {}
@@ -132,19 +144,24 @@ def collide_as_paired(spec: mujoco.MjSpec, model: mujoco.MjModel, root: str | No
         geom = spec.geom(name)
         if geom.contype or geom.conaffinity:
             continue
-        geom.conaffinity = 1  # meets the scene, whose contype has every bit, and nothing else of the robot
+        geom.conaffinity = 1  # collides with the scene, whose contype has every bit, but not with the robot
         geom.condim = int(model.pair_dim[i])
         geom.friction = model.pair_friction[i][[0, 2, 3]]
         geom.solref, geom.solimp = model.pair_solref[i].copy(), model.pair_solimp[i].copy()
         geom.margin, geom.gap = float(model.pair_margin[i]), float(model.pair_gap[i])
         changed.append(name)
     if changed:
-        what = "touches the world by a <pair> only: collides with the ground of every scene, as the pair says"
+        what = "touches the world only by a <pair>: collides with the ground of every scene, with the pair's settings"
         findings.append(note(named("geom", changed), what))
 
 
 def sides(spec: mujoco.MjSpec, equality: mujoco.MjsEquality) -> tuple[str, str]:
-    """Names of the bodies that a connect or weld holds together, "world" where it names none."""
+    """Name the bodies that a connect or weld holds together; "world" if it names none.
+
+    Args:
+        spec: The model.
+        equality: The connect or weld.
+    """
     names = []
     for name in (equality.name1, equality.name2):
         if name and equality.objtype == mujoco.mjtObj.mjOBJ_SITE:
@@ -156,7 +173,11 @@ def sides(spec: mujoco.MjSpec, equality: mujoco.MjsEquality) -> tuple[str, str]:
 
 
 def tendon_bodies(tendon: mujoco.MjsTendon) -> set[str]:
-    """Names of the bodies whose joints, sites or shapes a tendon runs over."""
+    """Name the bodies over whose joints, sites or shapes a tendon runs.
+
+    Args:
+        tendon: The tendon.
+    """
     found = set()
     for wrap in tendon.path:
         if wrap.type != mujoco.mjtWrap.mjWRAP_PULLEY and wrap.target is not None:
@@ -165,7 +186,12 @@ def tendon_bodies(tendon: mujoco.MjsTendon) -> set[str]:
 
 
 def delete_tendons(spec: mujoco.MjSpec, tendons: list[mujoco.MjsTendon]) -> None:
-    """With the equalities that bind them."""
+    """Delete tendons, and the equalities that bind them.
+
+    Args:
+        spec: The model; it is changed.
+        tendons: The tendons.
+    """
     names = {tendon.name for tendon in tendons if tendon.name}
     of_tendons = mujoco.mjtEq.mjEQ_TENDON
     for equality in [e for e in spec.equalities if e.type == of_tendons and names & {e.name1, e.name2}]:
@@ -175,13 +201,19 @@ def delete_tendons(spec: mujoco.MjSpec, tendons: list[mujoco.MjsTendon]) -> None
 
 
 def label(equality: mujoco.MjsEquality, one: str, other: str) -> str:
-    """How messages name a connect or weld between two bodies."""
+    """Name a connect or weld between two bodies for messages.
+
+    Args:
+        equality: The connect or weld.
+        one: Name of the first body.
+        other: Name of the second body.
+    """
     kind = mujoco.mjtEq(equality.type).name.removeprefix("mjEQ_").lower()
     return f"<{kind}> {f'{equality.name} ' if equality.name else ''}between {one} and {other}"
 
 
 def _cut_ties(spec: mujoco.MjSpec, outside: set[str], findings: list[Finding]) -> None:
-    """Delete what has an end outside the robot; warn if the other end is the robot."""
+    """Delete elements with an end outside the robot; warn if the other end is the robot."""
     ties: list[str] = []
     joints = {joint.name for joint in spec.joints if joint.parent.name in outside}
     for equality in list(spec.equalities):
@@ -204,7 +236,7 @@ def _cut_ties(spec: mujoco.MjSpec, outside: set[str], findings: list[Finding]) -
     delete_tendons(spec, loose)
     if ties:
         what = f"{'tie' if len(ties) > 1 else 'ties'} the robot to the world: left out"
-        findings.append(warning(some(ties), what, "levade moves robots that float freely; take it out of the file"))
+        findings.append(warning(some(ties), what, "levade moves robots that float freely; remove it from the file"))
     _delete_all(spec, spec.excludes, lambda e: {e.bodyname1, e.bodyname2} & (outside - {"world"}))
     geoms = {geom.name for geom in spec.geoms if geom.name and geom.parent.name in outside}
     _delete_all(spec, spec.pairs, lambda p: {p.geomname1, p.geomname2} & geoms)
@@ -220,7 +252,7 @@ def _floats(body: mujoco.MjsBody) -> bool:
 
 
 def _articulated(body: mujoco.MjsBody) -> bool:
-    """Whether anything below the body moves against it."""
+    """Tell whether anything below the body moves against it."""
     return any(_moves(child) for child in body.bodies)
 
 
