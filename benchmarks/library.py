@@ -4,7 +4,7 @@
     python benchmarks/library.py answers        # time of an answer, in a fresh process that has numpy alone
     python benchmarks/library.py write          # docs/falls.md, from benchmarks/falls.md.in and the results
 
-A library of seed 0 is built and checked on falls of seed 1, and its export is driven from falls of seed 2
+A library of seed 0 is built and checked on falls of seed 3, and its export is driven from falls of seed 2
 (`benchmarks/library_drive.py`). A row is written as soon as it is there, to results/library.jsonl.
 """
 
@@ -61,6 +61,9 @@ median, p99 = np.percentile(took, [50, 99])
 print(json.dumps({"median": float(median), "p99": float(p99)}))
 """
 """A process that has numpy, the exported script and nothing else; with a mirror, as it is the slower case."""
+
+CHECK_SEED = 3
+"""Of the falls that libraries are checked on: settings of falls that fold up were changed after a look at seeds 1 and 7."""
 
 PARTS = (0, 10, 30, 100, 300)
 """Falls are told in parts that begin here: later ones should cost less."""
@@ -128,7 +131,7 @@ def row_of(task: str, robot: str, place: Path, options: argparse.Namespace) -> d
     row |= {"seconds": seconds, "cpu": cpu}
     row |= facts(library)
     began = time.perf_counter()
-    found = check_library(library, starts=options.check, seed=1, threads=options.threads)
+    found = check_library(library, starts=options.check, seed=CHECK_SEED, threads=options.threads)
     row |= {"check": found.to_json(), "check_seconds": time.perf_counter() - began}
     if options.drive and library.fold is not None:
         row["driven"] = drive(library, options.drive, seed=2, delay=DELAY)
@@ -239,7 +242,7 @@ def builds(rows: list[dict[str, Any]]) -> str:
 def checks(rows: list[dict[str, Any]]) -> str:
     """Markdown: how often the robot gets up from falls that the build has not seen."""
     lines = [
-        "| robot | built | tried | first | one of 3 | one of 5 | twice | first, other robots | said | answer [ms] |",
+        "| robot | built | tried, of seed | first | one of 3 | one of 5 | twice | first, other robots | said | answer [ms] |",
         "|---|--:|--:|---|---|---|---|---|--:|---|",
     ]
     for row in rows:
@@ -249,7 +252,7 @@ def checks(rows: list[dict[str, Any]]) -> str:
         shares = " | ".join(str(Share(one["successes"], one["runs"])) for one in told)
         ms = found["answer_ms"]
         lines.append(
-            f"| {family(row)} | {row['starts']} | {found['starts']} | {shares} | {found['expected']:.1%} |"
+            f"| {family(row)} | {row['starts']} | {found['starts']} of {found['seed']} | {shares} | {found['expected']:.1%} |"
             f" {ms['median']:.2f}, {ms['p99']:.2f} |"
         )
     return "\n".join(lines)
