@@ -57,7 +57,7 @@ class GaussianKernels:
         means.
 
         Args:
-            time: Times in [0, horizon] [s], shape (rows,).
+            time: Times from 0 to the horizon [s], shape (rows,).
             horizon: T [s].
 
         Returns:
