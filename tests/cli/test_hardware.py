@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -39,7 +40,7 @@ def test_the_certificate_decides(levade, tmp_path: Path, monkeypatch: pytest.Mon
     status, out, _ = levade("solve", "--resume", "stand", *strict)
     assert status == 1
     assert "The certificate fails" in out
-    assert "rad/s would do" in out
+    assert re.search(r"try a joint with [\d.]+ rad/s", " ".join(out.split()))
     assert "To go on: levade solve --resume stand" in out
 
 

@@ -6,7 +6,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache
+from pathlib import Path
 
+import numpy as np
 from threadpoolctl import ThreadpoolController
 
 
@@ -16,6 +18,9 @@ def _libraries() -> ThreadpoolController:
     return ThreadpoolController()
 
 
+_NUMPY = Path(np.__file__).resolve().parent.with_name("numpy.libs")
+"""Where a wheel of numpy has its own linear algebra. scipy has one of its own, which numpy does not use."""
+
 _within = ContextVar("within", default=False)
 
 
@@ -24,10 +29,11 @@ def kernels() -> str:
 
     Such as "openblas 0.3.31 Haswell". They decide how products are rounded. Empty where they do not say.
     """
+    found = [one for one in _libraries().info() if one["user_api"] == "blas"]
+    own = [one for one in found if _NUMPY in Path(one["filepath"]).resolve().parents]
     said = [
         " ".join(filter(None, (one["internal_api"], one.get("version"), one.get("architecture"))))
-        for one in _libraries().info()
-        if one["user_api"] == "blas"
+        for one in own or found  # where numpy brings none along, it is one of the others
     ]
     return ", ".join(sorted(set(said)))
 
