@@ -1,21 +1,25 @@
 """Archives of arrays, as motion files are: numpy's .npz, whose sizes are checked before anything is unfolded.
 
     arrays = unpack(Path("motion.npz"))         # name -> array
+    content = packed(arrays)                    # equal arrays give equal bytes
 
 A file from elsewhere can claim any size: 2 MB of zeros unfold to 2 GB. Nothing in it is a pickle, and nothing is executed.
 """
 
 from __future__ import annotations
 
+import io
 import math
 import warnings
 import zipfile
 import zlib
+from collections.abc import Mapping
 from pathlib import Path
 from tokenize import TokenError
-from typing import IO
+from typing import IO, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from levade.arrays import Array
 from levade.errors import LevadeError
@@ -109,3 +113,21 @@ def _array(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> Array:
     if len(data) != size:
         raise ValueError
     return np.frombuffer(data, dtype).reshape(shape, order="F" if fortran else "C")
+
+
+def packed(arrays: Mapping[str, NDArray[Any]]) -> bytes:
+    """Pack arrays into an npz file; equal arrays give equal bytes.
+
+    Args:
+        arrays: Arrays by name.
+
+    Returns:
+        Content of the file.
+    """
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as file:
+        for name, values in arrays.items():
+            one = io.BytesIO()
+            np.save(one, values, allow_pickle=False)
+            file.writestr(zipfile.ZipInfo(f"{name}.npy"), one.getvalue(), zipfile.ZIP_DEFLATED)
+    return content.getvalue()

@@ -10,11 +10,12 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
+from levade.archive import packed
 from levade.errors import LevadeError
 from levade.exports.asker import Learned, features, unpacked
 from levade.library import Library, learning
 from levade.library.knowledge import Knowledge
-from levade.library.learning import NEAREST, learn, packed, save
+from levade.library.learning import NEAREST, arrays_of, learn, save
 from levade.library.mirror import Mirror
 
 pytest.importorskip("sklearn.neural_network", reason="learning needs scikit-learn: pip install levade[learn]")
@@ -92,11 +93,11 @@ def test_the_kind_is_taken_whose_first_answers_work_most_often(tmp_path: Path) -
     assert (found.model is None) == (found.chosen == NEAREST)
     x, y = learning._table(knowledge, np.ones(len(knowledge.falls), dtype=bool))
     model = Learned("networks", knowledge.motions, learning._networks(x, y), 1.5, -0.2)
-    again = unpacked(packed(model))
+    again = unpacked(packed(arrays_of(model)))
     assert isinstance(again, Learned)
     for up, joints in zip(knowledge.up[:5], knowledge.joint_position, strict=False):
         assert again.ranked(up, joints) == model.ranked(up, joints)
-    assert packed(again) == packed(model)
+    assert packed(arrays_of(again)) == packed(arrays_of(model))
 
 
 def test_what_was_learned_answers_until_the_library_grows(tmp_path: Path) -> None:

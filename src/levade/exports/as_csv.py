@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import csv
-import io
 import json
-import zipfile
 from importlib import resources
 from pathlib import Path
 
 import numpy as np
 
+from levade.archive import packed
 from levade.arrays import Array
 from levade.exports.content import Content, describe
 from levade.exports.player import checksum
@@ -66,11 +65,7 @@ def write(content: Content, directory: Path) -> list[str]:
 
 def write_feedback(path: Path, feedback: Feedback) -> None:
     """A stabiliser's arrays, for numpy; the same ones give the same bytes."""
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as file:
-        for name, values in (("gain", feedback.gain), ("reference", feedback.reference)):
-            content = io.BytesIO()
-            np.save(content, values, allow_pickle=False)
-            file.writestr(zipfile.ZipInfo(f"{name}.npy"), content.getvalue(), zipfile.ZIP_DEFLATED)
+    path.write_bytes(packed({"gain": feedback.gain, "reference": feedback.reference}))
 
 
 def write_player(directory: Path) -> None:

@@ -139,12 +139,17 @@ class Learned:
 
     def probabilities(self, up: Array, joint_position: Array) -> Array:
         """How likely each motion works from a state, (m,)."""
-        raw = np.clip(_RAW[self.kind](self.arrays, features(up, joint_position)), 0.005, 0.995)
-        return 1.0 / (1.0 + np.exp(-(self.slope * np.log(raw / (1.0 - raw)) + self.offset)))
+        return calibrated(_RAW[self.kind](self.arrays, features(up, joint_position)), self.slope, self.offset)
 
     def ranked(self, up: Array, joint_position: Array) -> list[tuple[int, float]]:
         """Motions and how likely each works from a state, the likeliest first."""
         return ranked(self.motions, self.probabilities(up, joint_position))
+
+
+def calibrated(raw: Array, slope: float, offset: float) -> Array:
+    """Probabilities of any shape, with their log odds on a line, so that each is how often a motion works."""
+    raw = np.clip(raw, 0.005, 0.995)
+    return 1.0 / (1.0 + np.exp(-(slope * np.log(raw / (1.0 - raw)) + offset)))
 
 
 def ranked(motions: Array, probability: Array) -> list[tuple[int, float]]:
@@ -412,11 +417,8 @@ def get_up(
 def sense(robot: Any, joints: int) -> tuple[Array, Array]:
     """Which way is up in trunk axes, (3,), and the joints' angles [rad]. Raises Stopped for readings that are none."""
     position, _ = player.pair("position and velocity", robot.read(), (joints, joints))
-    quaternion, _ = player.pair("the trunk's attitude and the trunk's rate", robot.read_trunk(), (4, 3))
-    length = math.hypot(*quaternion)
-    if not abs(length - 1.0) < 0.01:
-        raise player.Stopped(f"the robot's trunk reads {quaternion.tolist()}; should be a unit quaternion")
-    return np.array(player.up_of(*(quaternion / length))), position
+    quaternion, _ = player.trunk(robot)
+    return np.array(player.up_of(*quaternion)), position
 
 
 def stands(motion: player.Motion, robot: Any) -> bool:

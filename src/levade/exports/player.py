@@ -629,6 +629,15 @@ class _Joints:
         self._robot.write(*(values.copy() for values in command))
 
 
+def trunk(robot: Any) -> tuple[Array, Array]:
+    """Read the trunk: attitude, a unit quaternion (4,), and rate (3,) [rad/s]. Raises Stopped for readings that are none."""
+    quaternion, rate = pair("the trunk's attitude and the trunk's rate", robot.read_trunk(), (4, 3))
+    length = math.hypot(*quaternion)
+    if not abs(length - 1.0) < 0.01:
+        raise Stopped(f"the robot's trunk reads {quaternion.tolist()}; should be a unit quaternion")
+    return quaternion / length, rate
+
+
 class _Trunk:
     """The robot's trunk: every reading is checked."""
 
@@ -638,11 +647,7 @@ class _Trunk:
 
     def read(self, row: int, when: str) -> tuple[Array, Array]:
         """Attitude, a unit quaternion (4,), and rate (3,) [rad/s]. Raises Stopped if it is not as in the simulation."""
-        quaternion, rate = pair("the trunk's attitude and the trunk's rate", self._robot.read_trunk(), (4, 3))
-        length = math.hypot(*quaternion)
-        if not abs(length - 1.0) < 0.01:
-            raise Stopped(f"the robot's trunk reads {quaternion.tolist()}; should be a unit quaternion")
-        quaternion = quaternion / length
+        quaternion, rate = trunk(self._robot)
         cosine = float(np.dot(up_of(*quaternion), self._motion.up[row]))
         tilt = math.acos(min(1.0, max(-1.0, cosine)))
         if not tilt <= self._most:

@@ -14,8 +14,6 @@ of motions are in 000012-mirrored; they are simulated from the mirror images of 
 
 from __future__ import annotations
 
-import io
-import zipfile
 from collections.abc import Callable
 from dataclasses import dataclass, fields
 from pathlib import Path
@@ -23,6 +21,7 @@ from typing import Any
 
 import numpy as np
 
+from levade.archive import packed
 from levade.arrays import Array
 from levade.engines import State
 from levade.errors import LevadeError
@@ -33,7 +32,7 @@ from levade.exports.directory import filling
 from levade.library.asking import Library
 from levade.library.falls import Falls, Plays
 from levade.library.knowledge import Knowledge
-from levade.library.learning import packed as learned_bytes
+from levade.library.learning import arrays_of
 from levade.library.records import fall_of, image_of
 from levade.library.storing import read_library
 from levade.motions import Motion
@@ -116,7 +115,8 @@ def export_library(
                 folders.setdefault(number, []).append(folder)
                 written += 1
                 observe(written, sum(map(len, ways.values())))
-        model = packed(knowledge.model) if library.learned is None else learned_bytes(library.learned)
+        own = {one.name: getattr(knowledge.model, one.name) for one in fields(Model)}
+        model = packed(own if library.learned is None else arrays_of(library.learned))
         (partial / "model.npz").write_bytes(model)
         about: dict[str, Any] = {
             "joints": list(falls.simulation.robot.joint_names),
@@ -135,24 +135,6 @@ def export_library(
         write_script("asker.py", partial / "ask.py")
     places = {number: tuple(directory / folder for folder in own) for number, own in folders.items()}
     return ExportedLibrary(directory, places, tuple(directory / folder for folder in failed))
-
-
-def packed(model: Model) -> bytes:
-    """Pack a model's arrays into an npz file; equal arrays give equal bytes.
-
-    Args:
-        model: The model.
-
-    Returns:
-        Content of the file.
-    """
-    content = io.BytesIO()
-    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as file:
-        for one in fields(Model):
-            values = io.BytesIO()
-            np.save(values, getattr(model, one.name), allow_pickle=False)
-            file.writestr(zipfile.ZipInfo(f"{one.name}.npy"), values.getvalue(), zipfile.ZIP_DEFLATED)
-    return content.getvalue()
 
 
 def _ways(library: Library) -> dict[int, list[tuple[int, bool]]]:

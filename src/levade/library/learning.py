@@ -10,9 +10,7 @@ model consists of arrays, so answering needs only numpy (`levade.exports.asker.L
 
 from __future__ import annotations
 
-import io
 import warnings
-import zipfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -22,9 +20,10 @@ import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
+from levade.archive import packed
 from levade.arrays import Array
 from levade.errors import LevadeError, Remedy
-from levade.exports.asker import Learned, Model, features
+from levade.exports.asker import Learned, Model, calibrated, features
 from levade.library.asking import LEARNED, Library
 from levade.library.knowledge import Knowledge
 from levade.search.storage import storing
@@ -120,7 +119,9 @@ def _learned(known: Knowledge) -> Learning:
             for row in np.flatnonzero(out):
                 held[kind][row] = model.probabilities(known.up[row], known.joint_position[row])
     lines = {kind: _line(raw, works) if kind != NEAREST else (1.0, 0.0) for kind, raw in held.items()}
-    scores = {kind: _score(_along(held[kind], *lines[kind]) if kind != NEAREST else held[kind], works) for kind in held}
+    scores = {
+        kind: _score(calibrated(held[kind], *lines[kind]) if kind != NEAREST else held[kind], works) for kind in held
+    }
     chosen = NEAREST
     for kind, score in scores.items():
         if score.first > scores[chosen].first + _BETTER:
@@ -148,28 +149,21 @@ def save(learning: Learning, directory: Path) -> None:
             place.unlink(missing_ok=True)
             return
         with replacing(place) as partial:
-            partial.write_bytes(packed(learning.model, falls=learning.knowledge.falls))
+            partial.write_bytes(packed(arrays_of(learning.model) | {"falls": learning.knowledge.falls}))
 
 
-def packed(model: Learned, **more: NDArray[Any]) -> bytes:
-    """Pack a learned model's arrays into an npz file; equal arrays give equal bytes.
+def arrays_of(model: Learned) -> dict[str, NDArray[Any]]:
+    """Return what a file holds of a learned model.
 
     Args:
         model: The learned model.
-        more: More arrays to write, by name.
 
     Returns:
-        Content of the file.
+        Arrays by name.
     """
     head = {"kind": np.array(model.kind), "motions": model.motions}
-    arrays = {**head, "slope": np.array(model.slope), "offset": np.array(model.offset), **model.arrays, **more}
-    content = io.BytesIO()
-    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as file:
-        for name, values in arrays.items():
-            one = io.BytesIO()
-            np.save(one, np.asarray(values), allow_pickle=False)
-            file.writestr(zipfile.ZipInfo(f"{name}.npy"), one.getvalue(), zipfile.ZIP_DEFLATED)
-    return content.getvalue()
+    numbers = {"slope": np.array(model.slope), "offset": np.array(model.offset)}
+    return head | numbers | {name: np.asarray(values) for name, values in model.arrays.items()}
 
 
 def _part(known: Knowledge, rows: NDArray[np.bool_]) -> Knowledge:
@@ -204,11 +198,6 @@ def _line(raw: Array, works: Array) -> tuple[float, float]:
     )
     slope = float(fitted.coef_[0, 0])
     return (slope, float(fitted.intercept_[0])) if slope > 0 else (1.0, 0.0)
-
-
-def _along(raw: Array, slope: float, offset: float) -> Array:
-    raw = np.clip(raw, 0.005, 0.995)
-    return 1.0 / (1.0 + np.exp(-(slope * np.log(raw / (1.0 - raw)) + offset)))
 
 
 def _score(probability: Array, works: Array) -> Score:

@@ -47,9 +47,6 @@ _ELSEWHERE = 0.1
 _APART = 1000
 """Difference between the seeds of searches from consecutive falls."""
 
-_AT_ONCE = 32
-"""Number of falls whose pairs are tried in one batch."""
-
 
 class Solver:
     """Solves falls of a library, and writes the results into its directory.
