@@ -12,11 +12,13 @@ import pytest
 from levade.engines import FOOT_CONTACT_FORCE, Fall, Physics, Settled, make_engine, start_state
 from levade.engines.ode.library import load as load_ode
 from levade.errors import LevadeError
+from levade.policies import Policy
 from levade.robots import Robot, dimensions, load_robot
 from levade.robots.limbs import read_limbs
 from levade.robots.settling import settle
 from levade.robots.understanding import find_trunk
 from levade.scenes import Scene
+from levade.search.objective import make_objective
 from levade.tasks import load_task
 from levade.tasks.policy import leg_groups
 from levade.trajectory import JointReference
@@ -277,6 +279,22 @@ def test_an_insect_stands_with_its_feet_level(tmp_path: Path) -> None:
     # of legs that do the same, the knees of all fold
     signs = {sign for group in groups for follower in group.followers for sign in follower.signs[1:]}
     assert signs == {1.0}
+
+
+def test_sketches_of_an_upright_robot_bend_it_forward_and_back(walker: Robot) -> None:
+    objective = make_objective(load_task("self-righting", robot=walker), robot=walker, threads=1)
+    space, names = objective.space, walker.joint_names
+    assert isinstance(objective.policy, Policy)
+    assert space.span is not None
+    spans = space.span.reshape(-1, objective.policy.kernels.kernels, 2)
+    steps = np.linalg.norm(space.factor, axis=1).reshape(spans.shape[:2])
+    leaders = [joint for group in objective.policy.groups for joint in group.leader]
+    for joint, span, step in zip(leaders, spans, steps, strict=True):
+        bends = names[joint].partition("_")[2] in ("pitch", "knee", "foot_pitch", "reach", "elbow")
+        whole = (walker.limits.lower[joint], walker.limits.upper[joint])
+        neutral = walker.postures["neutral"][joint]
+        assert span == pytest.approx(np.tile(whole if bends else (neutral, neutral), (len(span), 1))), names[joint]
+        assert step == pytest.approx(np.full(len(step), 1.0 if bends else 0.3), rel=0.05), names[joint]
 
 
 @pytest.mark.parametrize("name", ["mujoco", "ode"])

@@ -26,6 +26,9 @@ DURATION_PER_STEP = 0.6
 """Upper bound of the same per step of the weights [1/rad]: a search close around a motion also stays close to its duration."""
 
 
+SIDEWAYS = 0.3
+"""Factor on the first step of joints that turn or spread limbs of a robot that stands upright, if the search has sketches."""
+
 _TO_THE_SIDE = math.cos(math.radians(45.0))
 """Smallest share of an axis along y with which a joint bends a limb forward and back."""
 
@@ -60,6 +63,9 @@ def _of_weights(task: Task, robot: Robot, policy: Policy, start: State) -> Searc
         smooth = smoothness_factor(policy.kernels, search.smoothness, policy.independent_joints, modes=search.modes)
     else:
         smooth = np.eye(policy.size)
+    if search.sketches and robot.stance == "upright":
+        share = np.where(_bends_forward(robot)[_leaders(policy)], 1.0, SIDEWAYS)
+        smooth = smooth * np.repeat(share, policy.kernels.kernels)[:, None]
     return SearchSpace(
         mean,
         smooth,
@@ -75,7 +81,7 @@ def _span(policy: Policy, robot: Robot) -> Array:
 
     A robot that stands upright gets up and jumps by bending forward and back: its other joints stay as in neutral.
     """
-    leaders = [joint for group in policy.groups for joint in group.leader]
+    leaders = _leaders(policy)
     lower, upper = robot.limits.lower[leaders], robot.limits.upper[leaders]
     unlimited = np.isinf(lower) | np.isinf(upper)
     span = np.stack([np.where(unlimited, -np.pi, lower), np.where(unlimited, np.pi, upper)], axis=-1)
@@ -83,6 +89,11 @@ def _span(policy: Policy, robot: Robot) -> Array:
         still = ~_bends_forward(robot)[leaders]
         span[still] = robot.posture("neutral")[leaders][still, None]
     return np.repeat(span, policy.kernels.kernels, axis=0)
+
+
+def _leaders(policy: Policy) -> list[int]:
+    """Return the policy's independent joints."""
+    return [joint for group in policy.groups for joint in group.leader]
 
 
 def _bends_forward(robot: Robot) -> NDArray[np.bool_]:
