@@ -209,6 +209,22 @@ def test_a_description_gives_armature(tmp_path: Path) -> None:
         load(tmp_path, humanoid(), "armature: {one_kneee: 0.02}\n")
 
 
+def test_a_torque_that_a_heavy_rotor_needs_is_believed(tmp_path: Path) -> None:
+    """As of gymnasium's ant: rotors of 1 kg m2, which 150 Nm bring to 15 rad/s in 0.1 s, though it weighs next to nothing."""
+    strong = insect(4).replace("-12 12", "-150 150")
+    light = load(tmp_path, strong)
+    heavy = load(tmp_path, strong.replace('armature="0.01"', 'armature="1"'))
+    assert (heavy.limits.torque == 150.0).all()
+    assert light.limits.torque.max() < 15.0
+
+
+def test_a_servo_is_not_slower_than_its_rotor_needs(tmp_path: Path) -> None:
+    torque = 4000.0
+    text = humanoid().replace('armature="0.01"', 'armature="1"').replace("-60.0 60.0", f"-{torque} {torque}")
+    robot = load(tmp_path, text, f"limits: {{torque: {torque}, velocity: 20}}\n")
+    assert (np.sqrt(robot.actuation.kp / 1.0) >= 2 * np.pi * 5.0 - 1e-9).all()  # 5 Hz
+
+
 def test_its_servos_are_stable_in_the_air(without_rotors: Robot) -> None:
     """A foot that touches nothing follows its servo, though the reference jumps so far that the torque saturates."""
     engine = make_engine(without_rotors, Scene(), Physics(), threads=1)

@@ -29,6 +29,8 @@ _FASTEST = 100.0
 """Largest plausible speed limit [rad/s]. The fastest joints of legs reach about half of it; more stands for "no limit"."""
 _NO_LIMIT = 4
 """Largest plausible torque limit, as a multiple of the torque that could carry the robot; more stands for "no limit"."""
+_RUN_UP = 0.1
+"""Time in which a plausible torque brings a joint's own rotor to its speed limit [s], where that takes more."""
 
 
 @dataclass(frozen=True)
@@ -120,7 +122,8 @@ def _torque(draft: Draft, bare: Bare, path: Path, form: RobotForm) -> tuple[Arra
         return torque, none
     assumed = gains.assumed_torque(float(bare.model.body_mass.sum()), _leg_length(bare))
     standing = np.array([leg.stands for leg in bare.legs for _ in leg.joints])
-    missing = ~(torque <= _NO_LIMIT * assumed)
+    rotor = _armature(bare) * gains.assumed_speed(_leg_length(bare)) / _RUN_UP
+    missing = ~(torque <= _NO_LIMIT * np.maximum(assumed, rotor))
     for legs, values in ((True, np.full(len(joints), assumed)), (False, _arm_torque(bare, assumed))):
         chosen = missing & (standing == legs)
         if chosen.any():
@@ -129,6 +132,12 @@ def _torque(draft: Draft, bare: Bare, path: Path, form: RobotForm) -> tuple[Arra
     if missing.any():
         draft.origins["torque"] = "assumed" if missing.all() else f"{_file(draft)}, or assumed"
     return torque, missing
+
+
+def _armature(bare: Bare) -> Array:
+    """Return the reflected rotor inertia of each joint [kg m2], shape (joints,)."""
+    dofs = [int(bare.model.joint(joint).dofadr[0]) for joint in bare.joints]
+    return np.array(bare.model.dof_armature[dofs], dtype=float)
 
 
 def _arm_torque(bare: Bare, most: float) -> Array:
@@ -289,6 +298,7 @@ def _own_gains(
     most = np.maximum(
         gains.stiffness(float(bare.model.body_mass.sum()), _leg_length(bare)), load / gains.GIVE_UNDER_LOAD
     )
+    most = np.maximum(most, _armature(bare) * (2 * np.pi * gains.BANDWIDTH) ** 2)
     standing = np.array([leg.stands for leg in bare.legs for _ in leg.joints])
     kp = np.minimum(most, torque / np.where(standing, gains.GIVE_STANDING, gains.GIVE_FREE)) if kps is None else kps
     inertia = np.array(list(bare.joint_inertia(neutral).values()))

@@ -16,6 +16,8 @@ It gives 26 Nm at the shoulders of G1, whose data sheet has 25 Nm.
 """
 GIVE_UNDER_LOAD = 0.03
 """Largest deflection under the load of the neutral posture [rad], for joints with their own gains."""
+BANDWIDTH = 5.0
+"""Least natural frequency of a servo that turns nothing but its rotor [Hz], if each joint has its own gains."""
 DAMPING_RATIO = 0.7
 ROTOR_INERTIA = 1.5e-4
 """Reflected rotor inertia of a geared drive over its torque limit [kg m2 / Nm].
