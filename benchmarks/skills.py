@@ -178,16 +178,16 @@ def run(cases: list[tuple[str, str, int]], processes: int) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--tasks", nargs="+", default=[*EVERYWHERE, *OTHERS])
-    parser.add_argument("--robots", nargs="+", default=list(ROBOTS))
+    parser.add_argument("--tasks", nargs="+", default=[*EVERYWHERE, *OTHERS, FRONT])
+    parser.add_argument("--robots", nargs="+", default=[*ROBOTS, *LIMBS])
     parser.add_argument("--limbs", action="store_true", help="robots that are no quadrupeds of mammal type")
     parser.add_argument("--seeds", type=int, default=10)
     parser.add_argument("--processes", type=int, default=2)
     parser.add_argument("--write", action="store_true", help="only write the page")
     arguments = parser.parse_args()
     if not arguments.write:
-        chosen = [(t, r) for t, r in PAIRS if t in arguments.tasks and r in arguments.robots]
-        pairs = LIMB_PAIRS if arguments.limbs else chosen
+        of = LIMB_PAIRS if arguments.limbs else PAIRS
+        pairs = [(t, r) for t, r in of if t in arguments.tasks and r in arguments.robots]
         cases = missing(kept(), pairs, arguments.seeds)
         print(f"{len(cases)} searches", flush=True)
         run(cases, arguments.processes)

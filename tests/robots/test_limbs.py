@@ -257,6 +257,15 @@ def test_its_soles_lie_flat_and_it_is_balanced(walker: Robot) -> None:
     assert walker.postures["neutral"][knee] > 0.1
 
 
+def test_its_stretched_posture_is_straight_and_on_its_toes(walker: Robot) -> None:
+    neutral, stretched = walker.postures["neutral"], walker.postures["stretched"]
+    assert stretched[walker.joint_names.index("one_knee")] < 0.2
+    assert walker.foot_depths(stretched).min() > walker.foot_depths(neutral).max()
+    data = walker.data_at(stretched)
+    for side in ("one", "two"):
+        assert data.geom(f"{side}_toe").xpos[2] < data.geom(f"{side}_heel").xpos[2] - 0.02
+
+
 def test_left_and_right_limbs_are_pairs_and_arms_are_none_of_the_legs(walker: Robot) -> None:
     groups = leg_groups(load_task("squat-jump", robot=walker).policy, walker)
     assert [len(group.leader) for group in groups] == [6, 3]

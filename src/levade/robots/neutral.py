@@ -23,6 +23,10 @@ UPRIGHT_EXTENSION, SPRAWLED_EXTENSION, LEVEL_EXTENSION = 0.94, 0.4, 0.8
 """Height of the hip above the sole, as a share of the leg's length: on two legs, for limbs that point outward, for others."""
 CROUCHED = 0.7
 """Extension of the crouched posture, as a share of the neutral posture's."""
+UPRIGHT_STRETCHED = 1.2
+"""Extension to which the stretched posture on two legs tends, which no leg reaches."""
+_TIPTOE = 0.35
+"""Angle by which feet point down in the stretched posture on two legs [rad]."""
 
 _LEG_TRIES, _ARM_TRIES, _AGAIN, _POPULATION = 200, 100, 80, 12
 """Trials per searched joint: for legs, for arms, and for legs that begin near a solution; and trials per generation."""
@@ -112,6 +116,26 @@ class PostureSearch:
         if arms:
             angles = self._search(angles, arms, lambda posture: self._arm_cost(posture, arms), _ARM_TRIES)
         return self.standing(angles, self.extension(), _LEG_TRIES)
+
+    def tiptoe(self, angles: Array) -> Array:
+        """Straighten the legs and point the feet down, as at the end of a push for a jump. The robot need not balance.
+
+        Args:
+            angles: A standing posture to begin at [rad], shape (joints,).
+
+        Returns:
+            Angles [rad], shape (joints,).
+        """
+        straight = self.standing(angles, UPRIGHT_STRETCHED)
+        self._put(straight)
+        sideways = self.data.xaxis[self.ids, 1]
+        for sole in self.soles:
+            bending = [k for k in (self.joints[name] for name in sole.leg.joints) if abs(sideways[k]) > 0.7]
+            if bending:
+                ankle = bending[-1]  # about +y, what is ahead goes down
+                down = straight[ankle] + np.sign(sideways[ankle]) * self._ahead * _TIPTOE
+                straight[ankle] = np.clip(down, self.lower[ankle], self.upper[ankle])
+        return straight.round(_DIGITS)
 
     def standing(self, angles: Array, extension: float, tries: int = _AGAIN) -> Array:
         """Search a standing posture near given angles. Limbs that do not stand keep their angles.

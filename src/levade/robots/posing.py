@@ -95,10 +95,13 @@ def _derived(bare: Bare, torque: Array, postures: Mapping[str, Array]) -> dict[s
         neutral = dict(zip(bare.joints, postures["neutral"].tolist(), strict=True))
         return {name: {**neutral, **angles} for name, angles in found.items() if angles is not None}
     search = PostureSearch(bare, torque)
-    if "crouched" not in missing:
-        return {}
-    crouched = search.standing(postures["neutral"], CROUCHED * search.extension())
-    return {} if search.faults(crouched) else {"crouched": dict(zip(bare.joints, crouched.tolist(), strict=True))}
+    derived: dict[str, Array] = {}
+    if "crouched" in missing:
+        crouched = search.standing(postures["neutral"], CROUCHED * search.extension())
+        derived |= {} if search.faults(crouched) else {"crouched": crouched}
+    if "stretched" in missing and len(bare.standing) == 2:
+        derived["stretched"] = search.tiptoe(postures["neutral"])
+    return {name: dict(zip(bare.joints, angles.tolist(), strict=True)) for name, angles in derived.items()}
 
 
 def _neutral(draft: Draft, bare: Bare, path: Path, torque: Array) -> dict[str, float]:
