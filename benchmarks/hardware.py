@@ -2,7 +2,7 @@
 
     python benchmarks/hardware.py run --tasks rearing squat-jump --robots hyq2max --seeds 0 --arms nominal hardware
     python benchmarks/hardware.py table
-    python benchmarks/hardware.py write         # docs/hardware.md, from benchmarks/hardware.md.in and the results
+    python benchmarks/hardware.py write         # docs/hardware-results.md, from benchmarks/hardware.md.in and the results
 
 A row is written as soon as it is there, to results/hardware.jsonl, and one that is there is not run again. The certificate's
 perturbed runs have a seed that no search has, and all arms are judged by what `--hardware` calls good enough.
@@ -30,7 +30,7 @@ from levade.tasks import builtin_tasks, load_task
 HERE = Path(__file__).resolve().parent
 RESULTS = HERE / "results" / "hardware.jsonl"
 TEMPLATE = HERE / "hardware.md.in"
-PAGE = HERE.parent / "docs" / "hardware.md"
+PAGE = HERE.parent / "docs" / "hardware-results.md"
 TASKS = (
     *(
         "rearing",
@@ -133,7 +133,7 @@ def rows_in(files: list[Path]) -> list[dict[str, Any]]:
 
 
 def page() -> str:
-    """The text of docs/hardware.md."""
+    """The text of docs/hardware-results.md."""
     rows = rows_in([RESULTS])
     minutes = {row["minutes"] for row in rows if "minutes" in row}
     text = TEMPLATE.read_text(encoding="utf-8")

@@ -1,4 +1,4 @@
-"""docs/hardware.md and docs/falls.md are what benchmarks/hardware.py and library.py write of their results."""
+"""docs/hardware-results.md and docs/falls.md are what benchmarks/hardware.py and library.py write of their results."""
 
 from __future__ import annotations
 
