@@ -63,12 +63,12 @@ def by_case(summaries: Sequence[Summary]) -> dict[tuple[str, str], list[Summary]
 
 
 def legend(summaries: Sequence[Summary], *, short: bool = False) -> str:
-    """What the columns mean, in a sentence or two."""
+    """Say what the columns mean, in a sentence or two."""
     ends = " or ".join(dict.fromkeys(_ENDS[summary.until] for summary in summaries))
     return (
-        "Trials to success: median of all runs (least – most), ∞ for a run without. ERT: expected running time, what all"
-        f" runs spent until success or their end over the number of successes [{LEVEL:.0%} bootstrap interval]. Final cost:"
-        f" median {'' if short else '(quartiles) '}of the best trial at a run's end, {ends}."
+        "Trials to success: median of all runs (least – most), ∞ for a run without success. ERT: expected running time, what"
+        f" all runs spent until success or their end, divided by the number of successes [{LEVEL:.0%} bootstrap interval]."
+        f" Final cost: median {'' if short else '(quartiles) '}of the best trial at a run's end, {ends}."
     )
 
 
