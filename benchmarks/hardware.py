@@ -141,6 +141,7 @@ def page() -> str:
         "minutes": " or ".join(f"{one:g}" for one in sorted(minutes)),
         "table": as_table(rows),
         "summary": summary(rows),
+        "refusals": refusals(rows),
     }.items():
         text = text.replace(f"{{{name}}}", value)
     return text
@@ -159,7 +160,7 @@ def summary(rows: list[dict[str, Any]]) -> str:
 
 
 def as_table(rows: list[dict[str, Any]]) -> str:
-    """Markdown: a line for each task and robot, certificates of the arms beside one another."""
+    """Markdown: a line for each certificate; tasks that a robot refuses are in `refusals`."""
     lines = [
         "| task | robot | seed | arm | certificate | holds on | T [s] | trials | time [s] | CPU [s] | nearest limit |",
         "|---|---|--:|---|---|--:|--:|--:|--:|--:|---|",
@@ -167,14 +168,32 @@ def as_table(rows: list[dict[str, Any]]) -> str:
     for row in sorted(rows, key=lambda row: (row["robot"], row["task"], row["seed"], ARMS.index(row["arm"]))):
         lead = f"| {row['task']} | {row['robot'].split(':')[-1]} | {row['seed']} | {row['arm']} |"
         if "refused" in row:
-            lines.append(f"{lead} refused | | | | | | {row['refused'].split(':', 1)[-1].strip()} |")
             continue
         verdict = "**passes**" if row["passed"] else "fails " + ", ".join(row["failed"])
         numbers = (
             f"{row['share']:.1%} | {row['horizon']:.2f} | {row['trials']} | {row['seconds']:.0f} | {row['cpu']:.0f}"
         )
-        lines.append(f"{lead} {verdict}{' (feedback)' * row['feedback']} | {numbers} | {row['binding']} |")
+        lines.append(f"{lead} {verdict}{' (feedback)' * row['feedback']} | {numbers} | {nearest(row['binding'])} |")
     return "\n".join(lines)
+
+
+def nearest(binding: str) -> str:
+    """Shorten what `levade.hardware.binding` says, for a narrow column."""
+    return binding.replace(" comes nearest to a limit:", ":")
+
+
+def refusals(rows: list[dict[str, Any]]) -> str:
+    """Markdown: a line for each reason why a task was refused, with the tasks."""
+    found: dict[tuple[str, str], list[str]] = {}
+    for row in sorted(rows, key=lambda row: (row["robot"], row["task"])):
+        if "refused" in row:
+            reason = row["refused"].split(":", 1)[-1].strip()
+            tasks = found.setdefault((row["robot"].split(":")[-1], reason), [])
+            tasks.extend({row["task"]} - set(tasks))
+    return "\n".join(
+        f"- {', '.join(f'`{task}`' for task in tasks)} on `{robot}`: {reason}"
+        for (robot, reason), tasks in found.items()
+    )
 
 
 if __name__ == "__main__":
