@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import re
 import tempfile
 import time
 from dataclasses import replace
@@ -162,24 +163,24 @@ def summary(rows: list[dict[str, Any]]) -> str:
 def as_table(rows: list[dict[str, Any]]) -> str:
     """Markdown: a line for each certificate; tasks that a robot refuses are in `refusals`."""
     lines = [
-        "| task | robot | seed | arm | certificate | holds on | T [s] | trials | time [s] | CPU [s] | nearest limit |",
-        "|---|---|--:|---|---|--:|--:|--:|--:|--:|---|",
+        "| task | robot | seed | arm | certificate | holds on | T [s] | trials | time [s] | CPU [s] | nearest limit | what fails |",
+        "|---|---|--:|---|---|--:|--:|--:|--:|--:|---|---|",
     ]
     for row in sorted(rows, key=lambda row: (row["robot"], row["task"], row["seed"], ARMS.index(row["arm"]))):
         lead = f"| {row['task']} | {row['robot'].split(':')[-1]} | {row['seed']} | {row['arm']} |"
         if "refused" in row:
             continue
-        verdict = "**passes**" if row["passed"] else "fails " + ", ".join(row["failed"])
+        verdict = f"{'**passes**' if row['passed'] else 'fails'}{' (feedback)' * row['feedback']}"
         numbers = (
             f"{row['share']:.1%} | {row['horizon']:.2f} | {row['trials']} | {row['seconds']:.0f} | {row['cpu']:.0f}"
         )
-        lines.append(f"{lead} {verdict}{' (feedback)' * row['feedback']} | {numbers} | {nearest(row['binding'])} |")
+        lines.append(f"{lead} {verdict} | {numbers} | {nearest(row['binding'])} | {', '.join(row['failed'])} |")
     return "\n".join(lines)
 
 
 def nearest(binding: str) -> str:
     """Shorten what `levade.hardware.binding` says, for a narrow column."""
-    return binding.replace(" comes nearest to a limit:", ":")
+    return re.sub(r"^(\S+) comes nearest to a limit: (\S+) of its (.*) left$", r"\1, \3: \2", binding)
 
 
 def refusals(rows: list[dict[str, Any]]) -> str:

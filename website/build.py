@@ -129,6 +129,12 @@ def _places(nav: list[Any]) -> Iterator[str]:
 def prepared(text: str, source: Path, place: str, sources: dict[Path, str]) -> str:
     """A page's text, with links that hold on the site, mathematics as MathML, and fences without notes to tests."""
     text = re.sub(r"^(```\w+) \w+$", r"\1", MATHS.sub(_mathml, text), flags=re.MULTILINE)
+    text = re.sub(
+        r"^\|.*$",
+        lambda row: CODE.sub(lambda code: code.group().replace("\\|", "|"), row.group()),
+        text,
+        flags=re.MULTILINE,
+    )
     return outside_code(text, lambda part: LINK.sub(lambda m: _link(m, source, place, sources), part))
 
 
