@@ -163,7 +163,7 @@ def summary(rows: list[dict[str, Any]]) -> str:
 def as_table(rows: list[dict[str, Any]]) -> str:
     """Markdown: a line for each certificate; tasks that a robot refuses are in `refusals`."""
     lines = [
-        "| task | robot | seed | arm | certificate | holds on | T [s] | trials | time [s] | CPU [s] | nearest limit | what fails |",
+        "| task | robot | seed | arm | certificate | holds on | T [s] | trials | time [s] | CPU [s] | nearest limit | fails |",
         "|---|---|--:|---|---|--:|--:|--:|--:|--:|---|---|",
     ]
     for row in sorted(rows, key=lambda row: (row["robot"], row["task"], row["seed"], ARMS.index(row["arm"]))):
