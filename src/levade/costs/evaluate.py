@@ -1,4 +1,4 @@
-"""The cost of each trial: the weighted sum of the terms (eq. 5), finite whatever the simulation did."""
+"""Compute the cost of each trial: the weighted sum of the terms (eq. 5), which is always finite."""
 
 from __future__ import annotations
 
