@@ -113,12 +113,22 @@ def _keys(schema: dict[str, Any], definitions: dict[str, Any]) -> str:
     rows = []
     for name, one in schema["properties"].items():
         default = f"`{one['default']}`" if one.get("default", "") != "" else "required" if name in required else ""
-        rows.append((f"`{name}`", _kind(one, definitions), default, _escaped(one.get("description", ""))))
+        rows.append((f"`{name}`", _kind(one, definitions), default, _escaped(_description(one))))
     return table(("key", "value", "default", "meaning"), rows)
+
+
+def _description(schema: dict[str, Any]) -> str:
+    """The description of a key, or of one of its alternatives."""
+    alternatives = (_description(one) for one in schema.get("anyOf", []))
+    return schema.get("description") or next((text for text in alternatives if text), "")
 
 
 def _kind(schema: dict[str, Any], definitions: dict[str, Any]) -> str:
     """What may stand there, in words."""
+    if "oneOf" in schema:  # the terms, chosen by a key
+        return "[term](#terms-of-costs)"
+    if "allOf" in schema:  # a definition, and a key that it has to have here
+        return _kind(schema["allOf"][0], definitions)
     if "$ref" in schema:
         name = schema["$ref"].rsplit("/", 1)[1].replace("%20", " ")
         return name if name.startswith("term ") else f"[{name}](#{name.lower()})"
@@ -132,7 +142,7 @@ def _kind(schema: dict[str, Any], definitions: dict[str, Any]) -> str:
         return "number with a unit"
     if kind == "array":
         inner = schema.get("items") or (schema.get("prefixItems") or [{}])[0]
-        count = f"{schema['maxItems']} of " if schema.get("maxItems") else "list of "
+        count = f"{schema['maxItems']} times " if schema.get("maxItems") else "list of "
         return count + (_kind(inner, definitions) or "values")
     if kind == "object":
         inner = schema.get("additionalProperties")
