@@ -42,6 +42,9 @@ NOTEBOOKS = ROOT / "examples" / "notebooks"
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s]+)\)")
 FENCE = re.compile(r"(^```.*?^```[^\n]*$)", re.DOTALL | re.MULTILINE)
 CODE = re.compile(r"(`[^`]+`)")
+TIGHT_LIST = re.compile(r"^((?![-*] |[#|\s]|\d+\. ).+\n)(?=- |1\. )", re.MULTILINE)
+"""A list right after a paragraph: a forge shows a list, the generator only after an empty line."""
+
 MATHS = re.compile(r"^\$\$\n(.*?)\n\$\$$", re.DOTALL | re.MULTILINE)
 
 
@@ -135,7 +138,9 @@ def prepared(text: str, source: Path, place: str, sources: dict[Path, str]) -> s
         text,
         flags=re.MULTILINE,
     )
-    return outside_code(text, lambda part: LINK.sub(lambda m: _link(m, source, place, sources), part))
+    return outside_code(
+        text, lambda part: TIGHT_LIST.sub(r"\1\n", LINK.sub(lambda m: _link(m, source, place, sources), part))
+    )
 
 
 def outside_code(text: str, change: Callable[[str], str]) -> str:
