@@ -51,7 +51,7 @@ BUDGET, SEEDS = 3000, 20
 
 @dataclass(frozen=True)
 class Case:
-    """task: name or file. median: trials to success that are asked of levade. wall: [s], of a whole solve on two cores.
+    """task: name or file. median: trials to success that levade should need. wall: [s], of a whole solve on two cores.
 
     cheapest: whether its final cost has to be below the best of every peer. step: of plain CMA-ES [rad], 0.05 in the paper.
     ours: what levade's method is on this case, where it is not what the task says.
@@ -202,7 +202,7 @@ def page(rows: Sequence[Result], wall: dict[str, Any]) -> str:
         mine = [summary for summary in summaries if summary.task == name]
         parts.append(f"## {case.title}\n")
         if not mine:
-            parts.append(f"No runs yet. Asked for: {SEEDS} of {SEEDS}, median at most {case.median} trials.\n")
+            parts.append(f"No runs yet. Goal: {SEEDS} of {SEEDS}, median at most {case.median} trials.\n")
             continue
         by_name = {summary.optimizer: summary for summary in mine}
         verdicts = verdict(case, by_name, [row for row in results if row.task == name], wall.get(name))
@@ -238,8 +238,8 @@ def page(rows: Sequence[Result], wall: dict[str, Any]) -> str:
 def verdict(
     case: Case, summaries: dict[str, Summary], runs: Sequence[Result], wall: dict[str, Any] | None
 ) -> list[str]:
-    """What was asked for, and by how much it is missed, in sentences."""
-    asked = f"Asked for: {SEEDS} of {SEEDS}, median at most {case.median} trials"
+    """State the goal of a case, and by how much it is missed, in sentences."""
+    asked = f"Goal: {SEEDS} of {SEEDS}, median at most {case.median} trials"
     asked += "" if case.wall is None else f", at most {case.wall:g} s on two quiet cores"
     asked += ", and a final cost below every peer's best run." if case.cheapest else "."
     ours = summaries.get("levade")
@@ -247,10 +247,10 @@ def verdict(
         return [asked, "`levade` has not been run yet."]
     said = [asked]
     failed = ours.runs - ours.successes
-    said.append(f"**Success: {ours.successes} of {ours.runs}**{f', {failed} missed' if failed else ', as asked'}.")
+    said.append(f"**Success: {ours.successes} of {ours.runs}**{f', {failed} missed' if failed else ', goal met'}.")
     median = ours.median
     if median <= case.median:
-        said.append(f"**Median {number(median)}**, as asked.")
+        said.append(f"**Median {number(median)}**, goal met.")
     elif math.isinf(median):
         said.append("**No median**: fewer than half succeeded.")
     else:
@@ -263,7 +263,7 @@ def verdict(
             said.append(_cheapest(ours, min(peers, key=lambda row: row.cost)))
     if wall is not None and case.wall is not None:
         seconds = statistics.median(run["wall_s"] for run in wall["runs"])
-        missed = "as asked" if seconds <= case.wall else f"missed by {seconds - case.wall:.1f} s"
+        missed = "goal met" if seconds <= case.wall else f"missed by {seconds - case.wall:.1f} s"
         said.append(
             f"Wall time, median of {len(wall['runs'])} runs on {wall['cores']} cores: {seconds:.1f} s, {missed}."
         )

@@ -2,7 +2,7 @@
 
     python benchmarks/hardware.py run --tasks rearing squat-jump --robots hyq2max --seeds 0 --arms nominal hardware
     python benchmarks/hardware.py table
-    python benchmarks/hardware.py write         # docs/hardware.md, from benchmarks/hardware.md.in and the results
+    python benchmarks/hardware.py write         # docs/hardware-results.md, from benchmarks/hardware.md.in and the results
 
 A row is written as soon as it is there, to results/hardware.jsonl, and one that is there is not run again. The certificate's
 perturbed runs have a seed that no search has, and all arms are judged by what `--hardware` calls good enough.
@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import re
 import tempfile
 import time
 from dataclasses import replace
@@ -30,7 +31,7 @@ from levade.tasks import builtin_tasks, load_task
 HERE = Path(__file__).resolve().parent
 RESULTS = HERE / "results" / "hardware.jsonl"
 TEMPLATE = HERE / "hardware.md.in"
-PAGE = HERE.parent / "docs" / "hardware.md"
+PAGE = HERE.parent / "docs" / "hardware-results.md"
 TASKS = (
     *(
         "rearing",
@@ -133,7 +134,7 @@ def rows_in(files: list[Path]) -> list[dict[str, Any]]:
 
 
 def page() -> str:
-    """The text of docs/hardware.md."""
+    """The text of docs/hardware-results.md."""
     rows = rows_in([RESULTS])
     minutes = {row["minutes"] for row in rows if "minutes" in row}
     text = TEMPLATE.read_text(encoding="utf-8")
@@ -141,6 +142,7 @@ def page() -> str:
         "minutes": " or ".join(f"{one:g}" for one in sorted(minutes)),
         "table": as_table(rows),
         "summary": summary(rows),
+        "refusals": refusals(rows),
     }.items():
         text = text.replace(f"{{{name}}}", value)
     return text
@@ -159,22 +161,40 @@ def summary(rows: list[dict[str, Any]]) -> str:
 
 
 def as_table(rows: list[dict[str, Any]]) -> str:
-    """Markdown: a line for each task and robot, certificates of the arms beside one another."""
+    """Markdown: a line for each certificate; tasks that a robot refuses are in `refusals`."""
     lines = [
-        "| task | robot | seed | arm | certificate | holds on | T [s] | trials | time [s] | CPU [s] | nearest limit |",
-        "|---|---|--:|---|---|--:|--:|--:|--:|--:|---|",
+        "| task | robot | seed | arm | certificate | holds on | T [s] | trials | time [s] | CPU [s] | nearest limit | fails |",
+        "|---|---|--:|---|---|--:|--:|--:|--:|--:|---|---|",
     ]
     for row in sorted(rows, key=lambda row: (row["robot"], row["task"], row["seed"], ARMS.index(row["arm"]))):
         lead = f"| {row['task']} | {row['robot'].split(':')[-1]} | {row['seed']} | {row['arm']} |"
         if "refused" in row:
-            lines.append(f"{lead} refused | | | | | | {row['refused'].split(':', 1)[-1].strip()} |")
             continue
-        verdict = "**passes**" if row["passed"] else "fails " + ", ".join(row["failed"])
+        verdict = f"{'**passes**' if row['passed'] else 'fails'}{' (feedback)' * row['feedback']}"
         numbers = (
             f"{row['share']:.1%} | {row['horizon']:.2f} | {row['trials']} | {row['seconds']:.0f} | {row['cpu']:.0f}"
         )
-        lines.append(f"{lead} {verdict}{' (feedback)' * row['feedback']} | {numbers} | {row['binding']} |")
+        lines.append(f"{lead} {verdict} | {numbers} | {nearest(row['binding'])} | {', '.join(row['failed'])} |")
     return "\n".join(lines)
+
+
+def nearest(binding: str) -> str:
+    """Shorten what `levade.hardware.binding` says, for a narrow column."""
+    return re.sub(r"^(\S+) comes nearest to a limit: (\S+) of its (.*) left$", r"\1, \3: \2", binding)
+
+
+def refusals(rows: list[dict[str, Any]]) -> str:
+    """Markdown: a line for each reason why a task was refused, with the tasks."""
+    found: dict[tuple[str, str], list[str]] = {}
+    for row in sorted(rows, key=lambda row: (row["robot"], row["task"])):
+        if "refused" in row:
+            reason = row["refused"].split(":", 1)[-1].strip()
+            tasks = found.setdefault((row["robot"].split(":")[-1], reason), [])
+            tasks.extend({row["task"]} - set(tasks))
+    return "\n".join(
+        f"- {', '.join(f'`{task}`' for task in tasks)} on `{robot}`: {reason}"
+        for (robot, reason), tasks in found.items()
+    )
 
 
 if __name__ == "__main__":

@@ -206,7 +206,7 @@ def family(row: dict[str, Any]) -> str:
 def drives(rows: list[dict[str, Any]]) -> str:
     """Markdown: how often the exported loop gets a simulated robot up."""
     lines = [
-        "| robot | falls | delay [ms] | 1st attempt | 2nd | 3rd | not, or refused |",
+        "| robot | falls | delay [ms] | 1st attempt | 2nd | 3rd | none, or refused |",
         "|---|--:|--:|--:|--:|--:|--:|",
     ]
     for row in rows:
@@ -244,7 +244,7 @@ def builds(rows: list[dict[str, Any]]) -> str:
 def checks(rows: list[dict[str, Any]]) -> str:
     """Markdown: how often the robot gets up from falls that the build has not seen."""
     lines = [
-        "| robot | built | tried, of seed | first | one of 3 | one of 5 | twice | first, other robots | said | answer [ms] |",
+        "| robot | built | tried, of seed | first | one of 3 | one of 5 | twice | first, perturbed | predicted | answer [ms] |",
         "|---|--:|--:|---|---|---|---|---|--:|---|",
     ]
     for row in rows:

@@ -8,7 +8,7 @@ Each task is solved as `levade solve` does, through its stages, for so many tria
 around the calls: *engine* is `mujoco.batch`'s own roll-out, in C; *recording* what `levade.engines` does around it; *policy*,
 *costs* (terms, criteria, sums) and *optimizer* (ask, tell, aimed candidates) as named; *rest* the loop. Medians over repeats.
 CPU time counts one thread as it is; with two, the engine's threads share its work, and the rest has the wall to itself: its
-share there is measured by the wall, and also foretold from one thread, which a busy machine does not disturb.
+share there is measured by the wall, and also predicted from one thread, which a busy machine does not disturb.
 """
 
 from __future__ import annotations
@@ -130,7 +130,7 @@ def main() -> None:
         for way, runs in found.items():
             say(row(task, way, {part: statistics.median(run[part] for run in runs) for part in PARTS}))
         one = {part: statistics.median(run[part] for run in found["CPU, one thread"]) for part in PARTS}
-        say(row(task, "two threads, foretold", {**one, "engine": one["engine"] / 2}))
+        say(row(task, "two threads, predicted", {**one, "engine": one["engine"] / 2}))
     if arguments.keep:
         KEPT.write_text("\n".join(lines) + "\n", encoding="utf-8")
 

@@ -1,7 +1,7 @@
-"""Search with an optimiser of your own: a class with ``ask`` and ``tell``.
+"""Search with your own optimizer: a class with ``ask`` and ``tell``.
 
 This one is a (1 + n) evolution strategy. It draws candidates around the best so far, and widens or narrows its step with
-success. Nothing else is needed: `levade.optimizers.protocol` says what an optimiser may add.
+success. Nothing else is needed: `levade.optimizers.protocol` says what an optimizer may add.
 """
 
 import argparse

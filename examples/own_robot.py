@@ -1,7 +1,7 @@
 """Change a robot through `mujoco.MjSpec` and let it do a task: a HyQ2Max that carries 8 kg on its back.
 
-`levade.load_robot(spec, like=robot)` keeps the legs, limits, gains and postures of the robot that the spec was. A spec
-of another robot, without ``like``, is understood from its model alone, as the file of a robot is.
+`levade.load_robot(spec, like=robot)` keeps the legs, limits, gains and postures of the original robot. A spec of
+another robot, without ``like``, is read like a file.
 """
 
 import argparse

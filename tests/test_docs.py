@@ -165,7 +165,10 @@ def test_a_notebook_runs(name: str, smaller: str, tmp_path: Path, monkeypatch: p
         assert "levade.report();" in pages[0]  # the page's script is in it
 
 
-def test_the_citation_is_of_this_version() -> None:
+def test_citation_and_changelog_are_of_this_version() -> None:
     from levade.version import __version__
 
-    assert yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))["version"] == __version__
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    released = re.findall(r"^## \[(\d\S*)\] - (\d{4}-\d\d-\d\d)$", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE)
+    assert citation["version"] == __version__
+    assert released[0] == (__version__, str(citation["date-released"]))

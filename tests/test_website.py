@@ -69,3 +69,10 @@ def test_a_link_to_nothing_ends_the_build(build: ModuleType) -> None:
 def test_a_link_to_a_file_that_is_no_page_becomes_its_path(build: ModuleType) -> None:
     text = build.prepared("[the plan](../pyproject.toml)", ROOT / "docs" / "tasks.md", "tasks.md", {})
     assert text == "the plan (`pyproject.toml`)"
+
+
+def test_a_list_right_after_a_paragraph_is_a_list(build: ModuleType) -> None:
+    text = build.prepared(
+        "Keys:\n- `one`\n- two\n  and more\n\n1. a\n2. b\n", ROOT / "docs" / "tasks.md", "tasks.md", {}
+    )
+    assert text == "Keys:\n\n- `one`\n- two\n  and more\n\n1. a\n2. b\n"

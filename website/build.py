@@ -42,6 +42,9 @@ NOTEBOOKS = ROOT / "examples" / "notebooks"
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s]+)\)")
 FENCE = re.compile(r"(^```.*?^```[^\n]*$)", re.DOTALL | re.MULTILINE)
 CODE = re.compile(r"(`[^`]+`)")
+TIGHT_LIST = re.compile(r"^((?![-*] |[#|\s]|\d+\. ).+\n)(?=- |1\. )", re.MULTILINE)
+"""A list right after a paragraph: a forge shows a list, the generator only after an empty line."""
+
 MATHS = re.compile(r"^\$\$\n(.*?)\n\$\$$", re.DOTALL | re.MULTILINE)
 
 
@@ -127,9 +130,16 @@ def _places(nav: list[Any]) -> Iterator[str]:
 
 
 def prepared(text: str, source: Path, place: str, sources: dict[Path, str]) -> str:
-    """A page's text, with links that hold on the site, and mathematics as MathML."""
+    """A page's text, with links that hold on the site, mathematics as MathML, and fences without notes to tests."""
+    text = re.sub(r"^(```\w+) \w+$", r"\1", MATHS.sub(_mathml, text), flags=re.MULTILINE)
+    text = re.sub(
+        r"^\|.*$",
+        lambda row: CODE.sub(lambda code: code.group().replace("\\|", "|"), row.group()),
+        text,
+        flags=re.MULTILINE,
+    )
     return outside_code(
-        MATHS.sub(_mathml, text), lambda part: LINK.sub(lambda m: _link(m, source, place, sources), part)
+        text, lambda part: TIGHT_LIST.sub(r"\1\n", LINK.sub(lambda m: _link(m, source, place, sources), part))
     )
 
 

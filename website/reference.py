@@ -24,9 +24,9 @@ def command_line() -> str:
     """Every command, with its arguments and options."""
     text = [
         "# Command line\n",
-        "This page is written from the code. `levade COMMAND --help` prints the same in a terminal.\n",
-        "Exit status of every command: 0 done, 1 done but the answer is no, 2 the input is wrong: one line on standard error "
-        "says what, where, and what would be right.\n",
+        "This page is generated from the code. `levade COMMAND --help` prints the same in a terminal.\n",
+        "The exit status of a command is 0 if the answer is yes, and 1 if it is no or the command was interrupted. It is 2 if "
+        "the input is wrong. One line on standard error then says what is wrong, where, and what to do.\n",
     ]
     for name, command in commands(get_command(app), "levade"):
         text.append(f"## {name}\n")
@@ -38,7 +38,7 @@ def command_line() -> str:
         if arguments or options:
             rows = [(f"`{_metavar(one)}`", one.help or "") for one in arguments]
             rows += [(_option(one), _with_default(one)) for one in options]
-            text.append(table(("argument or option", "what"), rows))
+            text.append(table(("argument or option", "meaning"), rows))
     return "\n".join(text)
 
 
@@ -90,7 +90,7 @@ def task_file() -> str:
     definitions = schema.pop("$defs")
     text = [
         "# Task files: every key\n",
-        "This page is written from the schema that `levade tasks schema` prints. [Task files](../tasks.md) explains the keys "
+        "This page is generated from the schema that `levade tasks schema` prints. [Task files](../tasks.md) explains the keys "
         "and shows examples. Numbers are SI, or texts with a unit.\n",
         "## The task\n",
         _keys(schema, definitions),
@@ -113,12 +113,22 @@ def _keys(schema: dict[str, Any], definitions: dict[str, Any]) -> str:
     rows = []
     for name, one in schema["properties"].items():
         default = f"`{one['default']}`" if one.get("default", "") != "" else "required" if name in required else ""
-        rows.append((f"`{name}`", _kind(one, definitions), default, _escaped(one.get("description", ""))))
-    return table(("key", "value", "default", "what"), rows)
+        rows.append((f"`{name}`", _kind(one, definitions), default, _escaped(_description(one))))
+    return table(("key", "value", "default", "meaning"), rows)
+
+
+def _description(schema: dict[str, Any]) -> str:
+    """The description of a key, or of one of its alternatives."""
+    alternatives = (_description(one) for one in schema.get("anyOf", []))
+    return schema.get("description") or next((text for text in alternatives if text), "")
 
 
 def _kind(schema: dict[str, Any], definitions: dict[str, Any]) -> str:
     """What may stand there, in words."""
+    if "oneOf" in schema:  # the terms, chosen by a key
+        return "[term](#terms-of-costs)"
+    if "allOf" in schema:  # a definition, and a key that it has to have here
+        return _kind(schema["allOf"][0], definitions)
     if "$ref" in schema:
         name = schema["$ref"].rsplit("/", 1)[1].replace("%20", " ")
         return name if name.startswith("term ") else f"[{name}](#{name.lower()})"
@@ -132,7 +142,7 @@ def _kind(schema: dict[str, Any], definitions: dict[str, Any]) -> str:
         return "number with a unit"
     if kind == "array":
         inner = schema.get("items") or (schema.get("prefixItems") or [{}])[0]
-        count = f"{schema['maxItems']} of " if schema.get("maxItems") else "list of "
+        count = f"{schema['maxItems']} times " if schema.get("maxItems") else "list of "
         return count + (_kind(inner, definitions) or "values")
     if kind == "object":
         inner = schema.get("additionalProperties")
@@ -178,7 +188,9 @@ def table(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
 
 
 def _cell(text: str) -> str:
-    return " ".join(text.split()).replace("|", "\\|")
+    """One line; a bar ends a cell only outside code, where the generator shows a backslash before it."""
+    parts = re.split(r"(`[^`]*`)", " ".join(text.split()))
+    return "".join(part if i % 2 else part.replace("|", "\\|") for i, part in enumerate(parts))
 
 
 def _escaped(text: str) -> str:

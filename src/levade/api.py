@@ -1,4 +1,4 @@
-"""What ``import levade`` offers: functions that take names, files or objects, and give back objects.
+"""The functions of ``import levade``. They take names, files or objects, and return objects.
 
     import levade
 
@@ -7,7 +7,7 @@
     result.motion.save("rearing.npz")
     levade.check(result.motion).passed
 
-Whatever a task file chooses by name can be given as an object: robot, cost, criterion, policy, optimizer, engine.
+Anything that a task file chooses by name can be an object: robot, cost, criterion, policy, optimizer, engine.
 """
 
 from __future__ import annotations
@@ -49,17 +49,17 @@ RobotLike = str | Path | Robot | mujoco.MjSpec
 """A robot's name or file, a `levade.Robot`, or a `mujoco.MjSpec`."""
 
 Initial = Motion | Array | InitialGuess | Sequence[Motion | Array]
-"""What a search may begin around: motions, policy weights [rad], or a distribution."""
+"""Where a search may begin: around motions, policy weights [rad], or a distribution."""
 
 
 @dataclass(frozen=True, eq=False)
 class Result:
-    """What `solve` gives back.
+    """The result of `solve`.
 
     Attributes:
-        motion: The best motion, with everything recorded.
-        solution: What the search found and what it took.
-        objective: What was searched; `levade.search.Objective.evaluate` tries other weights.
+        motion: The best motion, with all its records.
+        solution: The result of the search, and what it took.
+        objective: The objective of the search. `levade.search.Objective.evaluate` tries other weights.
     """
 
     motion: Motion
@@ -85,15 +85,18 @@ def load_robot(robot: RobotLike, *, like: str | Path | Robot | None = None, **op
     """Load a robot.
 
     Args:
-        robot: A built-in robot's name, ``package:robot``, the path of an MJCF, URDF or robot.yaml, or a `mujoco.MjSpec`. A
-            `Robot` is returned as it is.
-        like: For a `mujoco.MjSpec` that is a changed `levade.Robot.spec`: the robot that it was. Its legs, limits, gains and
-            postures are kept. A spec on its own is understood as a file is.
-        **options: As `levade.robots.load_robot` takes them for a name or a path: actuation, variant, linkage, kp, kd. For a
+        robot: Name of a built-in robot, ``package:robot``, the path of an MJCF, URDF or robot.yaml, or a `mujoco.MjSpec`. A
+            `Robot` is returned unchanged.
+        like: For a `mujoco.MjSpec` that is a changed `levade.Robot.spec`: the original robot, whose legs, limits, gains and
+            postures are kept. Another spec is read like a file.
+        **options: As in `levade.robots.load_robot` for a name or a path: actuation, variant, linkage, kp, kd. For a
             `mujoco.MjSpec`: name.
 
+    Returns:
+        The robot.
+
     Raises:
-        LevadeError: If it is not there, or not understood.
+        LevadeError: If it does not exist, or levade cannot use it.
     """
     if isinstance(robot, Robot):
         return robot
@@ -122,24 +125,27 @@ def solve(
     """Search for a motion that does a task.
 
     Args:
-        task: A built-in task's name, the path of a task file, or a `Task`.
+        task: Name of a built-in task, path of a task file, or a `Task`.
         seed: Seed of all random numbers. The same task, seed and versions give the same motion.
-        robot: Another robot than the task's.
-        optimizer: Another optimizer than the task's: a name; a class or function ``(space, *, seed)``; or an object with
-            ``ask`` and ``tell``, with which the search makes one attempt only. See `levade.optimizers.protocol`.
-        policy: A policy of one's own, or a function that makes one. See `levade.policies.JointPolicy`.
-        engine: Another engine than the task's: a name, or a row for the table `levade.engines.ENGINES`.
-        trials: Another budget than the task's.
-        initial: Motions, weights or a distribution to begin around.
-        after: A motion as whose end this one starts, instead of where the task says.
-        out: Directory in which to keep the motion, the resolved task, the progress and a checkpoint, as ``levade solve``
-            does. None keeps nothing.
-        threads: Engine threads; 0 for one per core. The result does not depend on it.
+        robot: A robot instead of the task's.
+        optimizer: An optimizer instead of the task's: a name, a class or function ``(space, *, seed)``, or an object with
+            ``ask`` and ``tell``. With an object the search makes only one attempt. See `levade.optimizers.protocol`.
+        policy: A policy, or a function that makes one: see `levade.policies.JointPolicy`.
+        engine: An engine instead of the task's: a name, or a row for the table `levade.engines.ENGINES`.
+        trials: A budget instead of the task's.
+        initial: Motions, weights or a distribution around which the search begins.
+        after: A motion at whose end this one starts, instead of the task's start.
+        out: Directory that keeps the motion, the complete task, the progress and a checkpoint, as in ``levade solve``. None
+            keeps nothing.
+        threads: Number of engine threads (0: one per core). The result does not depend on it.
         observe: Called after each generation with a `levade.search.Generation`. It may return
-            `levade.search.Stopped.INTERRUPTED` to end the search. Ctrl-C ends it, too, with the best motion so far.
+            `levade.search.Stopped.INTERRUPTED` to end the search. Ctrl-C also ends it, with the best motion so far.
+
+    Returns:
+        The best motion, and the search that found it.
 
     Raises:
-        LevadeError: If something does not fit together, or ``out`` cannot be written.
+        LevadeError: If parts do not fit together, or ``out`` cannot be written.
     """
     objective = _objective(task, robot, optimizer, policy, engine, trials, threads, after)
     guess = None if initial is None else initial_guess(objective.policy, initial)
@@ -159,22 +165,22 @@ def solve_many(
     initial: Sequence[Initial | None] | None = None,
     threads: int = 0,
 ) -> list[Result]:
-    """Drive several searches in lockstep, their roll-outs in common batches.
+    """Run several searches in lockstep, with roll-outs in common batches.
 
     Args:
-        tasks: What to search for. Objectives of one `levade.search.Simulation`, from whatever starts, share batches, and so
-            do equal tasks.
-        seeds: Seed of each. Defaults to 0, 1, 2, ...
-        robot: Another robot than the tasks'.
-        trials: Another budget than the tasks'. Objectives keep theirs.
-        initial: What each begins around, if anything.
-        threads: Engine threads; 0 for one per core.
+        tasks: The tasks. Equal tasks share batches. So do objectives of one `levade.search.Simulation`, also from different
+            starts.
+        seeds: Seed of each search. Defaults to 0, 1, 2, ...
+        robot: A robot instead of the tasks'.
+        trials: A budget instead of the tasks'. Objectives keep theirs.
+        initial: Where each search begins, or None.
+        threads: Number of engine threads (0: one per core).
 
     Returns:
         A result for each, with the same bits as `solve` gives for it alone.
 
     Raises:
-        LevadeError: If something does not fit together.
+        LevadeError: If parts do not fit together.
     """
     known: dict[int, Objective] = {}
     objectives = []
@@ -206,23 +212,23 @@ def pursue(
     demands: Demands | None = None,
     threads: int = 0,
 ) -> Pursued:
-    """Search for a motion that hardware can do, until a certificate passes: ``levade solve --hardware``.
+    """Search for a motion for hardware, until a certificate passes: ``levade solve --hardware``.
 
     Args:
-        task: A built-in task's name, the path of a task file, or a `Task`.
+        task: Name of a built-in task, path of a task file, or a `Task`.
         seed: Seed of all random numbers.
-        robot: Another robot than the task's.
-        out: Directory in which to keep the searches, the motion and its certificate; what it holds already is gone on with.
-            None keeps nothing.
-        minutes: Time for all searches. None gives them all the trials that they may take.
-        demands: What the certificate asks for. Defaults to what the task says, or else to `levade.tasks.Demands`.
-        threads: Engine threads; 0 for one per core.
+        robot: A robot instead of the task's.
+        out: Directory that keeps the searches, the motion and its certificate. Searches that it holds are continued. None keeps
+            nothing.
+        minutes: Time for all searches. None lets them use all their trials.
+        demands: Demands of the certificate. Defaults to the task's, or to `levade.tasks.Demands`.
+        threads: Number of engine threads (0: one per core).
 
     Returns:
         The motion with the best certificate, that certificate, and whether it passes: ``motion``, ``certificate``, ``passed``.
 
     Raises:
-        LevadeError: If something does not fit together, or ``out`` cannot be written.
+        LevadeError: If parts do not fit together, or ``out`` cannot be written.
     """
     from levade.hardware import pursue as pursued
 
@@ -241,14 +247,17 @@ def pursue(
 
 
 def check(motion: Motion | str | Path, **options: Any) -> Certificate:
-    """Check whether a motion can be trusted: perturbed robots, numerics, other engines, hardware limits.
+    """Check a motion: on perturbed robots, with other numerics and engines, and against hardware limits.
 
     Args:
         motion: A motion, or its file.
-        **options: As `levade.checks.check` takes them, such as ``runs=100``.
+        **options: As in `levade.checks.check`, such as ``runs=100``.
+
+    Returns:
+        The certificate.
 
     Raises:
-        LevadeError: If there is nothing to judge by.
+        LevadeError: If the motion has no criteria.
     """
     from levade.checks import check as checked
 
@@ -256,11 +265,14 @@ def check(motion: Motion | str | Path, **options: Any) -> Certificate:
 
 
 def stabilise(motion: Motion | str | Path, **options: Any) -> Stabilised:
-    """Find a stabiliser for a motion: gains from what the robot senses to corrections of the references.
+    """Find a stabiliser for a motion: gains from sensor readings to corrections of the references.
 
     Args:
         motion: A motion, or its file.
-        **options: As `levade.stabilisers.stabilise` takes them, such as ``seed=0``.
+        **options: As in `levade.stabilisers.stabilise`, such as ``seed=0``.
+
+    Returns:
+        The motion with its stabiliser, and how often it succeeds with and without.
 
     Raises:
         LevadeError: If the motion cannot be stabilised.
@@ -276,11 +288,14 @@ def export(motion: Motion | str | Path, to: str, directory: str | Path, **option
     Args:
         motion: A motion, or its file.
         to: Name of the format: csv, json, ros2, mjlab, unitree, urdf or mjcf.
-        directory: Where to write.
-        **options: As `levade.exports.export` takes them, such as ``rate=500``.
+        directory: Directory to write.
+        **options: As in `levade.exports.export`, such as ``rate=500``.
+
+    Returns:
+        The files that were written, and notes.
 
     Raises:
-        LevadeError: If the format does not exist, or the motion does not fit into it.
+        LevadeError: If the format does not exist, or the motion does not fit it.
     """
     from levade.exports import export as exported
 
@@ -292,11 +307,11 @@ def show(motion: Motion | str | Path, path: str | Path | None = None, *, browse:
 
     Args:
         motion: A motion, or its file.
-        path: Where to write the page. Defaults to a temporary file.
-        browse: Whether to open it.
+        path: File to write. Defaults to a temporary file.
+        browse: Whether to open the page.
 
     Returns:
-        The page's path.
+        The file.
 
     Raises:
         LevadeError: If the page cannot be written.
@@ -323,7 +338,7 @@ def _objective(
     threads: int = 0,
     after: Motion | None = None,
 ) -> Objective:
-    """Put a task together with what was given instead of its own."""
+    """Make the objective of a task, with the given parts instead of its own."""
     made = None if robot is None else load_robot(robot)
     task = _task(task, made)
     if task.hardware is not None:
@@ -345,7 +360,7 @@ def _objective(
 
 
 def _task(task: str | Path | Task, robot: Robot | None) -> Task:
-    """The task, of another robot if one is given."""
+    """Return the task, with another robot if one is given."""
     if not isinstance(task, Task):
         task = load_task(task, robot=robot)
     if robot is None:
@@ -355,7 +370,7 @@ def _task(task: str | Path | Task, robot: Robot | None) -> Task:
 
 
 def _engine_name(engine: str | EngineKind) -> str:
-    """The name of an engine; a new one is added to the table."""
+    """Return the name of an engine. A new engine is added to the table."""
     if isinstance(engine, str):
         return engine
     known = ENGINES.setdefault(engine.name, engine)

@@ -1,9 +1,9 @@
-"""Archives of arrays, as motion files are: numpy's .npz, whose sizes are checked before anything is unfolded.
+"""Read and write archives of arrays (numpy's .npz), such as motion files. Sizes are checked before anything is unpacked.
 
     arrays = unpack(Path("motion.npz"))         # name -> array
     content = packed(arrays)                    # equal arrays give equal bytes
 
-A file from elsewhere can claim any size: 2 MB of zeros unfold to 2 GB. Nothing in it is a pickle, and nothing is executed.
+A file can claim any size: 2 MB of zeros unpack to 2 GB. Nothing in it is a pickle, and nothing is executed.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ from levade.arrays import Array
 from levade.errors import LevadeError
 
 LARGEST = 256_000_000
-"""[bytes], of all arrays together, and of the file: a motion of 10 s on a robot with meshes takes a tenth of it."""
+"""Largest size of all arrays together, and of the file [bytes]. A motion of 10 s on a robot with meshes takes a tenth of it."""
 
 _DIRECTORY = 1_000_000
-"""[bytes], of the archive's own table of contents."""
+"""Largest size of the archive's table of contents [bytes]."""
 
 _END, _LOCATOR = 22, 20
-"""[bytes], of the record at the end of an archive, without a comment; and before it, of the one in archives of 4 GB."""
+"""Sizes of the record at the end of an archive without a comment, and of the one before it in archives of 4 GB [bytes]."""
 
 # what numpy and zipfile raise for files that are damaged, or something else
 _UNREADABLE = (
@@ -42,6 +42,12 @@ _UNREADABLE = (
 
 def unpack(path: Path) -> dict[str, Array]:
     """Read all arrays of an archive.
+
+    Args:
+        path: The file.
+
+    Returns:
+        Name -> array.
 
     Raises:
         LevadeError: If the file is missing, damaged, something else, or larger than `LARGEST`.
@@ -71,9 +77,9 @@ def _check_size(path: Path, size: int) -> None:
 
 
 def _check_directory(file: IO[bytes]) -> None:
-    """Raise ValueError for a long table of contents: zipfile reads all of it, whatever its length.
+    """Raise ValueError for a long table of contents, because zipfile reads all of it.
 
-    numpy writes no comment at the end, so that the last bytes are the record which zipfile looks for first.
+    numpy writes no comment at the end, so the last bytes are the record that zipfile looks for first.
     """
     size = file.seek(0, 2)
     file.seek(max(0, size - _END - _LOCATOR))
@@ -87,7 +93,7 @@ def _check_directory(file: IO[bytes]) -> None:
 
 
 def _check_members(members: list[zipfile.ZipInfo]) -> None:
-    """Raise ValueError for what numpy does not write: names that are there twice, other files, other compressions."""
+    """Raise ValueError for members that numpy does not write: duplicate names, other files, other compressions."""
     names = [member.filename for member in members]
     kinds = {member.compress_type for member in members}
     if len(set(names)) < len(names) or not all(name.endswith(".npy") for name in names):

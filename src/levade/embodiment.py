@@ -1,9 +1,9 @@
-"""A robot as a simulation, a cost or a motion file knows it: names, limits and geometry; numpy only.
+"""A robot as simulations, costs and motion files describe it: names, limits and geometry. It needs only numpy.
 
     robot.embodiment.joint_names        # of a `levade.robots.Robot`
     motion.embodiment.limits.torque     # (joints,) [Nm], of a motion file
 
-A `Robot` has one, and a motion file yields one, so that whatever simulates or judges a motion needs no robot description.
+A `Robot` has one, and so has a motion file. So simulating and judging a motion needs no robot description.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ from levade.rotations import rotate
 
 @dataclass(frozen=True)
 class TorqueCurve:
-    """Torque that a joint's linkage can transmit, over its angle: ``peak * cos(rate * (|angle| - centre))``.
+    """Torque that a joint's linkage transmits, over its angle: ``peak * cos(rate * (|angle| - centre))``.
 
     Attributes:
-        peak: [Nm].
-        rate: [-].
-        centre: [rad], the angle of the best lever arm.
+        peak: Largest torque [Nm].
+        rate: Factor on the angle [-].
+        centre: Angle of the best lever arm [rad].
     """
 
     peak: float
@@ -38,19 +38,19 @@ class TorqueCurve:
 
 @dataclass(frozen=True)
 class JointLimits:
-    """What the joints may do; infinite where the robot's description gives no limit.
+    """Limits of the joints, infinite where the robot's description gives none.
 
     Attributes:
-        lower: (joints,) [rad].
-        upper: (joints,) [rad].
-        velocity: (joints,) [rad/s].
-        torque: (joints,) [Nm].
+        lower: Lower ends of the ranges [rad], shape (joints,).
+        upper: Upper ends of the ranges [rad], shape (joints,).
+        velocity: Speed limits [rad/s], shape (joints,).
+        torque: Torque limits [Nm], shape (joints,).
         torque_curves: Joint index -> limit over the joint's angle, in addition to ``torque``.
-        stall_torque: Torque at rest [Nm], shape (joints,): one end of the line that limits the torque while driving.
-            None where the actuators have no such line.
-        no_load_speed: Speed without torque [rad/s], shape (joints,): the other end of the line.
-        assumed_velocity: Indices of the joints whose limit no file gives: `levade.robots.gains` makes it up.
-        assumed_torque: Indices of the joints whose limit no file gives: `levade.robots.gains` makes it up.
+        stall_torque: Torque at rest of the line that limits a driving joint [Nm], shape (joints,). None if the actuators have
+            no such line.
+        no_load_speed: Speed without torque of that line [rad/s], shape (joints,).
+        assumed_velocity: Indices of the joints whose speed limit is assumed (`levade.robots.gains`).
+        assumed_torque: Indices of the joints whose torque limit is assumed (`levade.robots.gains`).
     """
 
     lower: Array
@@ -71,17 +71,23 @@ class JointLimits:
         return limit
 
     def angle_left(self, joint_position: Array) -> Array:
-        """[rad] to the nearer end of the range, negative beyond it; infinite without a range. (..., joints), as given."""
+        """Compute the slack to the nearer end of the range [rad], negative beyond it, infinite without a range.
+
+        Shape (..., joints).
+        """
         return np.minimum(joint_position - self.lower, self.upper - joint_position)
 
     def speed_left(self, joint_velocity: Array) -> Array:
-        """What is left of the speed limit, as a share of it, negative beyond it; 1 without a limit. (..., joints)."""
+        """Compute the slack to the speed limit, as a share of it, negative beyond it; 1 without a limit.
+
+        Shape (..., joints).
+        """
         return 1 - np.abs(joint_velocity) / self.velocity
 
     def torque_speed_left(self, joint_torque: Array, joint_velocity: Array) -> Array:
-        """``1 - |torque| / stall_torque - |speed| / no_load_speed`` while driving; else 1, and without such a line.
+        """Compute ``1 - |torque| / stall_torque - |speed| / no_load_speed`` while driving; else 1, and without such a line.
 
-        A drive is beyond its line, and this negative, where its torque lags behind its speed. (..., joints), as given.
+        If the torque lags behind the speed, a drive can be beyond its line, and this is negative. Shape (..., joints).
         """
         if self.stall_torque is None or self.no_load_speed is None:
             return np.ones_like(joint_torque)
@@ -91,16 +97,16 @@ class JointLimits:
 
 @dataclass(frozen=True, eq=False)
 class LegGeometry:
-    """Where a leg's joints and foot are in the trunk frame with every joint at zero.
+    """Geometry of a leg in the trunk frame, with every joint at zero.
 
     Attributes:
         side: "left" or "right".
-        end: "front" or "hind", or as `levade.robots.Leg` says.
+        end: "front" or "hind", or as in `levade.robots.Leg`.
         joints: Indices in the robot's joint order, from the trunk outward.
-        anchors: (k, 3) [m], a point on each joint's axis.
-        axes: (k, 3), unit.
-        foot: (3,) [m], centre of the foot.
-        sole: [m], how far the foot reaches below its centre, standing in the neutral posture.
+        anchors: A point on each joint's axis [m], shape (k, 3).
+        axes: Unit vectors of the axes, shape (k, 3).
+        foot: Centre of the foot [m], shape (3,).
+        sole: How far the foot reaches below its centre in the neutral posture [m].
         stands: Whether it is a leg to stand on, or a limb that only moves, such as an arm.
     """
 
@@ -126,18 +132,18 @@ class LegGeometry:
 
 @dataclass(frozen=True, eq=False)
 class Embodiment:
-    """What a simulation knows of a robot.
+    """Describes a robot for simulations.
 
     Attributes:
         trunk: Name of the trunk's body.
         joint_names: The robot's joint order.
         feet: Geom names of the feet, in leg order.
         limits: Joint limits, in joint order.
-        trunk_com_offset: Centre of mass of the trunk, with what is fixed to it and without the legs, in the trunk frame [m],
+        trunk_com_offset: Centre of mass of the trunk, including parts fixed to it, without the legs, in the trunk frame [m],
             shape (3,).
         legs: The legs' geometry, in leg order. Empty if it is not known (files of early versions).
-        trunk_balls: Balls whose lowest point is the trunk's, whichever way it is turned: centre in the trunk frame and radius
-            [m], shape (k, 4). Empty if it touches nothing, or it is not known (files of earlier versions).
+        trunk_balls: Balls whose lowest point is the trunk's in any attitude: centre in the trunk frame and radius [m], shape
+            (k, 4). Empty if the trunk has no shapes, or they are not known (files of early versions).
     """
 
     trunk: str

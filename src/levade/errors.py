@@ -1,9 +1,9 @@
-"""The one base exception, and the hint that every "unknown name" message ends with.
+"""The base exception, and the hint at the end of every "unknown name" message.
 
     raise LevadeError("0 should be 1 to 500 Hz", field="rate")
     raise LevadeError(f"{path}: exists", remedies=(Remedy("replace it", "replace"),))
 
-Messages speak of fields and of plain actions. `levade.cli.flags` turns them into options and commands.
+Messages name fields and plain actions. `levade.cli.flags` turns them into options and commands.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ from pathlib import Path
 
 @dataclass(frozen=True)
 class Remedy:
-    """One thing that can be done about an error.
+    """A remedy for an error.
 
     Attributes:
         words: What to do, such as "write elsewhere".
-        action: Which entry of `levade.cli.flags.ACTIONS` does it on the command line, or None.
-        at: The file or directory that the action is done to, or None.
+        action: Entry of `levade.cli.flags.ACTIONS` that does it on the command line, or None.
+        at: File or directory of the action, or None.
     """
 
     words: str
@@ -31,7 +31,7 @@ class Remedy:
 
 
 _LONGEST = 1000
-"""[characters], of a message."""
+"""Largest number of characters of a message."""
 
 
 class LevadeError(Exception):

@@ -38,11 +38,11 @@ class Feedback:
     """A stabiliser.
 
     Attributes:
-        gain: (gains, joints, sensed + joints) [rad per unit sensed; rad/rad for the correction in force].
-        reference: (ticks, sensed), what is sensed on the motion itself; or (n, ticks, sensed), on that of each of n
-            runs.
-        period: [s], from tick to tick; tick 0 is at 0 s.
-        bound: [rad], on each joint's correction.
+        gain: Gains [rad per unit sensed; rad/rad for the correction in force], shape (gains, joints, sensed + joints).
+        reference: Expected sensed values of the motion, shape (ticks, sensed); or those of each of n runs, shape (n, ticks,
+            sensed).
+        period: Time from tick to tick [s]; tick 0 is at 0 s.
+        bound: Largest correction of each joint [rad].
     """
 
     gain: Array
@@ -51,12 +51,15 @@ class Feedback:
     bound: float
 
     def correction(self, tick: int, measured: Array, last: Array) -> Array:
-        """(..., joints) [rad], from the next tick on.
+        """Compute the correction from the next tick on [rad], shape (..., joints).
 
         Args:
             tick: Number of the tick.
-            measured: (..., sensed).
-            last: (..., joints) [rad], in force now.
+            measured: Sensed values, shape (..., sensed).
+            last: Correction in force now [rad], shape (..., joints).
+
+        Returns:
+            The correction.
         """
         row = min(tick, self.reference.shape[-2] - 1)
         off = np.concatenate([measured - self.reference[..., row, :], last], axis=-1)
@@ -65,10 +68,16 @@ class Feedback:
         return np.clip(np.einsum("...c,jc->...j", off, gain), -self.bound, self.bound)
 
     def steps(self, timestep: float) -> int:
-        """Physics steps in a period.
+        """Return the physics steps in a period.
+
+        Args:
+            timestep: Time step [s].
+
+        Returns:
+            Number of steps.
 
         Raises:
-            LevadeError: If they do not make it up.
+            LevadeError: If the period is not a whole number of steps.
         """
         steps = round(self.period / timestep)
         if steps < 1 or abs(steps * timestep - self.period) > 1e-9:
@@ -78,7 +87,7 @@ class Feedback:
         return steps
 
     def reordered(self, order: Sequence[int]) -> Feedback:
-        """The same with the joints in another order."""
+        """Return the same stabiliser with the joints in another order."""
         joints = self.gain.shape[1]
         index = np.asarray(order)
         sense = np.concatenate([np.arange(6), 6 + index, 6 + joints + index])
@@ -86,16 +95,16 @@ class Feedback:
         return replace(self, gain=self.gain[:, index][:, :, columns], reference=self.reference[..., sense])
 
     def along(self, reference: Array) -> Feedback:
-        """The same gains for what is sensed on other motions, (ticks, sensed) or (n, ticks, sensed)."""
+        """Return the same gains for the sensed values of other motions, shape (ticks, sensed) or (n, ticks, sensed)."""
         return replace(self, reference=reference)
 
     def arrays(self) -> dict[str, Array]:
-        """As in a motion file."""
+        """Return the arrays of a motion file."""
         return {"feedback_gain": self.gain, "feedback_reference": self.reference}
 
     @classmethod
     def of(cls, meta: Mapping[str, Any], arrays: Mapping[str, Array]) -> Feedback:
-        """From a motion file."""
+        """Read a stabiliser from a motion file's ``meta`` and arrays."""
         return cls(
             arrays["feedback_gain"], arrays["feedback_reference"], 1.0 / float(meta["rate"]), float(meta["bound"])
         )
@@ -112,28 +121,34 @@ def period_steps(rate: float, timestep: float) -> int:
 
 
 def up_in_trunk(quaternion: Array) -> Array:
-    """Which way is up in trunk axes, (..., 3): attitude without yaw.
+    """Return the upward direction in trunk axes, shape (..., 3): the attitude without yaw.
 
     Args:
-        quaternion: (..., 4), trunk frame to world.
+        quaternion: Trunk frame to world, shape (..., 4).
+
+    Returns:
+        Unit vectors.
     """
     return rotate(conjugate(quaternion), np.array([0.0, 0.0, 1.0]))
 
 
 def sensed(quaternion: Array, rate: Array, joint_position: Array, joint_velocity: Array) -> Array:
-    """What a robot senses, (..., 6 + 2 joints).
+    """Return the sensed values of a robot, shape (..., 6 + 2 joints).
 
     Args:
-        quaternion: (..., 4), trunk frame to world.
-        rate: (..., 3) [rad/s], angular velocity in trunk axes, a gyroscope's.
-        joint_position: (..., joints) [rad], [rad/s].
-        joint_velocity: (..., joints) [rad], [rad/s].
+        quaternion: Trunk frame to world, shape (..., 4).
+        rate: Angular velocity in trunk axes, as a gyroscope measures it [rad/s], shape (..., 3).
+        joint_position: Joint angles [rad], shape (..., joints).
+        joint_velocity: Joint velocities [rad/s], shape (..., joints).
+
+    Returns:
+        The values.
     """
     return np.concatenate([up_in_trunk(quaternion), rate, joint_position, joint_velocity], axis=-1)
 
 
 def names(joints: Sequence[str]) -> list[str]:
-    """What each sensed number is."""
+    """Name each sensed value."""
     return [
         *(f"up/{axis}" for axis in "xyz"),
         *(f"rate/{axis}" for axis in "xyz"),
@@ -144,7 +159,7 @@ def names(joints: Sequence[str]) -> list[str]:
 
 @dataclass(frozen=True)
 class SensorErrors:
-    """How wrong a robot's sensors are; uniform within plus and minus each.
+    """Errors of a robot's sensors, uniform within plus and minus each.
 
     Attributes:
         attitude: Error of the attitude [rad], constant through a run.
@@ -161,7 +176,7 @@ class SensorErrors:
     joint_noise: float = 0.1
 
     def draw(self, runs: int, ticks: int, joints: int, *, seed: int | Sequence[int]) -> Array:
-        """What is added to what is sensed, (runs, ticks, 6 + 2 joints)."""
+        """Draw errors that are added to sensed values, shape (runs, ticks, 6 + 2 joints)."""
         generator = np.random.default_rng(seed)
         constant = np.array([self.attitude] * 3 + [self.rate] * 3 + [self.joint] * joints + [0.0] * joints)
         changing = np.array([0.0] * 3 + [self.rate_noise] * 3 + [0.0] * joints + [self.joint_noise] * joints)
@@ -170,15 +185,16 @@ class SensorErrors:
 
 
 class Correcting:
-    """Runs under feedback, tick by tick: keeps the corrections, which reach the servos late by each run's delay.
+    """Runs feedback tick by tick, and keeps the corrections, which reach the servos late by each run's delay.
 
     Args:
-        steps: Of the roll-out.
-        timestep: [s].
-        delay: (n,) [s].
-        lower: (joints,) [rad]: no correction takes a reference out of these, or further out.
-        upper: (joints,) [rad]: no correction takes a reference out of these, or further out.
-        errors: (n, ticks, sensed), added to what is sensed; none if None.
+        feedback: The stabiliser.
+        steps: Physics steps of the roll-out.
+        timestep: Time step [s].
+        delay: Delay of each run [s], shape (n,).
+        lower: Lower ends of the ranges [rad], shape (joints,). No correction moves a reference beyond them, or further beyond.
+        upper: Upper ends of the ranges [rad], shape (joints,).
+        errors: Errors that are added to the sensed values, shape (n, ticks, sensed). None for none.
     """
 
     def __init__(
@@ -202,18 +218,21 @@ class Correcting:
         self.corrections = np.zeros((n, steps, joints))
 
     def __iter__(self) -> Iterator[tuple[int, slice]]:
-        """Each tick, and the steps from it to the next."""
+        """Yield each tick, and the steps from it to the next."""
         for tick, first in enumerate(range(0, self._steps, self.period)):
             yield tick, slice(first, min(first + self.period, self._steps))
 
     def corrected(self, tick: int, rows: slice, measured: Array, told: Array) -> Array:
-        """What the servos are commanded in the steps from a tick to the next, (n, rows, joints) [rad].
+        """Return the commands to the servos in the steps from a tick to the next [rad], shape (n, rows, joints).
 
         Args:
             tick: Number of the tick.
-            rows: Rows of the reference that the correction is added to.
-            measured: (n, sensed), at the tick.
-            told: (n or 1, rows, joints), what they are commanded without feedback.
+            rows: Rows of the reference to which the correction is added.
+            measured: Sensed values at the tick, shape (n, sensed).
+            told: Commands without feedback [rad], shape (n or 1, rows, joints).
+
+        Returns:
+            The corrected commands.
         """
         if self.errors is not None:
             measured = measured + self.errors[:, min(tick, self.errors.shape[1] - 1)]

@@ -1,10 +1,10 @@
-"""Directories that one process at a time may write: a lock that ends with the process that has it.
+"""Lock directories for one writing process at a time. A lock ends with its process.
 
     with locked(directory, "run"):
         ...
 
-The lock is the system's (`flock`) on the file ``.levade-lock``: however a process dies, it leaves no lock. The file says
-who has it. Systems without `flock` have no lock.
+The lock is the system's (`flock`) on the file ``.levade-lock``. A process leaves no lock when it dies. The file says which
+process holds it. Systems without `flock` have no lock.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ _TAKEN = (errno.EWOULDBLOCK, errno.EACCES)
 
 
 class TakenError(LevadeError):
-    """Another process writes the directory."""
+    """Says that another process writes the directory."""
 
 
 @contextmanager
@@ -40,7 +40,7 @@ def locked(directory: Path, what: str) -> Iterator[None]:
 
     Args:
         directory: The directory, which exists.
-        what: What writes it, for the message of the one who comes second, such as "run".
+        what: Kind of the writer, such as "run", for the message to a second process.
 
     Raises:
         TakenError: If another process has the lock, or another part of this one.
@@ -78,7 +78,7 @@ def check_unlocked(directory: Path, what: str) -> None:
 
 
 def _taken(path: Path, what: str) -> int:
-    """A descriptor of the lock's file, with the lock."""
+    """Open the lock's file and lock it. Returns its descriptor."""
     assert fcntl is not None
     while True:
         descriptor = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o666)

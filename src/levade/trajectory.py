@@ -1,15 +1,15 @@
-"""The arrays that pass between the rooms: what is asked of the joints, and what the robot then did.
+"""The arrays that pass between the rooms: joint references, and the robot's motion.
 
-Everything is batched over ``n`` trials and sampled once per physics step. Row ``k`` of every array belongs to physics
-step ``k``, which starts at ``k * timestep`` and ends at ``time[k] = (k + 1) * timestep``: references and torques are
-those in force *during* the step, positions and velocities those reached at its *end*. Rows ``[:horizon_steps]`` are the
-motion proper, up to the horizon T; the rows after them, if any, are the hold.
+Everything is batched over ``n`` trials and sampled once per physics step. Row ``k`` of every array belongs to physics step
+``k``, which starts at ``k * timestep`` and ends at ``time[k] = (k + 1) * timestep``. References and torques are those *during*
+the step, positions and velocities those at its *end*. Rows ``[:horizon_steps]`` lead up to the horizon T; later rows are the
+hold.
 
-Where each trial has a horizon of its own, references begin together, in row 0 (``JointReference.horizons``), and trajectories
-have their horizons in the same row: a shorter trial begins later, at row ``Trajectories.begin``, and the rows before repeat
-its first. A look at the horizon, at the hold or at an extreme therefore needs no case for it.
+Trials may have different horizons. Their references then begin together in row 0 (``JointReference.horizons``). In trajectories
+their horizons are in the same row. A shorter trial begins later, at row ``Trajectories.begin``, and the rows before repeat its
+first. So the rows of the horizon, the hold and extremes need no special case.
 
-SI units; quaternions w-x-y-z; joint order is the robot's.
+Units are SI, quaternions w-x-y-z; the joint order is the robot's.
 """
 
 from __future__ import annotations
@@ -31,14 +31,13 @@ class JointReference:
     """Desired joint motion of n trials.
 
     Attributes:
-        position: (n, steps, joints) [rad], desired angle during each step.
-        velocity: (n, steps, joints) [rad/s], its analytic time derivative.
-        timestep: [s].
+        position: Desired angle during each step [rad], shape (n, steps, joints).
+        velocity: Its analytic time derivative [rad/s], shape (n, steps, joints).
+        timestep: Time step [s].
         horizon_steps: Number of rows up to the horizon T; later rows are the hold.
-        before: (joints,) or (n, joints) [rad], what the joints were commanded until the first row came, at rest; None where
-            it is not known.
-        horizons: (n,) rows up to the horizon of each trial, at most ``horizon_steps``; None where all have that. After
-            a trial's own horizon and a hold as long as that of the longest, its last row repeats, and is not simulated.
+        before: Commands at rest before the first row [rad], shape (joints,) or (n, joints). None if not known.
+        horizons: Rows up to the horizon of each trial, at most ``horizon_steps``, shape (n,). None if all have that. After a
+            trial's own horizon and a hold as long as that of the longest, its last row repeats, and is not simulated.
     """
 
     position: Array
@@ -55,18 +54,18 @@ class JointReference:
 
     @property
     def ends(self) -> NDArray[np.intp] | None:
-        """Rows of each trial with its hold, shape (n,); None where all have ``steps``."""
+        """Rows of each trial with its hold, shape (n,). None if all have ``steps``."""
         return None if self.horizons is None else self.horizons + (self.steps - self.horizon_steps)
 
     def __getitem__(self, trials: slice | NDArray[np.integer | np.bool_] | list[int]) -> JointReference:
-        """The same reference for a subset of the trials."""
+        """Select trials."""
         before = self.before if self.before is None or self.before.ndim == 1 else self.before[trials]
         horizons = None if self.horizons is None else self.horizons[trials]
         position, velocity = self.position[trials], self.velocity[trials]
         return replace(self, position=position, velocity=velocity, before=before, horizons=horizons)
 
     def repeated(self, n: int) -> JointReference:
-        """The same reference for n trials, if it is of one trial; itself if it is of n."""
+        """Repeat a reference of one trial for n trials. A reference of n trials is returned unchanged."""
         if len(self.position) == n:
             return self
         shape = (n, *self.position.shape[1:])
@@ -76,10 +75,16 @@ class JointReference:
 
     @classmethod
     def stacked(cls, references: Sequence[JointReference]) -> JointReference:
-        """The trials of several references of one length, one after another.
+        """Join the trials of several references of one length.
+
+        Args:
+            references: The references, in sequence.
+
+        Returns:
+            One reference.
 
         Raises:
-            ValueError: If their lengths, time steps or horizons differ, or some know what came before and some do not.
+            ValueError: If lengths, time steps or horizons differ, or only some know their earlier commands.
         """
         first = references[0]
         alike = {(one.steps, one.timestep, one.horizon_steps, one.before is None) for one in references}
@@ -108,30 +113,29 @@ class JointReference:
 
 @dataclass(frozen=True)
 class Trajectories:
-    """What n trials did, and everything a cost may look at.
+    """Records of n trials, and the only input of a cost.
 
     Attributes:
-        joint_position: (n, steps, joints) [rad] at the end of each step.
-        joint_velocity: (n, steps, joints) [rad/s].
-        joint_torque: (n, steps, joints) [Nm], delivered by the actuators during each step.
-        trunk_position: (n, steps, 3) [m], origin of the trunk frame, in the world.
-        trunk_quaternion: (n, steps, 4), trunk frame to world, w-x-y-z, unit length.
-        trunk_linear_velocity: (n, steps, 3) [m/s], of the frame origin, in world axes.
-        trunk_angular_velocity: (n, steps, 3) [rad/s], in trunk axes: what a gyroscope on the trunk reads.
-        reference: What was asked of the joints, same n and steps.
-        embodiment: What is known of the robot: its limits, legs and where its trunk's centre of mass is.
-        timestep: [s].
+        joint_position: Angles at the end of each step [rad], shape (n, steps, joints).
+        joint_velocity: Velocities at the end of each step [rad/s], shape (n, steps, joints).
+        joint_torque: Torques that the actuators deliver during each step [Nm], shape (n, steps, joints).
+        trunk_position: Origin of the trunk frame in the world [m], shape (n, steps, 3).
+        trunk_quaternion: Trunk frame to world, w-x-y-z, unit length, shape (n, steps, 4).
+        trunk_linear_velocity: Velocity of the frame's origin in world axes [m/s], shape (n, steps, 3).
+        trunk_angular_velocity: Angular velocity in trunk axes, as a gyroscope measures it [rad/s], shape (n, steps, 3).
+        reference: Joint references, with the same n and steps.
+        embodiment: The robot: its limits, its legs and its trunk's centre of mass.
+        timestep: Time step [s].
         horizon_steps: Rows up to the horizon T.
-        diverged: (n,) bool, trials whose simulation broke down; their later rows repeat the last sound one.
-        foot_contact_force: (n, steps, feet, 3) [N], net contact force on each foot in world axes, in the robot's leg
-            order; None unless asked for.
-        body_contact_force: Body name -> (n, steps) [N], magnitude of the net force that the ground and the obstacles
-            put on the body; holds the bodies that were asked for.
-        self_distance: (n, steps) [m], least distance between two parts of the robot at the end of each step; negative
-            where they are in each other, and never more than the clearance that was asked for
-            (`levade.engines.clearance`). None unless asked for.
-        begin: (n,) the row in which each trial begins; rows before it repeat that one and do not count. None where all
-            begin in row 0.
+        diverged: Trials whose simulation broke down, shape (n,). Their later rows repeat the last sound one.
+        foot_contact_force: Net contact force on each foot in world axes [N], in the robot's leg order, shape (n, steps, feet,
+            3). None if not recorded.
+        body_contact_force: Body -> magnitude of the net force that ground and obstacles exert on it [N], shape (n, steps), for
+            the recorded bodies.
+        self_distance: Least distance between two parts of the robot at the end of each step [m], shape (n, steps). It is
+            negative if they overlap, and at most the clearance (`levade.engines.clearance`). None if not recorded.
+        begin: Row in which each trial begins, shape (n,). Rows before it repeat that row and do not count. None if all begin in
+            row 0.
     """
 
     joint_position: Array
@@ -152,7 +156,7 @@ class Trajectories:
     begin: NDArray[np.intp] | None = None
 
     def __getitem__(self, trials: slice) -> Trajectories:
-        """The trajectories of some of the trials; views, not copies."""
+        """Select trials. The arrays are views, not copies."""
         arrays = {
             one.name: value[trials] for one in fields(self) if isinstance(value := getattr(self, one.name), np.ndarray)
         }
@@ -160,10 +164,13 @@ class Trajectories:
         return replace(self, **arrays, reference=self.reference[trials], body_contact_force=forces)
 
     def aligned(self, trials: NDArray[np.intp]) -> Trajectories:
-        """Put horizons into one row: from trials that began together to what this class says of them.
+        """Move horizons into one row, for trials that began together.
 
         Args:
-            trials: Which row of the arrays each trial of the result is, shape (n,).
+            trials: Row of the arrays of each trial of the result, shape (n,).
+
+        Returns:
+            Trajectories as this class describes them.
         """
         horizons = self.reference.horizons
         assert horizons is not None
@@ -189,7 +196,7 @@ class Trajectories:
         return replace(self, **arrays, reference=reference, body_contact_force=forces, begin=begin)
 
     def alone(self, trial: int) -> Trajectories:
-        """One trial, without the rows before it begins."""
+        """Select one trial, without the rows before it begins."""
         one = self[trial : trial + 1]
         if one.begin is None:
             return one
@@ -222,7 +229,7 @@ class Trajectories:
         return (self.horizon_steps - begin) * self.timestep
 
     def counted(self, rows: slice) -> NDArray[np.bool_] | None:
-        """Which of the rows belong to each trial, shape (n, rows); None where all do."""
+        """Tell which of the rows belong to each trial, shape (n, rows). None if all do."""
         if self.begin is None:
             return None
         return np.arange(*rows.indices(self.steps)) >= self.begin[:, None]
@@ -254,25 +261,25 @@ class Trajectories:
 
     @cached_property
     def time(self) -> Array:
-        """(steps,) [s], end of each step."""
+        """End of each step [s], shape (steps,)."""
         return np.arange(1, self.steps + 1) * self.timestep
 
     def trunk_com_position(self, rows: slice | int = slice(None)) -> Array:
-        """(n, rows, 3) [m], the trunk's centre of mass in the world (the paper's x_B), for the given rows only."""
+        """Compute the trunk's centre of mass in the world (the paper's x_B) [m], shape (n, rows, 3), for the given rows."""
         return self.trunk_position[:, rows] + rotate(self.trunk_quaternion[:, rows], self.trunk_com_offset)
 
     def trunk_com_velocity(self, rows: slice | int = slice(None)) -> Array:
-        """(n, rows, 3) [m/s], velocity of the trunk's centre of mass in world axes, for the given rows only."""
+        """Compute the velocity of the trunk's centre of mass in world axes [m/s], shape (n, rows, 3), for the given rows."""
         lever = cross(self.trunk_angular_velocity[:, rows], self.trunk_com_offset)
         return self.trunk_linear_velocity[:, rows] + rotate(self.trunk_quaternion[:, rows], lever)
 
     def sole_height(self, leg: LegGeometry, rows: slice | int = slice(None)) -> Array:
-        """(n, rows) [m], the lowest point of a leg's foot over z = 0, for the given rows only."""
+        """Compute the lowest point of a leg's foot over z = 0 [m], shape (n, rows), for the given rows."""
         foot = rotate(self.trunk_quaternion[:, rows], leg.foot_position(self.joint_position[:, rows]))
         return self.trunk_position[:, rows][..., 2] + foot[..., 2] - leg.sole
 
     def trunk_clearance(self, rows: slice | int = slice(None)) -> Array:
-        """(n, rows) [m], the trunk's lowest point over z = 0, for the given rows only."""
+        """Compute the trunk's lowest point over z = 0 [m], shape (n, rows), for the given rows."""
         balls = self.embodiment.trunk_balls
         up = rotate(conjugate(self.trunk_quaternion[:, rows]), np.array([0.0, 0.0, 1.0]))
         below = np.einsum("...c,kc->...k", up, balls[:, :3]) - balls[:, 3]  # in one order for any number of rows

@@ -1,10 +1,10 @@
-"""The one way in which levade writes files: whole or not at all, and only in the place of regular files.
+"""Write files safely: completely or not at all, and only in place of regular files.
 
     with replacing(path) as partial:
         partial.write_text("...", encoding="utf-8")
 
-A file is written next to its place, in a new file under a name that nobody can guess, so that no planted link is followed. A
-device, a pipe or a link in the file's place stays as it is. Links to directories on the way are followed, as everywhere.
+A file is first written next to its place, under a name that nobody can guess, so no planted link is followed. A device, a pipe
+or a link in its place stays as it is. Links to directories on the way are followed, as usual.
 """
 
 from __future__ import annotations
@@ -79,14 +79,14 @@ def write_text(path: Path, text: str) -> None:
 
 
 def growing(path: Path) -> IO[str]:
-    """Put an empty file in a path's place and open it, to be written line by line. Raises OSError as `replacing`."""
+    """Put an empty file at a path and open it, to be written line by line. Raises OSError as `replacing`."""
     with replacing(path) as partial:
         file = partial.open("w", encoding="utf-8", newline="")
     return file
 
 
 def append(path: Path, content: bytes) -> None:
-    """Add to a regular file, in one write; it is made if need be. Raises OSError as `replacing`."""
+    """Append to a regular file in one write. It is created if it does not exist. Raises OSError as `replacing`."""
     check_replaceable(path)  # opening a pipe would wait for its reader
     descriptor = os.open(path, os.O_WRONLY | os.O_APPEND | os.O_CREAT | _NO_LINK | _BINARY, 0o666)
     try:
@@ -99,7 +99,7 @@ def append(path: Path, content: bytes) -> None:
 
 
 def _new_beside(path: Path) -> tuple[int, Path]:
-    """A new file in the directory of a path, open, and its path."""
+    """Create a file in the directory of a path. Returns its descriptor and its path."""
     while True:
         partial = path.with_name(
             f".levade-{secrets.token_hex(8)}.partial{path.suffix if len(path.suffix) < 20 else ''}"

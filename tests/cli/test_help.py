@@ -36,9 +36,17 @@ def test_commands_and_options_in_a_help_text_exist(name: str, text: str) -> None
         assert [word for word in words if word.startswith("--") and word not in options] == [], line
 
 
-@pytest.mark.parametrize("name", ["", "solve", "show", "check", "export"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "",
+        *("solve", "show", "view", "check", "stabilise", "export", "bench"),
+        *("library", "library build", "library merge", "library check", "library export"),
+        *("tasks", "robots", "robots inspect"),
+    ],
+)
 def test_examples_keep_their_lines(levade, name: str) -> None:
-    status, out, _ = levade(*([name] if name else []), "--help")
+    status, out, _ = levade(*name.split(), "--help")
     assert status == 0
     assert "\\b" not in out
     assert "\b" not in out

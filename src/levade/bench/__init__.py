@@ -1,9 +1,9 @@
-"""Benches: tasks x robots x optimizers x seeds, and what comes of them.
+"""Compare optimizers over tasks, robots and seeds.
 
 result = bench(Plan(tasks=("rearing",), optimizers=("cma", "cem")), Path("out"), processes=2)
 written, missing = report(result.results, Path("out"))
 
-Processes start as fresh interpreters: a script that calls `bench` does so under ``if __name__ == "__main__":``.
+Processes start as fresh interpreters. A script that calls `bench` does so under ``if __name__ == "__main__":``.
 """
 
 from levade.bench.comparison import Bench, Progress, bench, plan_of, report

@@ -1,4 +1,4 @@
-"""One run of a bench."""
+"""Run one case of a bench."""
 
 from __future__ import annotations
 
@@ -16,8 +16,14 @@ from levade.tasks import Task
 def run_case(case: Case) -> Result:
     """Solve one case on one thread.
 
+    Args:
+        case: The case.
+
+    Returns:
+        Its result.
+
     Raises:
-        LevadeError: For whatever does not fit together.
+        LevadeError: If parts of the task do not fit together.
     """
     objective = _objective(case)
     engine = objective.engine
@@ -63,7 +69,7 @@ def run_case(case: Case) -> Result:
 
 @functools.cache
 def made_with() -> str:
-    """The versions that decide the results, in words."""
+    """Return the versions that decide the results, in words."""
     return ", ".join(f"{name} {version}" for name, version in versions().items())
 
 
@@ -71,7 +77,7 @@ _latest: tuple[Task, Objective] | None = None
 
 
 def _objective(case: Case) -> Objective:
-    """The latest one again, where the seed is all that has changed."""
+    """Return the objective of a case. The latest one is used again if only the seed has changed."""
     global _latest
     if case.task.hardware is not None:
         raise LevadeError(

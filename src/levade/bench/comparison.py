@@ -1,12 +1,12 @@
-"""A bench: every case of a plan, in a directory that keeps each result as soon as there is one.
+"""Run a plan in a directory that keeps each result as soon as it exists.
 
 DIR/bench.yaml       the plan
 DIR/results.csv      a row per run; in the plan's order once all are done
 DIR/results.parquet  the same, with types
 DIR/table.md         the summary
-DIR/trials.pdf, steps.pdf  success over what was spent, expected running time, final cost
+DIR/trials.pdf, steps.pdf  success over effort, expected running time, final cost
 
-A second call goes on with the cases that have no row yet.
+A second call continues with the cases that have no row yet.
 """
 
 from __future__ import annotations
@@ -33,10 +33,10 @@ PLAN, RESULTS, PARQUET, TABLE = "bench.yaml", "results.csv", "results.parquet", 
 
 @dataclass(frozen=True)
 class Progress:
-    """How far a bench is.
+    """Reports how far a bench has come.
 
     Attributes:
-        result: The latest one; None before the first.
+        result: The latest result. None before the first.
     """
 
     done: int
@@ -46,7 +46,7 @@ class Progress:
 
 @dataclass(frozen=True)
 class Bench:
-    """What a bench came to: results, those of the plan first and in its order; how many of its cases are still to do."""
+    """Holds the results of a bench, those of the plan first and in its order, and the number of cases that are left."""
 
     results: list[Result]
     left: int
@@ -65,19 +65,19 @@ def bench(
 
     Args:
         plan: What to run. None continues the directory's own plan.
-        directory: Directory with the results, which is made if need be.
-        processes: Cases at a time, each on one thread; results do not depend on it.
+        directory: Directory of the results. It is created if it does not exist.
+        processes: Number of cases at a time, each on one thread. Results do not depend on it.
         force: Whether to begin again and lose the results in the directory.
         others: Results that will be reported next to these.
-        observe: Called before the first case, after each, and about once a second between. KeyboardInterrupt, from it
-            or from the keyboard, ends the bench; what is done is kept.
+        observe: Called before the first case, after each, and about once a second in between. A KeyboardInterrupt from it or
+            from the keyboard ends the bench, and finished runs are kept.
 
     Returns:
         The results, and how many cases are left.
 
     Raises:
-        LevadeError: Before anything is written, if a case does not fit together, if results in the directory belong to
-            other tasks, budgets or versions under the same names, or if one of ``others`` has the name of a case.
+        LevadeError: Before anything is written, if a case does not fit together, if results in the directory belong to other
+            tasks, budgets or versions under the same names, or if one of ``others`` has the name of a case.
     """
     plan = plan or plan_of(directory)
     wanted = cases(plan)
@@ -132,7 +132,13 @@ def _bench(
 
 
 def plan_of(directory: Path) -> Plan:
-    """The plan that a directory was last called with.
+    """Read the plan with which a directory was last used.
+
+    Args:
+        directory: Directory of a bench.
+
+    Returns:
+        The plan.
 
     Raises:
         LevadeError: If there is none.
@@ -148,8 +154,13 @@ def plan_of(directory: Path) -> Plan:
 def report(results: Sequence[Result], directory: Path, *, format: str = "pdf") -> tuple[list[Path], list[str]]:
     """Write the table, the figures and the Parquet file.
 
+    Args:
+        results: Results of runs.
+        directory: Directory to write.
+        format: Format of the figures: pdf, svg or png.
+
     Returns:
-        What was written, and what could not be for want of an extra, in words.
+        The files that were written, and a sentence for each that needs a missing extra.
 
     Raises:
         LevadeError: If a file cannot be written.
@@ -173,7 +184,7 @@ def report(results: Sequence[Result], directory: Path, *, format: str = "pdf") -
 
 
 def in_order(results: Iterable[Result], wanted: Sequence[Case]) -> list[Result]:
-    """Those of these cases first, in their order; then the others, by name."""
+    """Sort results: those of the given cases first, in their order, then the others by name."""
     place = {case.key: number for number, case in enumerate(wanted)}
     return sorted(results, key=lambda result: (place.get(result.key, len(place)), result.key))
 
@@ -188,7 +199,7 @@ def _begin(directory: Path, stack: ExitStack) -> None:
 
 
 def _check_others(others: Sequence[Result], wanted: Sequence[Case], before: Sequence[Result]) -> None:
-    """Raise LevadeError if a result that is reported next to these has the name of one."""
+    """Raise LevadeError if a result that is reported next to these has the name of one of them."""
     keys = {case.key for case in wanted} | {result.key for result in before}
     for other in others:
         if other.key in keys:

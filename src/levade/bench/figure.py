@@ -1,9 +1,10 @@
-"""The figures of a bench: for each task and robot a row of three panels.
+"""Draw a bench: for each task and robot a row of three panels.
 
-Left, the share of runs that had succeeded once so much was spent; a curve ends with a dot where the last run succeeded, and
-goes on level to the end of the budget. Middle, the expected running time with its interval; an arrow where it has no upper
-end, and nothing where no run succeeded. Right, the final cost of each run, hollow where it had not succeeded, and the
-median.
+- Left: the share of runs that have succeeded after a given effort. A dot marks the last success; from there the curve is level
+  to the end of the budget.
+- Middle: the expected running time with its interval. An arrow means that the interval has no upper end. Without a success the
+  row is empty.
+- Right: the final cost of each run, hollow without success, and the median.
 """
 
 from __future__ import annotations
@@ -32,14 +33,19 @@ _COLOURS = (
 )
 _DASHES: tuple[Any, ...] = ("-", (0, (4, 1.4)), (0, (1.2, 1.2)), (0, (5, 1.4, 1, 1.4)))
 _MARKERS = "osD^vP*X"
-"""Colours repeat after 8 optimizers, and come with another dash and mark then."""
+"""Markers of the optimizers. After 8 optimizers the colours repeat, with other dashes and markers."""
 
 
 def draw(results: Sequence[Result], directory: Path, *, format: str = "pdf") -> list[Path]:
-    """Write ``trials`` and ``steps`` to a directory.
+    """Write the figures ``trials`` and ``steps`` to a directory.
+
+    Args:
+        results: Results of runs.
+        directory: Directory to write.
+        format: pdf, svg or png.
 
     Returns:
-        What was written.
+        The files that were written.
 
     Raises:
         LevadeError: If the format is unknown, the directory cannot be written, or matplotlib is missing.
@@ -148,7 +154,7 @@ def _costs(axes: Any, optimizers: Mapping[str, list[Result]], looks: Mapping[str
 
 
 def _rows(axes: Any, optimizers: Mapping[str, Any], looks: Mapping[str, Mapping[str, Any]], *, named: bool) -> None:
-    """An optimizer in each row, the first on top."""
+    """Label the rows: one optimizer in each, the first on top."""
     axes.set_ylim(len(optimizers) - 0.5, -0.5)
     axes.set_yticks(range(len(optimizers)), list(optimizers) if named else [])
     axes.tick_params(axis="y", length=0)
@@ -159,7 +165,7 @@ def _rows(axes: Any, optimizers: Mapping[str, Any], looks: Mapping[str, Mapping[
 
 
 def _log_axis(axes: Any, low: float, high: float) -> None:
-    """A logarithmic axis with plain numbers: decades, and a few in between where there is room."""
+    """Make a logarithmic axis with plain numbers: decades, and a few in between if there is room."""
     from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
     axes.set_xscale("log")
@@ -172,7 +178,7 @@ def _log_axis(axes: Any, low: float, high: float) -> None:
 
 
 def _plain(value: float) -> str:
-    """200, 20k, 2M, 0.02."""
+    """Write a number briefly: 200, 20k, 2M, 0.02."""
     if value >= 1e6:
         return f"{value / 1e6:g}M"
     return f"{value / 1e3:g}k" if value >= 1e4 else f"{value:g}"

@@ -1,8 +1,8 @@
-"""What results say: success, expected running time, and what was left of the cost.
+"""Summarise results: success, expected running time, and final cost.
 
 The expected running time (ERT) is that of COCO (Hansen et al., COCO: a platform for comparing continuous optimizers in a
-black-box setting, 2021): of all runs of a case, what was spent until a first success or the end of the run, over the number
-of successes. It is what one expects to spend until a success when starting again after each run that fails.
+black-box setting, 2021). It is what all runs of a case spent until their first success or their end, divided by the number of
+successes. It is the expected effort until a success, if each failed run is followed by another.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from levade.bench.results import Result
 from levade.optimizers import canonical
 
 BUDGETS = {"trials": "trials", "steps": "physics steps", "core_seconds": "core-seconds"}
-"""What is spent -> in words."""
+"""Kinds of effort -> their names."""
 
 LEVEL = 0.95
 RESAMPLES = 4000
@@ -27,7 +27,7 @@ RESAMPLES = 4000
 
 @dataclass(frozen=True)
 class Interval:
-    """A number and where it may lie: bootstrap over the runs, level `LEVEL`. Infinite where there is no success."""
+    """Holds a number and its bootstrap interval over the runs, at level `LEVEL`. It is infinite without a success."""
 
     value: float
     low: float
@@ -36,15 +36,15 @@ class Interval:
 
 @dataclass(frozen=True)
 class Summary:
-    """What the runs of one task, robot and optimizer say.
+    """Summarises the runs of one task, robot and optimizer.
 
     Attributes:
-        median: Trials to success over all runs; infinite for runs without.
-        least: Trials to success over all runs; infinite for runs without.
-        most: Trials to success over all runs; infinite for runs without.
-        ert: What is spent (a key of `BUDGETS`) -> expected running time.
-        cost: Quartiles of the final cost, (3,).
-        until: What the runs went on to, all alike or "mixed".
+        median: Median of the trials to success over all runs. A run without success counts as infinite.
+        least: Least trials to success.
+        most: Most trials to success.
+        ert: Kind of effort (a key of `BUDGETS`) -> expected running time.
+        cost: Quartiles of the final cost, shape (3,).
+        until: When the runs end: "success", "budget" or "mixed".
     """
 
     task: str
@@ -61,11 +61,14 @@ class Summary:
 
 
 def spent(results: Sequence[Result], what: str) -> tuple[Array, NDArray[np.bool_]]:
-    """(n,) spent until success or else the end, and (n,) whether there was success.
+    """Count what runs spent until success or their end.
 
     Args:
-        results: Results of runs.
+        results: Results of n runs.
         what: A key of `BUDGETS`.
+
+    Returns:
+        The effort and whether there was a success, shape (n,) each.
     """
     to_success = [getattr(result, f"{what}_to_success") for result in results]
     whole = [getattr(result, what) for result in results]
@@ -75,9 +78,16 @@ def spent(results: Sequence[Result], what: str) -> tuple[Array, NDArray[np.bool_
 
 
 def expected_running_time(amount: Array, success: NDArray[np.bool_]) -> Interval:
-    """ERT of runs that spent (n,) until success or else the end.
+    """Compute the ERT of n runs, and its bootstrap interval.
 
-    The interval is the bootstrap's: percentiles of the ERT of n runs drawn from these with replacement, always the same.
+    The interval has percentiles of the ERT of n runs that are drawn from these with replacement, from a fixed seed.
+
+    Args:
+        amount: Effort until success or the end, shape (n,).
+        success: Whether there was a success, shape (n,).
+
+    Returns:
+        The ERT with its interval.
     """
     generator = np.random.default_rng(0)
     drawn = generator.integers(len(amount), size=(RESAMPLES, len(amount)))
@@ -91,16 +101,24 @@ def expected_running_time(amount: Array, success: NDArray[np.bool_]) -> Interval
 
 
 def success_curve(results: Sequence[Result], what: str) -> tuple[Array, Array]:
-    """The share of runs that had succeeded (ECDF) once so much was spent: (k,) rising amounts, (k,) shares after each."""
+    """Compute the share of runs that have succeeded after a given effort (ECDF).
+
+    Args:
+        results: Results of runs.
+        what: A key of `BUDGETS`.
+
+    Returns:
+        Increasing efforts, and the share after each, shape (k,) each.
+    """
     amount, success = spent(results, what)
     amounts = np.sort(amount[success])
     return amounts, np.arange(1, amounts.size + 1) / len(results)
 
 
 def grouped(results: Iterable[Result]) -> dict[tuple[str, str], dict[str, list[Result]]]:
-    """Task and robot -> optimizer -> its runs, all in the order in which they come.
+    """Group results as task and robot -> optimizer -> runs, all in the order in which they come.
 
-    Runs of an optimizer and of its alias are in one group, by the name that comes first.
+    Runs of an optimizer and of its alias form one group, under the name that comes first.
     """
     names: dict[str, str] = {}
     groups: dict[tuple[str, str], dict[str, list[Result]]] = {}
@@ -111,7 +129,7 @@ def grouped(results: Iterable[Result]) -> dict[tuple[str, str], dict[str, list[R
 
 
 def summarise(results: Iterable[Result]) -> list[Summary]:
-    """One for each task, robot and optimizer."""
+    """Summarise results: one summary for each task, robot and optimizer."""
     summaries = []
     for (task, robot), optimizers in grouped(results).items():
         for optimizer, runs in optimizers.items():
@@ -136,7 +154,7 @@ def summarise(results: Iterable[Result]) -> list[Summary]:
 
 
 def _median(values: Sequence[float]) -> float:
-    """Of numbers some of which may be infinite."""
+    """Compute the median of numbers that may be infinite."""
     ordered = sorted(values)
     middle = (len(ordered) - 1) // 2
     low, high = ordered[middle], ordered[-1 - middle]

@@ -1,12 +1,12 @@
-"""What a bench runs: tasks x robots x optimizers x seeds, as a YAML file or built in Python.
+"""Say what to run: tasks x robots x optimizers x seeds, in a YAML file or in Python.
 
 tasks: [rearing, posture-recovery]      # names or files
-robots: [hyq2max]                       # names or files; left out, each task's own
-optimizers:                             # a list of names, or names of your own with what they change in the task
+robots: [hyq2max]                       # names or files; by default each task's own
+optimizers:                             # a list of names, or your own names with what they change in the task
   cma: {}
   plain: {search.optimizer: cma, search.smoothness: 0}
 seeds: 20                               # 0 to 19, or a list
-trials: 3000                            # budget; left out, each task's own
+trials: 3000                            # budget; by default each task's own
 """
 
 from __future__ import annotations
@@ -31,17 +31,16 @@ _MOST_SEEDS = 1_000_000
 
 @dataclass(frozen=True)
 class Plan:
-    """What a bench runs.
+    """Says what a bench runs.
 
     Attributes:
         tasks: Names or files.
-        robots: Names or files; each task's own if there are none.
-        optimizers: Names, or a name of one's own -> path in the task -> value; each task's own if there are none.
-        seeds: How many, from 0, or which.
-        trials: Budget of each run, in trials (the task's own if None) and in physics steps (any number if None).
-        steps: Budget of each run, in trials (the task's own if None) and in physics steps (any number if None).
-        until: "success": a run ends as the task says, at its first success and what it polishes. "budget": it goes on
-            to the end of its budget.
+        robots: Names or files. Each task's own if there are none.
+        optimizers: Names, or your own names -> path in the task -> value. Each task's own if there are none.
+        seeds: Number of seeds, from 0, or a list of them.
+        trials: Budget of each run in trials. None for the task's own.
+        steps: Budget of each run in physics steps. None for no limit.
+        until: "success" ends a run after its first success and the trials that polish it. "budget" spends the whole budget.
         changes: Path in every task -> value.
     """
 
@@ -80,11 +79,11 @@ class Plan:
 
 @dataclass(frozen=True)
 class Case:
-    """One run of a bench.
+    """Describes one run of a bench.
 
     Attributes:
-        task: With every change applied.
-        budget_steps: Physics steps; None for any number.
+        task: The task with every change applied.
+        budget_steps: Budget in physics steps. None for no limit.
     """
 
     task: Task
@@ -96,12 +95,12 @@ class Case:
 
     @property
     def key(self) -> tuple[str, str, str, int]:
-        """What identifies a result: names of task, robot and optimizer (not an alias of it), and the seed."""
+        """Identify a result by the names of task, robot and optimizer (not an alias of it), and the seed."""
         return self.task.name, self.robot, canonical(self.optimizer), self.seed
 
     @property
     def checksum(self) -> int:
-        """Of everything that decides the result but the seed and the versions."""
+        """Compute a checksum of everything that decides the result, except the seed and the versions."""
         return task_checksum(self.task, self.budget_steps)
 
     def __str__(self) -> str:
@@ -109,16 +108,22 @@ class Case:
 
 
 def read_plan(path: Path) -> Plan:
-    """A plan from its YAML file.
+    """Read a plan from its YAML file.
+
+    Args:
+        path: The file.
+
+    Returns:
+        The plan.
 
     Raises:
-        LevadeError: If it cannot be done.
+        LevadeError: If the file cannot be read, or a key or value is wrong.
     """
     return build(Plan, read_yaml(path, like="tasks and optimizers"), where=str(path))
 
 
 def plan_to_yaml(plan: Plan) -> str:
-    """The text of a plan's file."""
+    """Return the text of a plan's file."""
     import yaml
 
     content = json.loads(json.dumps(dataclasses.asdict(plan)))
@@ -126,10 +131,16 @@ def plan_to_yaml(plan: Plan) -> str:
 
 
 def cases(plan: Plan) -> list[Case]:
-    """Every case, in the plan's order.
+    """List every case of a plan, in its order.
+
+    Args:
+        plan: The plan.
+
+    Returns:
+        The cases.
 
     Raises:
-        LevadeError: For whatever does not fit together.
+        LevadeError: If a task, robot and optimizer do not fit together.
     """
     found: list[Case] = []
     named: dict[tuple[str, str], tuple[str, str | None]] = {}
@@ -151,7 +162,7 @@ def cases(plan: Plan) -> list[Case]:
 
 
 def _variants(plan: Plan, task: str, robot: str | None) -> Iterator[tuple[str, Task]]:
-    """Name of each optimizer, and the task as it is for it."""
+    """Yield the name of each optimizer, and the task with it."""
     common = _changes(plan.changes)
     if plan.trials is not None:
         common.append(f"search.trials={plan.trials}")
@@ -178,12 +189,12 @@ def _load(task: str, robot: str | None, changes: Sequence[str], where: str) -> T
 
 
 def _changes(changes: Mapping[str, Any]) -> list[str]:
-    """As `levade.tasks.load_task` takes them; JSON is YAML."""
+    """Write changes as `levade.tasks.load_task` takes them. JSON is YAML."""
     return [f"{path}={json.dumps(value)}" for path, value in changes.items()]
 
 
 def _fits(task: Task) -> str:
-    """Name of the robot, once the task has been put together with it."""
+    """Load the task's robot, and return its name."""
     try:
         return make_objective(task, threads=1).robot.name
     except LevadeError as error:

@@ -1,12 +1,12 @@
-"""Processes that do pieces of work side by side, one thread each; what comes of a piece does not depend on how many there are.
+"""Run pieces of work in several processes with one thread each. Results do not depend on the number of processes.
 
     with Pool(run_case, 2) as pool:
         for case, result in pool.each(cases):
             ...
 
-A process is told the next piece when it has sent the last result. Signals that ask to end are for the parent, even where all
-get them, as from the keyboard: it kills the processes, and loses no more than the pieces that they were at. Processes whose
-parent was killed end with the piece that they are at.
+A process gets its next piece when it has sent its last result. Signals that end the program are for the parent, even if all
+processes get them, as from the keyboard. The parent kills the processes, and loses only the pieces in progress. If the parent
+is killed, its processes end after their current piece.
 """
 
 from __future__ import annotations
@@ -38,17 +38,17 @@ _FOR_THE_PARENT = (signal.SIGINT, signal.SIGTERM)
 def run_cases(
     cases: Sequence[Case], *, processes: int, waiting: Callable[[], object] | None = None
 ) -> Iterator[tuple[Case, Result]]:
-    """Yield each case and its result, as they come: see `Pool.each`."""
+    """Yield each case with its result, as they finish: see `Pool.each`."""
     with Pool(run_case, min(processes, len(cases))) as pool:
         yield from pool.each(cases, waiting=waiting)
 
 
 class Pool(Generic[Piece, Outcome]):
-    """Processes that wait for work until the block that they are made for ends, however it does.
+    """Holds processes that wait for work until the ``with`` block ends, also by an exception.
 
     Args:
-        run: Does a piece of work; as pieces and what comes of them, it goes to the processes by pickle.
-        processes: How many.
+        run: Does a piece of work. It is sent to the processes by pickle, as are pieces and results.
+        processes: Number of processes.
     """
 
     def __init__(self, run: Callable[[Piece], Outcome], processes: int) -> None:
@@ -75,11 +75,11 @@ class Pool(Generic[Piece, Outcome]):
     def each(
         self, pieces: Sequence[Piece], *, waiting: Callable[[], object] | None = None
     ) -> Iterator[tuple[Piece, Outcome]]:
-        """Each piece and what came of it, as they come.
+        """Yield each piece with its result, as they finish.
 
         Args:
-            pieces: What to do; each says in a message which it is.
-            waiting: Called about once a second while there is none.
+            pieces: What to do. Messages name a piece by its text.
+            waiting: Called about once a second while there is no result.
 
         Raises:
             LevadeError: If a piece raises one, or a process dies.
@@ -105,7 +105,7 @@ class Pool(Generic[Piece, Outcome]):
 
 
 class _Worker:
-    """A process, and the piece of work that it is at."""
+    """A process and its current piece of work."""
 
     def __init__(self) -> None:
         # a fresh interpreter: forking one whose libraries have threads is not safe
@@ -121,10 +121,10 @@ class _Worker:
         self.connection.send(piece)
 
     def take(self) -> tuple[Any, Any]:
-        """What it has sent.
+        """Return what the process has sent.
 
         Raises:
-            LevadeError: If that is an error, or nothing because it died.
+            LevadeError: If it has sent an error, or died.
         """
         piece, self.piece = self.piece, None
         assert piece is not None
@@ -149,7 +149,7 @@ class _Worker:
 
 
 def _serve(connection: Connection) -> None:
-    """A process: first what to run, then pieces of work, until nobody asks any more."""
+    """Serve in a process: receive what to run, then pieces of work, until the parent asks no more."""
     for number in _FOR_THE_PARENT:
         signal.signal(number, signal.SIG_IGN)
     run: Callable[[Any], Any] | None = None
@@ -175,7 +175,7 @@ def _serve(connection: Connection) -> None:
 
 @contextmanager
 def _undisturbed() -> Iterator[None]:
-    """Processes that start now do not hear signals that are for the parent, not even before `_serve`."""
+    """Start processes that ignore signals for the parent, even before `_serve`."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -189,7 +189,7 @@ def _undisturbed() -> Iterator[None]:
 
 @contextmanager
 def _one_thread() -> Iterator[None]:
-    """Processes that start now have linear algebra on one thread."""
+    """Start processes whose linear algebra runs on one thread."""
     before = {name: os.environ.get(name) for name in _ONE_THREAD}
     os.environ.update(dict.fromkeys(_ONE_THREAD, "1"))
     try:

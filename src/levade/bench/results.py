@@ -1,6 +1,6 @@
-"""Results of a bench: one row per run, in a CSV file that rows are appended to, and in Parquet.
+"""Keep the results of a bench: one row per run, in a CSV file that grows, and in Parquet.
 
-A row is appended in one write, so that whatever stops the bench leaves whole rows; a last one that was cut off is left out.
+A row is appended in one write, so an interruption leaves whole rows. An incomplete last row is ignored.
 """
 
 from __future__ import annotations
@@ -20,24 +20,23 @@ from levade.optimizers import canonical
 
 @dataclass(frozen=True)
 class Result:
-    """What came of one run.
+    """Reports one run.
 
     Attributes:
-        budget_trials: The most it might spend; no limit where None.
-        budget_steps: The most it might spend; no limit where None.
-        trials: Spent, physics steps of all roll-outs.
-        steps: Spent, physics steps of all roll-outs.
-        core_seconds: CPU time of the search.
-        trials_to_success: Spent when a trial first met every success criterion, in whole generations; None if none did.
-        steps_to_success: Spent when a trial first met every success criterion, in whole generations; None if none did.
-        core_seconds_to_success: Spent when a trial first met every success criterion, in whole generations; None if
-            none did.
-        cost_to_success: Of the best trial at that moment.
-        success: Whether one did.
-        cost: Of the run's best trial at its end, by the task's own weights.
-        stopped: Why it ended: "success" (and polished), "budget" or "steps".
-        checksum: Of the task and the budget.
-        versions: Of what made it.
+        budget_trials: Budget in trials. None for no limit.
+        budget_steps: Budget in physics steps. None for no limit.
+        trials: Trials that were spent.
+        steps: Physics steps of all roll-outs.
+        core_seconds: CPU time of the search [s].
+        trials_to_success: Trials until one first met every success criterion, in whole generations. None if none did.
+        steps_to_success: Physics steps until then. None if none did.
+        core_seconds_to_success: CPU time until then [s]. None if none did.
+        cost_to_success: Cost of the best trial at that time.
+        success: Whether a trial met every success criterion.
+        cost: Cost of the best trial at the end, by the task's own weights.
+        stopped: Why the run ended: "success" (and polished), "budget" or "steps".
+        checksum: Checksum of the task and the budget.
+        versions: Versions that made it.
     """
 
     task: str
@@ -63,7 +62,7 @@ class Result:
 
     @property
     def key(self) -> tuple[str, str, str, int]:
-        """As `levade.bench.plan.Case.key`."""
+        """The key of its case: see `levade.bench.plan.Case.key`."""
         return self.task, self.robot, canonical(self.optimizer), self.seed
 
 
@@ -72,7 +71,11 @@ _KINDS = {field.name: str(field.type) for field in dataclasses.fields(Result)}
 
 
 def append(path: Path, result: Result) -> None:
-    """Add a row to a file, which is begun if need be.
+    """Add a row to a file, which is created if it does not exist.
+
+    Args:
+        path: The file.
+        result: The row.
 
     Raises:
         LevadeError: If it cannot be written.
@@ -88,7 +91,11 @@ def append(path: Path, result: Result) -> None:
 
 
 def write(path: Path, results: Iterable[Result]) -> None:
-    """Replace a file by these rows, or leave it as it is.
+    """Replace a file by these rows, or leave it unchanged.
+
+    Args:
+        path: The file.
+        results: The rows.
 
     Raises:
         LevadeError: If it cannot be written.
@@ -101,10 +108,16 @@ def write(path: Path, results: Iterable[Result]) -> None:
 
 
 def read(path: Path) -> list[Result]:
-    """The rows of a file, without a last one that was cut off; of rows with one key, the first.
+    """Read the rows of a file, without an incomplete last one. If several have the same key, the first counts.
+
+    Args:
+        path: The file.
+
+    Returns:
+        The rows.
 
     Raises:
-        LevadeError: If the file cannot be read or is none of a bench.
+        LevadeError: If the file cannot be read, or does not belong to a bench.
     """
     try:
         text = path.read_bytes().decode("utf-8", errors="replace")
@@ -129,8 +142,12 @@ def read(path: Path) -> list[Result]:
 def write_parquet(path: Path, results: Sequence[Result]) -> None:
     """Write rows to a Parquet file.
 
+    Args:
+        path: The file.
+        results: The rows.
+
     Raises:
-        LevadeError: If it cannot be written or pyarrow is missing.
+        LevadeError: If it cannot be written, or pyarrow is missing.
     """
     try:
         import pyarrow

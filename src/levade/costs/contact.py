@@ -1,4 +1,4 @@
-"""What touches the ground that should not."""
+"""Unwanted contact with the ground."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ class GroundContact:
     """Contact of the named bodies with the ground and the obstacles.
 
     Attributes:
-        measure: "time" in contact [s], each body on its own; the "impulse" of the contact forces [Ns], which also tells
-            a touch from a blow; or the "peak", the largest force on any of the bodies [N]. Time and impulse are sums
-            over the bodies.
-        over: "horizon", the motion proper, or "all", the hold as well.
+        bodies: Names of the bodies.
+        measure: "time" of contact, summed over the bodies [s]; "impulse" of the contact forces, summed over the bodies [Ns],
+            which distinguishes a touch from a blow; or "peak", the largest force on any of the bodies [N].
+        over: "horizon", up to the horizon, or "all", which includes the hold.
 
     Raises:
         LevadeError: If the contact force of a body was not recorded.
@@ -43,7 +43,7 @@ class GroundContact:
             raise LevadeError(f"ground_contact.measure: {self.measure!r} is unknown; time, impulse or peak")
 
     def __call__(self, trajectories: Trajectories) -> Array:
-        """(n,) [s], [Ns] or [N]."""
+        """Compute the cost [s], [Ns] or [N], shape (n,)."""
         rows = rows_over(trajectories, self.over)
         total = np.zeros(trajectories.n)
         for body in self.bodies:

@@ -1,4 +1,4 @@
-"""How long a motion takes, which the paper leaves to future work."""
+"""The duration of a motion, which the paper leaves to future work."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from levade.trajectory import Trajectories
 
 @dataclass(frozen=True)
 class Duration:
-    """The horizon T [s]. It makes a difference where the task leaves the horizon to the search."""
+    """The horizon T [s]. It matters if the search chooses the horizon."""
 
     unit: ClassVar[str] = "s"
 
     def __call__(self, trajectories: Trajectories) -> Array:
-        """(n,) [s]."""
+        """Compute the cost [s], shape (n,)."""
         return trajectories.horizon

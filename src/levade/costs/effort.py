@@ -1,4 +1,4 @@
-"""What the motion takes out of the actuators (eq. 6, first part)."""
+"""The effort of the actuators (eq. 6, first part)."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ class Effort:
     """Squared joint torque, summed over the joints and integrated over the motion.
 
     Attributes:
-        normalised: Whether torques count as a share of each joint's constant limit. The cost is then in s, and n joints
-            that are always at their limits cost n * T. Otherwise it is in Nm^2 s. The paper does not say which its tau is.
-        over: "horizon", the motion proper, or "all", the hold as well.
+        normalised: Whether torques count as a share of each joint's constant limit. The cost is then in s, and n joints that
+            are always at their limits cost n * T. Otherwise it is in Nm^2 s. The paper does not say which it uses.
+        over: "horizon", up to the horizon, or "all", which includes the hold.
 
     Raises:
         LevadeError: If normalised and a joint has no torque limit.
@@ -32,7 +32,7 @@ class Effort:
     over: Over = "horizon"
 
     def __call__(self, trajectories: Trajectories) -> Array:
-        """(n,) [s], or [Nm^2 s] where not normalised."""
+        """Compute the cost [s], or [Nm^2 s] if not normalised, shape (n,)."""
         rows = rows_over(trajectories, self.over)
         torque = trajectories.joint_torque[:, rows]
         if self.normalised:

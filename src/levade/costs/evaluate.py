@@ -1,4 +1,4 @@
-"""The cost of each trial: the weighted sum of the terms (eq. 5), finite whatever the simulation did."""
+"""Compute the cost of each trial: the weighted sum of the terms (eq. 5), which is always finite."""
 
 from __future__ import annotations
 
@@ -11,24 +11,32 @@ from levade.errors import LevadeError, did_you_mean
 from levade.trajectory import Trajectories
 
 Term = Callable[[Trajectories], Array]
-"""Trajectories to (n,), unweighted: the dataclasses of this package, or any function."""
+"""A function from Trajectories to unweighted values, shape (n,): a dataclass of this package, or any other."""
 
 DIVERGED = 1e12
-"""Cost, and value of every term, of a trial that diverged: above that of any other trial, so it ranks last."""
+"""Cost, and value of every term, of a trial that diverged. It is above that of any other trial, so the trial ranks last."""
 
 HIGHEST = 1e11
 """Largest cost, and largest value of a term, of a trial that did not diverge."""
 
 
 def within(values: Array, bound: float) -> Array:
-    """Values clipped to +-bound; nan stays. `numpy.clip` takes several times as long for the few that a generation has."""
+    """Clip values to +-bound; NaN stays. `numpy.clip` takes several times as long for the few values of a generation."""
     return np.minimum(np.maximum(values, -bound), bound)
 
 
 def evaluate(terms: Mapping[str, Term], trajectories: Trajectories) -> dict[str, Array]:
-    """Each term of each trial, unweighted: name -> (n,), always finite.
+    """Evaluate each term of each trial, unweighted.
 
-    Trials that diverged have `DIVERGED` in every term; so has a term that is not finite. Others are within +-`HIGHEST`.
+    Trials that diverged have `DIVERGED` in every term, and so has a term that is not finite. Other values are within
+    +-`HIGHEST`.
+
+    Args:
+        terms: Name -> term.
+        trajectories: The trials.
+
+    Returns:
+        Name -> values, always finite, shape (n,).
 
     Raises:
         LevadeError: If a term does not return one number per trial.
@@ -45,12 +53,15 @@ def evaluate(terms: Mapping[str, Term], trajectories: Trajectories) -> dict[str,
 
 
 def total(values: Mapping[str, Array], weights: Mapping[str, float]) -> Array:
-    """The cost (n,) of each trial: ``sum weight * term`` (eq. 5), always finite.
+    """Compute the cost of each trial: ``sum weight * term`` (eq. 5).
 
     Args:
         values: As `evaluate` returns them.
-        weights: The paper's Q_i, one per term, no more and no fewer. A trial with a term at `DIVERGED` costs
-            `DIVERGED`, whatever the weight; any other at most `HIGHEST`.
+        weights: The paper's Q_i, one per term. A trial with a term at `DIVERGED` costs `DIVERGED` for any weight, any other
+            trial at most `HIGHEST`.
+
+    Returns:
+        Costs, always finite, shape (n,).
     """
     if not values:
         raise LevadeError("costs: no terms; a task needs at least one")

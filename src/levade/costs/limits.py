@@ -1,6 +1,6 @@
-"""What the motion asks beyond the robot's limits (eq. 6, second part, and the same for torque and speed).
+"""Excess beyond the robot's limits (eq. 6, second part, and the same for torque and speed).
 
-All are zero within the limits and grow with the square of the excess beyond; joints without a limit never exceed it.
+All are zero within the limits and grow with the square of the excess. Joints without a limit never exceed it.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class JointLimitExcess:
     """Squared excess of the measured joint angles beyond their range, over joints and time [rad^2 s] (eq. 6).
 
     Attributes:
-        over: "horizon", the motion proper, or "all", the hold as well.
+        over: "horizon", up to the horizon, or "all", which includes the hold.
     """
 
     unit: ClassVar[str] = "rad^2 s"
@@ -33,7 +33,7 @@ class JointLimitExcess:
     over: Over = "horizon"
 
     def __call__(self, trajectories: Trajectories) -> Array:
-        """(n,) [rad^2 s]."""
+        """Compute the cost [rad^2 s], shape (n,)."""
         rows = rows_over(trajectories, self.over)
         angle = trajectories.joint_position[:, rows]
         return integral(_range_excess(angle, trajectories.limits), trajectories, rows)
@@ -41,14 +41,14 @@ class JointLimitExcess:
 
 @dataclass(frozen=True)
 class ReferenceLimitExcess:
-    """The same for the desired joint angles [rad^2 s]: what a simulated stop would hide from `JointLimitExcess`."""
+    """The same for the desired joint angles [rad^2 s], which a simulated stop hides from `JointLimitExcess`."""
 
     unit: ClassVar[str] = "rad^2 s"
 
     over: Over = "horizon"
 
     def __call__(self, trajectories: Trajectories) -> Array:
-        """(n,) [rad^2 s]."""
+        """Compute the cost [rad^2 s], shape (n,)."""
         rows = rows_over(trajectories, self.over)
         angle = trajectories.reference.position[:, rows]
         return integral(_range_excess(angle, trajectories.limits), trajectories, rows)
@@ -58,11 +58,10 @@ class ReferenceLimitExcess:
 class TorqueLimitExcess:
     """Squared excess of the torque over its limit at the joint's angle, as a share of that limit [s].
 
-    The limit is `JointLimits.torque_at`: the constant limit lowered by the linkage curve; where the curve goes to
-    nothing, 1 % of the joint's best.
+    The limit is `JointLimits.torque_at`: the constant limit lowered by the linkage curve, and at least 1 % of the joint's best.
 
     Attributes:
-        over: "horizon", the motion proper, or "all", the hold as well.
+        over: "horizon", up to the horizon, or "all", which includes the hold.
 
     Raises:
         LevadeError: If a joint has a torque limit of zero.
@@ -73,7 +72,7 @@ class TorqueLimitExcess:
     over: Over = "horizon"
 
     def __call__(self, trajectories: Trajectories) -> Array:
-        """(n,) [s]."""
+        """Compute the cost [s], shape (n,)."""
         rows = rows_over(trajectories, self.over)
         limits = trajectories.limits
         best = np.array(limits.torque, dtype=np.float64)
@@ -92,7 +91,7 @@ class SpeedLimitExcess:
     """Squared excess of the joint speed over its limit, as a share of that limit [s].
 
     Attributes:
-        over: "horizon", the motion proper, or "all", the hold as well.
+        over: "horizon", up to the horizon, or "all", which includes the hold.
 
     Raises:
         LevadeError: If a joint has a speed limit of zero.
@@ -103,7 +102,7 @@ class SpeedLimitExcess:
     over: Over = "horizon"
 
     def __call__(self, trajectories: Trajectories) -> Array:
-        """(n,) [s]."""
+        """Compute the cost [s], shape (n,)."""
         _check_positive("speed", trajectories.limits.velocity)
         rows = rows_over(trajectories, self.over)
         share = np.abs(trajectories.joint_velocity[:, rows]) / trajectories.limits.velocity

@@ -1,4 +1,4 @@
-"""What a motion leaves of the hardware's limits at its tightest instant, as `levade check` measures it."""
+"""The slack to the hardware's limits at the tightest instant, as `levade check` measures it."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ _WANTED = ("angle", "speed", "torque_speed", "midplane", "self_distance")
 
 @dataclass(frozen=True)
 class Margins:
-    """Squared shortfall of the margins that are wanted, each as a multiple of itself, over joints and kinds of limit [-].
+    """Squared shortfall of required margins, each as a multiple of itself, over joints and kinds of limit [-].
 
-    A joint that just reaches a limit costs 1; one that leaves the margin costs nothing. It is the extreme over time
-    that counts, not how long: the excess of an integral that is weighed against other costs never quite goes.
+    A joint that just reaches a limit costs 1; one that keeps the margin costs nothing. The extreme over time counts, not its
+    duration, because an integral that competes with other costs never quite vanishes. None leaves a margin out, and joints
+    without a limit always keep it.
 
     Attributes:
-        angle: [rad] to the ends of the range.
-        speed: Share of the speed limit.
-        torque_speed: Share of the stall torque to the actuator's line |torque| / stall_torque + |speed| / no_load_speed
-            = 1 while driving; a drive is beyond it where its torque lags behind its speed.
-        midplane: [m], how far each foot stays on its own side of the trunk's middle plane: legs that do not cross do
-            not collide.
-        self_distance: [m], between parts of the robot. None for what does not count; joints without a limit never miss
-            its margin.
-        over: "horizon", the motion proper, or "all", the hold as well.
+        angle: Margin to the ends of the range [rad].
+        speed: Margin to the speed limit, as a share of it.
+        torque_speed: Margin to the actuator's line |torque| / stall_torque + |speed| / no_load_speed = 1 while driving, as a
+            share. A drive can be beyond it, because its torque lags behind its speed.
+        midplane: How far each foot stays on its own side of the trunk's middle plane [m]. Legs that do not cross do not
+            collide.
+        self_distance: Distance between parts of the robot [m].
+        over: "horizon", up to the horizon, or "all", which includes the hold.
     """
 
     unit: ClassVar[str] = "-"
@@ -61,7 +61,7 @@ class Margins:
         return self.self_distance
 
     def __call__(self, trajectories: Trajectories) -> Array:
-        """(n,) [-]."""
+        """Compute the cost [-], shape (n,)."""
         rows, limits = rows_over(trajectories, self.over), trajectories.limits
         missed = []
         if self.angle is not None:
@@ -87,5 +87,5 @@ class Margins:
 
 
 def _shortfall(left: Array, wanted: float) -> Array:
-    """(n, joints) squares."""
+    """Compute squared shortfalls, shape (n, joints)."""
     return np.square(np.maximum(wanted - left, 0.0) / wanted)

@@ -1,4 +1,4 @@
-"""How far any quantity of the success criteria is from where it should be: a criterion as a cost."""
+"""A criterion as a cost: how far a quantity is from its target or bounds."""
 
 from __future__ import annotations
 
@@ -21,15 +21,14 @@ class Miss:
     """Squared distance of a quantity from a target, or from the nearest bound, as a multiple of ``scale`` [-].
 
     Attributes:
-        quantity: What is judged, as in `levade.costs.Criterion`.
+        quantity: The quantity, as in `levade.costs.Criterion`.
         target: Required value.
         minimum: Required lower bound, instead of a target.
         maximum: Required upper bound, instead of a target.
-        legs: Legs that a quantity of the feet looks at.
-        tolerance: Distance from the target that costs nothing; the excess counts.
-        at: When it is judged. Over the hold, and over the whole motion up to the horizon ("motion"), the cost is the mean of
-            the squares. "max" and "min" look at the largest and the smallest value of all that was simulated: the apex of a
-            jump.
+        legs: Legs of a quantity of the feet.
+        tolerance: Distance from the target that costs nothing; only the excess counts.
+        at: When it counts. Over the hold, and over the whole motion up to the horizon ("motion"), the cost is the mean of the
+            squares. "max" and "min" use the largest and the smallest simulated value, such as the apex of a jump.
         scale: Distance that costs 1, in the quantity's unit.
     """
 
@@ -68,7 +67,7 @@ class Miss:
         return self._criterion.clearance
 
     def __call__(self, trajectories: Trajectories) -> Array:
-        """(n,) [-]."""
+        """Compute the cost [-], shape (n,)."""
         rows = slice(0, trajectories.horizon_steps) if self.at == "motion" else None
         error = np.abs(self._criterion.deviations(trajectories, rows))
         squared = np.square(np.maximum(error - self.tolerance, 0.0) / self.scale)

@@ -1,9 +1,9 @@
-"""How far the trunk is from a required orientation (eq. 7, first part).
+"""The distance of the trunk from a required orientation (eq. 7, first part).
 
-The paper subtracts roll, pitch and yaw. Those angles jump where the motions of interest go: at pitch = +-90 degrees,
-and when the robot goes over. Here each choice of required angles is measured by a rotation angle that is continuous
-there, and equals the paper's difference to first order near the target: for several angles at once if the target is
-level (elsewhere roll and yaw are no independent rotations, and their plain differences measure none).
+The paper subtracts roll, pitch and yaw. Those angles jump where motions of interest go: at pitch = +-90 degrees, and when the
+robot turns over. Here each choice of required angles has a rotation angle that is continuous there, and equals the paper's
+difference to first order near the target. For several angles at once that holds if the target is level. Elsewhere roll and yaw
+are not independent rotations, and their plain differences measure none.
 """
 
 from __future__ import annotations
@@ -23,24 +23,24 @@ from levade.trajectory import Trajectories
 
 @dataclass(frozen=True)
 class Orientation:
-    """Squared angle [rad^2] between the trunk's orientation and the required one; angles left out are free.
+    """Squared angle [rad^2] between the trunk's orientation and the required one. Angles that are left out are free.
 
     - roll, pitch and yaw: the angle of the one rotation that takes the trunk to the goal (geodesic distance on SO(3)).
-    - roll and pitch: the smallest such angle over all yaws, which is the angle between the world's up as the trunk sees
-      it and as it would see it at the goal. Upside down is pi away from level, by whichever way the robot got there.
-    - pitch and yaw: the smallest over all rotations about the trunk's x axis: the angle between the nose directions.
-    - pitch: difference of the z-y-x pitch while the trunk's top looks up (abs(roll) <= pi/2). Beyond, the z-y-x pitch
-      runs backwards: a robot that fell over backwards to -120 degrees reads -60 degrees, roll 180. So there the squared
-      difference goes over, in the share -cos(roll), to that of the pitch counted on past the vertical (-120 degrees):
-      upside down is not mistaken for the goal, and nothing jumps on the way. Lying on the side is free, as roll is.
-    - roll, yaw, or both: wrapped differences of the z-y-x angles. These are not unique at pitch = +-pi/2: for motions
-      that pass there, ask for pitch too.
+    - roll and pitch: the smallest such angle over all yaws. It is the angle between the world's up in the trunk's axes now and
+      at the goal. Upside down is pi away from level, in every direction.
+    - pitch and yaw: the smallest angle over all rotations about the trunk's x axis, between the nose directions.
+    - pitch: difference of the z-y-x pitch while the trunk's top looks up (abs(roll) <= pi/2). Beyond that the z-y-x pitch runs
+      backwards: a robot that fell over backwards to -120 degrees has -60 degrees and roll 180. So there the squared difference
+      blends, with the share -cos(roll), into that of the pitch counted past the vertical (-120 degrees). Upside down is not
+      mistaken for the goal, and nothing jumps. Lying on the side is free, as roll is.
+    - roll, yaw, or both: wrapped differences of the z-y-x angles. These are not unique at pitch = +-pi/2. For motions that pass
+      there, also require pitch.
 
     Attributes:
         roll: Required roll [rad], intrinsic z-y-x; None is free.
         pitch: Required pitch [rad], intrinsic z-y-x; None is free. Nose up is negative. It may go beyond +-pi/2.
         yaw: Required yaw [rad], intrinsic z-y-x; None is free.
-        at: When it is judged; over the hold it is the mean.
+        at: When it counts; over the hold it is the mean.
         tolerance: Angle that costs nothing [rad]; the excess is squared.
     """
 
@@ -61,12 +61,12 @@ class Orientation:
         return quaternion_from_roll_pitch_yaw(self.roll or 0.0, self.pitch or 0.0, self.yaw or 0.0)
 
     def __call__(self, trajectories: Trajectories) -> Array:
-        """(n,) [rad^2]."""
+        """Compute the cost [rad^2], shape (n,)."""
         quaternion = trajectories.trunk_quaternion[:, rows_at(trajectories, self.at)]
         return mean_over_rows(beyond(self._squared(quaternion), self.tolerance))
 
     def _squared(self, quaternion: Array) -> Array:
-        """(..., 4) to (...)."""
+        """Compute squared angles, shape (...), of quaternions, shape (..., 4)."""
         roll, pitch, yaw = (angle is not None for angle in (self.roll, self.pitch, self.yaw))
         if roll and pitch and yaw:
             return geodesic(quaternion, self._goal) ** 2
@@ -90,12 +90,12 @@ class Orientation:
 
 
 def wrap(angle: Array) -> Array:
-    """Angles [rad] to [-pi, pi)."""
+    """Wrap angles [rad] to [-pi, pi)."""
     return (angle + math.pi) % (2 * math.pi) - math.pi
 
 
 def geodesic(a: Array, b: Array) -> Array:
-    """Angle [rad], 0 to pi, of the rotation between the attitudes of two quaternions (..., 4).
+    """Compute the angle of the rotation between the attitudes of two quaternions [rad], 0 to pi, shape (..., 4) each.
 
     It is exact near 0 and near pi: the norm of the rotation vector log(B'A). Half that angle lies between the quaternions as
     vectors, up to their sign.
@@ -105,12 +105,15 @@ def geodesic(a: Array, b: Array) -> Array:
 
 
 def angle_between(a: Array, b: Array) -> Array:
-    """Angle [rad], 0 to pi, between unit vectors (..., 3), exact near 0 and near pi."""
+    """Compute the angle between unit vectors, shape (..., 3) each [rad], 0 to pi, exact near 0 and near pi."""
     return 2.0 * np.arctan2(np.linalg.norm(a - b, axis=-1), np.linalg.norm(a + b, axis=-1))
 
 
 def world_up(quaternion: Array) -> Array:
-    """(..., 4) to (..., 3): the world's up in trunk axes, the third row of the rotation matrix."""
+    """Return the world's up in trunk axes, shape (..., 3), for quaternions, shape (..., 4).
+
+    It is the third row of the rotation matrix.
+    """
     w, x, y, z = components(quaternion)
     up = np.empty((*quaternion.shape[:-1], 3))
     up[..., 0] = 2 * (x * z - w * y)
@@ -120,16 +123,16 @@ def world_up(quaternion: Array) -> Array:
 
 
 def nose(quaternion: Array) -> Array:
-    """(..., 4) to (..., 3): the trunk's x axis in the world, the first column of the rotation matrix."""
+    """Return the trunk's x axis in the world, shape (..., 3): the first column of the rotation matrix, from shape (..., 4)."""
     w, x, y, z = components(quaternion)
     return np.stack([1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)], axis=-1)
 
 
 def pitch_past_vertical(quaternion: Array) -> Array:
-    """(..., 4) to (...): pitch [rad] in [-pi, pi), counted on past the vertical where the trunk's top looks down.
+    """Compute the pitch [rad] in [-pi, pi), counted past the vertical if the trunk's top looks down, from shape (..., 4).
 
-    The z-y-x pitch while abs(roll) <= pi/2. A robot that rears past the vertical goes continuously from -89 to -91
-    degrees; it jumps only where the trunk rolls past its side. Upside down and level is +-pi.
+    It is the z-y-x pitch while abs(roll) <= pi/2. A robot that rears past the vertical goes continuously from -89 to -91
+    degrees. The pitch only jumps where the trunk rolls past its side. Upside down and level is +-pi.
     """
     up = world_up(quaternion)
     upright = _zyx_pitch(up)
@@ -141,7 +144,7 @@ def _zyx_pitch(up: Array) -> Array:
 
 
 def quaternion_from_roll_pitch_yaw(roll: float, pitch: float, yaw: float) -> Array:
-    """(4,) w-x-y-z of intrinsic z-y-x angles [rad]."""
+    """Return the quaternion w-x-y-z, shape (4,), of intrinsic z-y-x angles [rad]."""
     (cr, cp, cy), (sr, sp, sy) = ([f(a / 2) for a in (roll, pitch, yaw)] for f in (math.cos, math.sin))
     return np.array(
         [

@@ -1,4 +1,4 @@
-"""How far the trunk is from a required place (eq. 7, second part)."""
+"""The distance of the trunk from a required position (eq. 7, second part)."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from levade.trajectory import Trajectories
 
 @dataclass(frozen=True)
 class Position:
-    """Squared distance [m^2] of the trunk's centre of mass from the required place; coordinates left out are free.
+    """Squared distance [m^2] of the trunk's centre of mass from a required position. Coordinates that are left out are free.
 
     Attributes:
         x: Required coordinate [m], world axes; None is free.
         y: Required coordinate [m], world axes; None is free.
         z: Required coordinate [m], world axes; None is free.
-        at: When it is judged; over the hold it is the mean.
+        at: When it counts; over the hold it is the mean.
         tolerance: Distance that costs nothing [m]; the excess is squared.
     """
 
@@ -35,6 +35,6 @@ class Position:
         check_tolerance("position", self.tolerance)
 
     def __call__(self, trajectories: Trajectories) -> Array:
-        """(n,) [m^2]."""
+        """Compute the cost [m^2], shape (n,)."""
         position = trajectories.trunk_com_position(rows_at(trajectories, self.at))
         return squared_distance(position, (self.x, self.y, self.z), self.tolerance)

@@ -1,4 +1,4 @@
-"""How far the joints are from a required final posture, which the paper leaves to future work."""
+"""The distance of the joints from a required final posture, which the paper leaves to future work."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from levade.trajectory import Trajectories
 
 @dataclass(frozen=True)
 class Posture:
-    """Sum over the joints of the squared distance [rad^2] from a required posture; joints set to None are free.
+    """Sum over the joints of the squared distance [rad^2] from a required posture. Joints set to None are free.
 
     Attributes:
-        position: One angle [rad] per joint, in the robot's joint order.
-        at: When it is judged; over the hold it is the mean.
+        position: One angle per joint [rad], in the robot's joint order.
+        at: When it counts; over the hold it is the mean.
 
     Raises:
         LevadeError: If the robot has another number of joints.
@@ -32,7 +32,7 @@ class Posture:
         check_target("posture", **{f"position[{i}]": angle for i, angle in enumerate(self.position)})
 
     def __call__(self, trajectories: Trajectories) -> Array:
-        """(n,) [rad^2]."""
+        """Compute the cost [rad^2], shape (n,)."""
         joints = trajectories.joint_position.shape[2]
         if len(self.position) != joints:
             raise LevadeError(

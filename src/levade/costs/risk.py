@@ -1,4 +1,4 @@
-"""One number for the costs of a candidate on many robots: their mean, the mean of the worst of them, or the worst."""
+"""Reduce a candidate's costs on many robots to one: their mean, the mean of the worst, or the worst."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ def risk(cost: Array, known: NDArray[np.bool_], *, measure: Measure, tail: float
     Args:
         cost: Costs of whole roll-outs, shape (n, m).
         known: Which of them are known, shape (n, m); at least one per candidate.
-        measure: "mean"; "worst"; or "cvar", the mean of the worst share ``tail`` (at least one) of them: the
-            conditional value at risk of Rockafellar and Uryasev, Journal of Risk 2 (2000), of the sample.
-        tail: Share of the roll-outs that "cvar" looks at.
+        measure: "mean"; "worst"; or "cvar", the mean of the worst share ``tail`` (at least one) of them: the conditional value
+            at risk of Rockafellar and Uryasev, Journal of Risk 2 (2000), of the sample.
+        tail: Share of the roll-outs for "cvar".
 
     Returns:
         Costs, shape (n,).
@@ -41,11 +41,16 @@ def risk(cost: Array, known: NDArray[np.bool_], *, measure: Measure, tail: float
 
 
 def ranked_behind(cost: Array, kept: NDArray[np.bool_]) -> Array:
-    """Raise the costs of candidates that were eliminated early, so that they rank behind all that completed every roll-out.
+    """Raise the costs of candidates that were eliminated early, so that they rank behind all others, in the same order.
 
-    Among themselves they keep their order.
+    In a race, the few roll-outs of an eliminated candidate do not compare with those of one that ran them all.
 
-    For races: who was left behind after a few roll-outs is not compared by these with who ran them all.
+    Args:
+        cost: Costs, shape (n,).
+        kept: Which candidates completed every roll-out, shape (n,).
+
+    Returns:
+        Costs, shape (n,).
     """
     if kept.all() or not kept.any():
         return cost

@@ -1,4 +1,4 @@
-"""Which rows of the trajectories a term looks at, and the checks that all terms share."""
+"""Rows of the trajectories for terms, and the checks that all terms share."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from levade.errors import LevadeError
 from levade.trajectory import Trajectories
 
 At = Literal["horizon", "end", "hold"]
-"""When a terminal term looks: at the horizon T, in the last row (the end of the hold), or over the whole hold."""
+"""When a terminal term counts: at the horizon T, in the last row (the end of the hold), or over the whole hold."""
 
 Over = Literal["horizon", "all"]
-"""What a running term integrates over: the motion proper, [0, T], or the hold as well."""
+"""What a running term integrates over: up to the horizon, [0, T], or including the hold."""
 
 
 def rows_at(trajectories: Trajectories, at: At) -> slice:
-    """The rows of a terminal term, one for "horizon" and "end". LevadeError for "hold" where there is none."""
+    """Return the rows of a terminal term, one for "horizon" and "end". Raises LevadeError for "hold" if there is none."""
     if at == "horizon":
         return slice(trajectories.horizon_steps - 1, trajectories.horizon_steps)
     if at == "end":
@@ -32,24 +32,24 @@ def rows_at(trajectories: Trajectories, at: At) -> slice:
 
 
 def rows_over(trajectories: Trajectories, over: Over) -> slice:
-    """The rows of a running term."""
+    """Return the rows of a running term."""
     if over not in ("horizon", "all"):
         raise LevadeError(f"over: {over!r} is unknown; horizon or all")
     return slice(0, trajectories.horizon_steps if over == "horizon" else trajectories.steps)
 
 
 def integral(rate: Array, trajectories: Trajectories, rows: slice) -> Array:
-    """Integrate over time, and sum over all but the trials.
+    """Integrate over time, and sum over all dimensions except the trials.
 
-    Each trial's sum is over its own contiguous row, so that its bits do not depend on the batch it is in.
+    Each trial's sum is over its own contiguous row, so its bits do not depend on the batch.
 
     Args:
-        rate: At the rows, shape (n, rows, ...).
-        trajectories: Of n trials.
-        rows: Which of their rows.
+        rate: Values at the rows, shape (n, rows, ...).
+        trajectories: The n trials.
+        rows: Their rows.
 
     Returns:
-        Shape (n,), in the unit of the rate times s.
+        Integrals in the unit of the rate times s, shape (n,).
     """
     counted = trajectories.counted(rows)
     if counted is not None:
@@ -58,7 +58,7 @@ def integral(rate: Array, trajectories: Trajectories, rows: slice) -> Array:
 
 
 def mean_in(values: Array, trajectories: Trajectories, rows: slice) -> Array:
-    """The mean over those of the rows that belong to each trial: (n, rows) to (n,)."""
+    """Average values, shape (n, rows), over the rows that belong to each trial. Returns shape (n,)."""
     counted = trajectories.counted(rows)
     if counted is None:
         return mean_over_rows(values)
@@ -66,15 +66,15 @@ def mean_in(values: Array, trajectories: Trajectories, rows: slice) -> Array:
 
 
 def squared_distance(values: Array, target: tuple[float | None, ...], tolerance: float = 0.0) -> Array:
-    """Mean over the rows of the squared distance to the target, beyond the tolerance, in the components that have one.
+    """Average over the rows the squared distance to the target, beyond the tolerance, in the components that have one.
 
     Args:
-        values: (n, rows, components).
-        target: Required value of each component; None where it is free.
+        values: Values, shape (n, rows, components).
+        target: Required value of each component; None if it is free.
         tolerance: Distance that costs nothing.
 
     Returns:
-        (n,).
+        Means, shape (n,).
     """
     # one by one: numpy's own sum takes another order for a single trial, and would change its last bit
     squares = np.zeros(values.shape[:-1])
@@ -85,19 +85,19 @@ def squared_distance(values: Array, target: tuple[float | None, ...], tolerance:
 
 
 def beyond(squared: Array, tolerance: float) -> Array:
-    """Squared distances to the squares of what is beyond the tolerance."""
+    """Turn squared distances into squares of the excess over a tolerance."""
     if tolerance == 0:
         return squared
     return np.maximum(0.0, np.sqrt(squared) - tolerance) ** 2
 
 
 def mean_over_rows(values: Array) -> Array:
-    """(n, rows) to (n,)."""
+    """Average over rows: (n, rows) to (n,)."""
     return np.ascontiguousarray(values).mean(axis=1)
 
 
 def check_target(term: str, **target: float | None) -> None:
-    """LevadeError unless at least one of the targets is given and all that are given are finite."""
+    """Raise LevadeError unless at least one target is given, and all given targets are finite."""
     if all(value is None for value in target.values()):
         raise LevadeError(f"{term}: no target; give at least one of {', '.join(target)}")
     for name, value in target.items():
@@ -106,6 +106,6 @@ def check_target(term: str, **target: float | None) -> None:
 
 
 def check_tolerance(term: str, tolerance: float) -> None:
-    """LevadeError unless the tolerance is finite and not negative."""
+    """Raise LevadeError unless the tolerance is finite and not negative."""
     if not (math.isfinite(tolerance) and tolerance >= 0):
         raise LevadeError(f"{term}.tolerance: {tolerance} should be 0 or more")

@@ -1,4 +1,4 @@
-"""Whether a trial did what was required, in SI units, apart from what it cost."""
+"""Judge whether trials meet their requirements, in SI units, independent of their costs."""
 
 from __future__ import annotations
 
@@ -52,14 +52,14 @@ QUANTITIES: dict[str, str] = {
 
 
 class Measure(str):
-    """A quantity of one's own: a name that knows its unit and how to measure it.
+    """A quantity in Python: a name, a unit and a function.
 
-        knee = Measure("knee", "rad", lambda t, rows: t.joint_position[:, rows, 2])
-        Criterion(knee, target=-1.6, tolerance=0.1)
+            knee = Measure("knee", "rad", lambda t, rows: t.joint_position[:, rows, 2])
+            Criterion(knee, target=-1.6, tolerance=0.1)
 
     Attributes:
-        unit: SI unit, for texts. One that ends in "/s" is a speed, which dies down while a robot comes to rest.
-        function: From trajectories and rows, a slice, to values of shape (n, rows).
+        unit: SI unit, for texts. A unit that ends in "/s" marks a speed, which decays while a robot comes to rest.
+        function: Function of trajectories and a slice of rows that returns values, shape (n, rows).
     """
 
     unit: str
@@ -86,7 +86,7 @@ else:
 
 
 def unit_of(quantity: str) -> str:
-    """The unit of a quantity, built in or one's own."""
+    """Return the unit of a quantity, built in or a `Measure`."""
     return quantity.unit if isinstance(quantity, Measure) else QUANTITIES[quantity]
 
 
@@ -100,35 +100,35 @@ Legs = str | tuple[str, ...]
 
 @dataclass(frozen=True)
 class Criterion:
-    """One thing that a motion has to achieve: a target within a tolerance, or a minimum and/or a maximum.
+    """A requirement on a motion: a target within a tolerance, or a minimum and/or a maximum.
 
     Quantities of the trunk and the robot:
 
     - ``roll``, ``yaw`` [rad]: z-y-x angles. They are not unique at pitch = +-pi/2, so use tilt for motions that end near there.
-    - ``pitch`` [rad]: z-y-x, nose up negative. It is counted on past the vertical where the trunk's top looks down, so that a
-      robot on its back never passes for one on its feet (`levade.costs.orientation.pitch_past_vertical`).
+    - ``pitch`` [rad]: z-y-x, nose up negative. It is counted past the vertical if the trunk's top looks down, so a robot on its
+      back never counts as one on its feet (`levade.costs.orientation.pitch_past_vertical`).
     - ``tilt`` [rad]: angle between the trunk's up and the world's, 0 to pi.
     - ``x``, ``y``, ``height`` [m]: the trunk's centre of mass, world axes.
     - ``travel`` [m]: horizontal distance of the trunk's centre of mass from where the motion began.
     - ``speed``, ``vertical_speed`` [m/s]: norm, and upward component, of the velocity of the trunk's centre of mass.
     - ``angular_speed`` [rad/s]: norm of the trunk's angular velocity.
-    - ``angle_margin`` [rad], ``speed_margin``, ``torque_speed_margin`` [share of the limit]: what the joint with the least
-      slack leaves of its range, its speed limit, its actuator's line (`levade.trajectory.JointLimits`).
-    - ``self_distance`` [m]: the least distance between two parts of the robot that may touch; negative where they overlap.
-      Parts that are farther apart than the clearance count as that far.
-    - ``duration`` [s]: the horizon T, where it is a decision of the search.
-    - ``lowest_foot``, ``highest_foot`` [m]: height over z = 0 of the lowest, or highest, sole among the ``legs``.
-    - ``trunk_clearance`` [m]: height over z = 0 of the lowest point of the trunk, and of what is fixed to it.
+    - ``angle_margin`` [rad], ``speed_margin``, ``torque_speed_margin`` [share of the limit]: slack of the tightest joint to its
+      range, its speed limit, its actuator's line (`levade.trajectory.JointLimits`).
+    - ``self_distance`` [m]: least distance between two parts of the robot that may touch, negative if they overlap. Parts that
+      are farther apart than the clearance count as that far.
+    - ``duration`` [s]: the horizon T, if the search chooses it.
+    - ``lowest_foot``, ``highest_foot`` [m]: height over z = 0 of the lowest, or highest, sole of the ``legs``.
+    - ``trunk_clearance`` [m]: height over z = 0 of the lowest point of the trunk, including parts fixed to it.
 
     Attributes:
-        quantity: One of these, or a `Measure` of your own.
+        quantity: One of these, or a `Measure`.
         target: Required value. Angles wrap.
-        tolerance: Distance from the target that still counts.
+        tolerance: Largest distance from the target.
         minimum: Required lower bound, instead of a target.
         maximum: Required upper bound, instead of a target.
-        at: At the horizon T ("horizon"); at the end; the largest ("max") or smallest ("min") value of the whole trial, hold
-            included; or at every row of the hold ("hold": the error is that of the worst row).
-        legs: Legs that a quantity of the feet looks at: see `Legs`.
+        at: "horizon": at the horizon T. "end": at the end. "max" or "min": the largest or smallest value of the whole trial,
+            including the hold. "hold": at every row of the hold; the error is that of the worst row.
+        legs: Legs of a quantity of the feet: see `Legs`.
     """
 
     quantity: AnyQuantity
@@ -172,21 +172,21 @@ class Criterion:
 
     @property
     def is_speed(self) -> bool:
-        """Whether the quantity is one of those that die down while a robot comes to rest."""
+        """Whether the quantity decays while a robot comes to rest."""
         return unit_of(self.quantity).endswith("/s")
 
     def error(self, trajectories: Trajectories) -> Array:
-        """Signed errors in the quantity's SI unit, shape (n,).
+        """Compute signed errors in the quantity's SI unit, shape (n,).
 
-        An error is value - target, wrapped for angles; for bounds it is what is beyond the bound, and 0 inside.
-        Always finite: `levade.costs.DIVERGED` for trials that diverged.
+        An error is value - target, wrapped for angles. For bounds it is the excess beyond the bound, and 0 inside. It is always
+        finite: `levade.costs.DIVERGED` for trials that diverged.
         """
         return self.judge(trajectories)[0]
 
     def judge(self, trajectories: Trajectories) -> tuple[Array, Array]:
-        """`error`, and with it the room (n,) [SI] that each trial leaves to the nearer bound at its worst instant.
+        """Compute `error`, and the slack of each trial to the nearer bound at its worst instant [SI], shape (n,) each.
 
-        Room is negative beyond a bound, and NaN where a trial is broken or there is a target instead.
+        The slack is negative beyond a bound, and NaN for a broken trial or a target.
         """
         with np.errstate(all="ignore"):  # of broken trials, see below
             value = self._values(trajectories)
@@ -199,15 +199,15 @@ class Criterion:
             return np.where(bad, DIVERGED, within(error, DIVERGED)), np.where(bad, np.nan, room)
 
     def holds(self, trajectories: Trajectories) -> NDArray[np.bool_]:
-        """(n,) whether each trial meets the criterion; never one that diverged."""
+        """Tell whether each trial meets the criterion, shape (n,). A trial that diverged does not."""
         return self.met(self.error(trajectories))
 
     def met(self, error: Array) -> NDArray[np.bool_]:
-        """Whether errors, as `error` returns them, are within the tolerance; none is allowed beyond a bound."""
+        """Tell whether errors, as `error` returns them, are within the tolerance. Beyond a bound no error is allowed."""
         return np.abs(error) <= (self.tolerance or 0.0)
 
     def deviations(self, trajectories: Trajectories, rows: slice | None = None) -> Array:
-        """(n, rows) signed errors: those at the criterion's instants, or at given rows instead."""
+        """Compute signed errors at the criterion's instants, or at given rows instead, shape (n, rows)."""
         return self._deviation(self._values(trajectories, rows))
 
     def _deviation(self, value: Array) -> Array:
@@ -218,7 +218,7 @@ class Criterion:
         return value - np.clip(value, low, high)
 
     def _values(self, trajectories: Trajectories, rows: slice | None = None) -> Array:
-        """(n, rows), the quantity at the criterion's instants, or at given rows instead."""
+        """Compute the quantity at the criterion's instants, or at given rows instead, shape (n, rows)."""
         if rows is not None:
             return quantity_values(self.quantity, trajectories, rows, self.legs)
         if self.at in ("max", "min"):
@@ -228,7 +228,7 @@ class Criterion:
 
 
 def _worst(deviation: Array) -> Array:
-    """(n,), the largest of (n, rows), with its sign."""
+    """Return the largest value of each row with its sign, shape (n,), from (n, rows)."""
     if deviation.shape[1] == 1:
         return deviation[:, 0]
     worst = np.argmax(np.abs(deviation), axis=1)[:, None]
@@ -236,7 +236,7 @@ def _worst(deviation: Array) -> Array:
 
 
 def quantity_values(quantity: AnyQuantity, trajectories: Trajectories, rows: slice, legs: Legs = "all") -> Array:
-    """(n, rows) of a quantity, in its SI unit, as `Criterion` says."""
+    """Compute a quantity in its SI unit, as `Criterion` describes, shape (n, rows)."""
     if isinstance(quantity, Measure):
         return _measured(quantity, trajectories, rows)
     if quantity in OF_FEET:
@@ -261,7 +261,7 @@ def quantity_values(quantity: AnyQuantity, trajectories: Trajectories, rows: sli
 
 
 def _speed(quantity: str, trajectories: Trajectories, rows: slice) -> Array:
-    """(n, rows), of the trunk's centre of mass, or of its turning."""
+    """Compute a speed of the trunk's centre of mass, or of its rotation, shape (n, rows)."""
     if quantity == "vertical_speed":
         return trajectories.trunk_com_velocity(rows)[..., 2]
     if quantity == "speed":
@@ -270,7 +270,7 @@ def _speed(quantity: str, trajectories: Trajectories, rows: slice) -> Array:
 
 
 def _angle(quantity: str, trajectories: Trajectories, rows: slice) -> Array:
-    """(n, rows), of the trunk's attitude."""
+    """Compute an angle of the trunk's attitude, shape (n, rows)."""
     quaternion = trajectories.trunk_quaternion[:, rows]
     if quantity == "pitch":
         return pitch_past_vertical(quaternion)
@@ -280,7 +280,7 @@ def _angle(quantity: str, trajectories: Trajectories, rows: slice) -> Array:
 
 
 def _measured(measure: Measure, trajectories: Trajectories, rows: slice) -> Array:
-    """(n, rows) of a measure of one's own. LevadeError if it returns another shape."""
+    """Compute a `Measure`, shape (n, rows). Raises LevadeError if it returns another shape."""
     values = np.asarray(measure.function(trajectories, rows), dtype=np.float64)
     expected = (trajectories.n, len(range(*rows.indices(trajectories.steps))))
     if values.shape != expected:
@@ -289,7 +289,7 @@ def _measured(measure: Measure, trajectories: Trajectories, rows: slice) -> Arra
 
 
 def _margin(quantity: str, trajectories: Trajectories, rows: slice) -> Array:
-    """(n, rows), of the joint that has least left, or of the parts that are nearest."""
+    """Compute the slack of the tightest joint, or of the nearest parts, shape (n, rows)."""
     if quantity == "self_distance":
         return self_distance(trajectories, rows)
     limits = trajectories.limits
@@ -303,7 +303,7 @@ def _margin(quantity: str, trajectories: Trajectories, rows: slice) -> Array:
 
 
 def chosen_legs(trajectories: Trajectories, legs: Legs) -> list[LegGeometry]:
-    """The legs that a criterion or a term names. LevadeError for a name that is none."""
+    """Return the legs that a criterion or a term names. Raises LevadeError for an unknown name."""
     names = (legs,) if isinstance(legs, str) else legs
     standing = [leg for leg in trajectories.legs if leg.stands]
     valid = {name for leg in standing for name in ("all", leg.end, leg.side)} | {leg.name for leg in trajectories.legs}
@@ -321,12 +321,12 @@ def chosen_legs(trajectories: Trajectories, legs: Legs) -> list[LegGeometry]:
 
 
 def errors(criteria: Mapping[str, Criterion], trajectories: Trajectories) -> dict[str, Array]:
-    """Error of each criterion: name -> (n,), see `Criterion.error`."""
+    """Compute the error of each criterion: name -> errors, shape (n,). See `Criterion.error`."""
     return {name: criterion.error(trajectories) for name, criterion in criteria.items()}
 
 
 def success(criteria: Mapping[str, Criterion], trajectories: Trajectories) -> NDArray[np.bool_]:
-    """(n,) whether each trial meets every criterion. Without criteria every trial does that did not diverge."""
+    """Tell whether each trial meets every criterion, shape (n,). Without criteria, every trial does that did not diverge."""
     met = ~trajectories.diverged
     for criterion in criteria.values():
         met = met & criterion.holds(trajectories)

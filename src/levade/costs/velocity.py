@@ -1,4 +1,4 @@
-"""How fast the robot still is: final velocities, which the paper leaves to future work."""
+"""Final velocities, which the paper leaves to future work."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Frame = Literal["world", "trunk", "heading"]
 
 @dataclass(frozen=True)
 class LinearVelocity:
-    """Squared difference [m^2/s^2] from a required velocity of the trunk's centre of mass, components left out are free.
+    """Squared difference [m^2/s^2] from a required velocity of the trunk's centre of mass.
 
     Attributes:
         x: Required component [m/s]; None is free.
@@ -35,7 +35,7 @@ class LinearVelocity:
         z: Required component [m/s]; None is free.
         frame: Axes of x, y and z, see `Frame`; "heading" means forward, left and up.
         tolerance: Difference that costs nothing [m/s].
-        at: When it is judged; over the hold it is the mean.
+        at: When it counts; over the hold it is the mean.
     """
 
     unit: ClassVar[str] = "m^2/s^2"
@@ -53,7 +53,7 @@ class LinearVelocity:
         _check_frame("linear_velocity", self.frame)
 
     def __call__(self, trajectories: Trajectories) -> Array:
-        """(n,) [m^2/s^2]."""
+        """Compute the cost [m^2/s^2], shape (n,)."""
         rows = rows_at(trajectories, self.at)
         velocity = trajectories.trunk_com_velocity(rows)
         if self.frame != "world":
@@ -63,15 +63,15 @@ class LinearVelocity:
 
 @dataclass(frozen=True)
 class AngularVelocity:
-    """Squared difference [rad^2/s^2] from a required angular velocity of the trunk, components left out are free.
+    """Squared difference [rad^2/s^2] from a required angular velocity of the trunk, in trunk axes what a gyroscope measures.
 
     Attributes:
-        x: Required component [rad/s]; None is free. In trunk axes, what a gyroscope reads.
-        y: Required component [rad/s]; None is free. In trunk axes, what a gyroscope reads.
-        z: Required component [rad/s]; None is free. In trunk axes, what a gyroscope reads.
+        x: Required component [rad/s]; None is free.
+        y: Required component [rad/s]; None is free.
+        z: Required component [rad/s]; None is free.
         frame: Axes of x, y and z, see `Frame`.
         tolerance: Difference that costs nothing [rad/s].
-        at: When it is judged; over the hold it is the mean.
+        at: When it counts; over the hold it is the mean.
     """
 
     unit: ClassVar[str] = "rad^2/s^2"
@@ -89,7 +89,7 @@ class AngularVelocity:
         _check_frame("angular_velocity", self.frame)
 
     def __call__(self, trajectories: Trajectories) -> Array:
-        """(n,) [rad^2/s^2]."""
+        """Compute the cost [rad^2/s^2], shape (n,)."""
         rows = rows_at(trajectories, self.at)
         velocity = trajectories.trunk_angular_velocity[:, rows]
         if self.frame != "trunk":
@@ -100,12 +100,12 @@ class AngularVelocity:
 
 @dataclass(frozen=True)
 class JointVelocity:
-    """Sum over the joints of the squared difference from a required joint velocity [rad^2/s^2], which is rest by default.
+    """Sum over the joints of the squared difference [rad^2/s^2] from a required joint velocity, by default rest.
 
     Attributes:
-        velocity: [rad/s] per joint, in the robot's joint order; joints set to None are free. All at rest if left out.
+        velocity: One velocity per joint [rad/s], in the robot's joint order; None is free. All at rest if left out.
         tolerance: Difference of each joint that costs nothing [rad/s].
-        at: When it is judged; over the hold it is the mean.
+        at: When it counts; over the hold it is the mean.
 
     Raises:
         LevadeError: If the robot has another number of joints.
@@ -123,7 +123,7 @@ class JointVelocity:
         check_tolerance("joint_velocity", self.tolerance)
 
     def __call__(self, trajectories: Trajectories) -> Array:
-        """(n,) [rad^2/s^2]."""
+        """Compute the cost [rad^2/s^2], shape (n,)."""
         velocity = trajectories.joint_velocity[:, rows_at(trajectories, self.at)]
         if self.velocity is not None:
             joints = velocity.shape[2]
@@ -137,7 +137,7 @@ class JointVelocity:
 
 
 def _from_world(velocity: Array, quaternion: Array, frame: Frame) -> Array:
-    """A velocity (n, rows, 3) in world axes, in the axes of another frame."""
+    """Turn a velocity in world axes, shape (n, rows, 3), into the axes of another frame."""
     if frame == "world":
         return velocity
     if frame == "trunk":

@@ -1,4 +1,4 @@
-"""Stepping a batch of MuJoCo simulations, some of which may break down."""
+"""Step a batch of MuJoCo simulations, some of which may break down."""
 
 from __future__ import annotations
 
@@ -13,26 +13,27 @@ from numpy.typing import NDArray
 from levade.arrays import Array
 
 STATE = mujoco.mjtState.mjSTATE_INTEGRATION
-"""What a row of a batch's state is."""
+"""Content of a row of a batch's state."""
 
 SENSORS_OFF = int(mujoco.mjtDisableBit.mjDSBL_SENSOR)
 RESET_OFF = int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
-"""Flags of ``opt.disableflags``: a state that has gone bad stops the simulation; it must not start over unnoticed."""
+"""Flags of ``opt.disableflags``: a bad state stops the simulation instead of resetting it unnoticed."""
 
 
 def simulate(
     batch: Batch, rows: Array, ctrl: Array, recorded: Sequence[str]
 ) -> tuple[dict[str, Array], NDArray[np.bool_]]:
-    """The first n simulations of a batch, from their states through all rows of ctrl.
+    """Simulate the first n simulations of a batch, from their states through all rows of ctrl.
 
     Args:
-        batch: The batch to simulate.
-        rows: (1 or n, size of a state).
-        ctrl: (n, steps, nu).
-        recorded: Fields of `mujoco.MjData`.
+        batch: The batch.
+        rows: States, shape (1 or n, size of a state).
+        ctrl: Controls, shape (n, steps, nu).
+        recorded: Fields of `mujoco.MjData` to record.
 
     Returns:
-        Name -> (n, steps, ...), and which simulations broke down: later rows of theirs repeat the last one.
+        Name -> values, shape (n, steps, ...), and which simulations broke down, shape (n,). Later rows of these repeat their
+        last one.
     """
     n, steps = ctrl.shape[:2]
     batch.state[:n] = rows
@@ -66,7 +67,7 @@ def simulate(
 
 @contextmanager
 def quiet() -> Iterator[None]:
-    """Simulations that break down are reported to the caller, not to standard error and a MUJOCO_LOG.TXT."""
+    """Report simulations that break down to the caller, not to standard error and a MUJOCO_LOG.TXT."""
     before = mujoco.get_mju_user_warning()
     mujoco.set_mju_user_warning(_ignore)
     try:

@@ -1,16 +1,16 @@
-"""How far the robot's parts are from each other: contacts that MuJoCo finds anyway, and a sensor of the nearest.
+"""Measure how far the robot's parts are from each other, by the contacts that MuJoCo finds and a sensor of the nearest.
 
     measure_clearance(spec, trunk, 0.01)                # before the model is compiled
     engine.rollout(start, reference, record=[SELF_DISTANCE]).self_distance        # (n, steps) [m], at most 0.01
 
-A pair of the robot's shapes counts if the two may touch in the model. So adjacent bodies do not, and neither do bodies that
+A pair of the robot's shapes counts if the two may touch in the model. So adjacent bodies do not count, nor do bodies that
 overlap in the neutral posture, which the robot's model lets pass through each other (`levade.robots.preparing`).
 
 With a clearance, MuJoCo also finds contacts of shapes that are only near each other. They have no force. Each shape of the
-robot has half of the clearance as its ``gap``, and each of the scene as much less. Gaps add up, so contacts with the scene are
-found as before. Spheres and capsules, and boxes that meet these, have the same contacts with a clearance and without, to the
-bit. Where MuJoCo finds contacts by iteration (cylinders, ellipsoids, meshes), the last digits of a depth depend on the gap, so
-a model with a clearance is another model. A clearance of 0 sets no gap, and leaves every motion its bits.
+robot has half of the clearance as its ``gap``, and each shape of the scene as much less. Gaps add up, so contacts with the
+scene are found as before. Spheres and capsules, and boxes that meet these, have the same contacts with and without a clearance,
+to the bit. For shapes whose contacts MuJoCo finds by iteration (cylinders, ellipsoids, meshes), the last digits of a depth
+depend on the gap, so a clearance changes the model. A clearance of 0 sets no gap, and changes no bit of a motion.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ import numpy as np
 from levade.arrays import Array
 
 SELF_DISTANCE = "self_distance"
-"""In what a roll-out records: the least distance between parts of the robot."""
+"""Name of the least distance between parts of the robot, among the quantities that a roll-out records."""
 
 _NAME = "_self_distance"
 """Name of the sensor, and of the number that holds the clearance."""
@@ -33,12 +33,12 @@ _MICRON = 1e-6
 
 
 def measure_clearance(spec: mujoco.MjSpec, trunk: str, clearance: float) -> None:
-    """Add the sensor of the least distance, and gaps so that contacts are found up to a clearance.
+    """Add the sensor of the least distance, and gaps that make contacts within a clearance visible.
 
     Args:
         spec: Robot and scene.
-        trunk: Name of the body that holds all others of the robot.
-        clearance: Distance from which on parts count as apart [m]; 0 to measure depths only.
+        trunk: Name of the body that holds all other bodies of the robot.
+        clearance: Distance from which parts count as apart [m]; 0 to measure only depths.
     """
     clearance = math.ceil(clearance / _MICRON - 1e-9) * _MICRON  # a model's text has six digits
     _widen(spec, clearance)
@@ -56,7 +56,7 @@ _NEAREST = 1  # of contact sensors' ways to choose among contacts
 
 
 def forget_clearance(spec: mujoco.MjSpec) -> None:
-    """Take away what `measure_clearance` added, if it did."""
+    """Remove what `measure_clearance` added, if it did."""
     number = next((one for one in spec.numerics if one.name == _NAME), None)
     if number is None:
         return
@@ -66,7 +66,7 @@ def forget_clearance(spec: mujoco.MjSpec) -> None:
 
 
 def _widen(spec: mujoco.MjSpec, clearance: float) -> None:
-    """Find contacts within the robot from farther away."""
+    """Find contacts within the robot at a larger distance."""
     if not clearance:
         return
     for geom in spec.geoms:
@@ -87,29 +87,38 @@ def with_clearance(xml: str, assets: Mapping[str, bytes], trunk: str, clearance:
 
 
 def clearance_in(model: mujoco.MjModel) -> float | None:
-    """The clearance of a model [m]; None if it measures no distances."""
+    """Return the clearance of a model [m]. None if it measures no distances."""
     number = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_NUMERIC, _NAME)
     return None if number < 0 else float(model.numeric_data[model.numeric_adr[number]])
 
 
 def sensor_address(model: mujoco.MjModel) -> int | None:
-    """Where the sensor is in sensordata; None if there is none."""
+    """Return the address of the sensor in sensordata. None if there is none."""
     sensor = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SENSOR, _NAME)
     return None if sensor < 0 else int(model.sensor_adr[sensor])
 
 
 def distances(sensordata: Array, address: int, clearance: float) -> Array:
-    """What the sensor found at the beginning of each step [m], shape (n, steps), from (n, steps, nsensordata)."""
+    """Read the sensor's values at the beginning of each step [m], shape (n, steps).
+
+    Args:
+        sensordata: Shape (n, steps, nsensordata).
+        address: Address of the sensor.
+        clearance: Distance from which parts count as apart [m].
+
+    Returns:
+        Distances [m], shape (n, steps).
+    """
     found, distance = sensordata[..., address], sensordata[..., address + 1]
     return np.where(found > 0, np.minimum(distance, clearance), clearance)
 
 
 def self_contacts(model: mujoco.MjModel, data: mujoco.MjData) -> Iterator[tuple[int, int, float]]:
-    """The contacts between bodies of the robot: the two bodies, in ascending order, and their distance [m].
+    """Yield contacts between bodies of the robot: the two bodies, in ascending order, and their distance [m].
 
     Args:
         model: Robot and scene.
-        data: After ``mj_collision``.
+        data: Data after ``mj_collision``.
     """
     for contact in data.contact:
         one, other = sorted(int(model.geom_bodyid[geom]) for geom in contact.geom)
@@ -118,14 +127,14 @@ def self_contacts(model: mujoco.MjModel, data: mujoco.MjData) -> Iterator[tuple[
 
 
 def distances_at(model: mujoco.MjModel, configurations: Array) -> Array:
-    """What the sensor would find at given configurations, one by one: for other engines, and for where a simulation ends.
+    """Compute the sensor's values at given configurations, for other engines and for the end of a simulation.
 
     Args:
-        model: After `measure_clearance`.
+        model: Model after `measure_clearance`.
         configurations: Positions of the model, shape (rows, nq).
 
     Returns:
-        Shape (rows,) [m].
+        Distances [m], shape (rows,).
     """
     clearance = clearance_in(model)
     assert clearance is not None

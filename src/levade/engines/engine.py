@@ -1,11 +1,11 @@
-"""What every engine is: a model, a robot in it, and one roll-out. No engine's own code is here.
+"""The interface of every engine: a model, a robot in it, and one roll-out. No engine's own code is here.
 
     engine = make_engine(robot, Scene(), Physics())                 # see `levade.engines.placing`
     engine = ENGINES["mujoco"].make(motion.model_xml, motion.assets, embodiment, physics)
     trajectories = engine.rollout(starts, reference, record=[FOOT_CONTACT_FORCE])
 
-The model is always the one compiled from `Engine.xml`, the text that a motion file keeps. Replaying a motion from its file
-therefore simulates the same model to the last bit.
+The model is always compiled from `Engine.xml`, the text in a motion file. So a replay from the file simulates the same model to
+the last bit.
 """
 
 from __future__ import annotations
@@ -35,16 +35,16 @@ from levade.trajectory import JointReference, Trajectories
 
 @dataclass(frozen=True, eq=False)
 class Trials:
-    """n trials that an engine is to simulate.
+    """Holds n trials that an engine simulates.
 
     Attributes:
         n: Number of trials.
-        starts: Where they start, 1 or n rows.
-        reference: What they are to follow, n rows.
-        commanded: What reaches their servos when, without feedback, 1 or n rows.
-        models: Versions of the model, 1 or n rows; the nominal model if None.
-        correcting: Feedback on them; none if None.
-        ends: Rows after which each needs no more, shape (n,), the longest trial first; None if all need every row.
+        starts: Their starts, 1 or n rows.
+        reference: Their references, n rows.
+        commanded: What the servos receive without feedback, 1 or n rows.
+        models: Versions of the model, 1 or n rows. None for the nominal model.
+        correcting: Feedback on them. None for none.
+        ends: Number of rows that each trial needs, shape (n,), the longest first. None if all need every row.
     """
 
     n: int
@@ -57,7 +57,7 @@ class Trials:
 
 
 class Engine(ABC):
-    """Rolls out joint references of one robot in one scene. Not to be used from several Python threads at once.
+    """Simulates joint references of one robot in one scene. Use it from one Python thread at a time.
 
     An engine adds `_prepare`, `_simulate`, `hold` and `versions`, and a row in `levade.engines.table.ENGINES`.
 
@@ -65,17 +65,17 @@ class Engine(ABC):
         name: The engine's name in the table.
         xml: MJCF text of robot, scene, actuators and contact sensors.
         assets: File name in ``xml`` -> content.
-        embodiment: The robot in it.
+        embodiment: The robot.
         physics: Numerical settings.
-        threads: Number of threads or processes, 0 for one per core. Results do not depend on it.
-        model: MuJoCo's model of ``xml``: for every engine the one description of what it simulates.
-        layout: Where the robot is in the model.
+        threads: Number of threads or processes (0: one per core). Results do not depend on it.
+        model: MuJoCo's model of ``xml``. Every engine simulates what it describes.
+        layout: Addresses of the robot in the model.
         steps: Physics steps of all roll-outs so far, over all trials. A trial that breaks down counts in full.
     """
 
     name: ClassVar[str]
     stops: ClassVar[bool] = False
-    """Whether each trial is simulated no longer than it needs, where their horizons differ."""
+    """Whether each trial ends at its own horizon and hold."""
 
     def __init__(
         self,
@@ -92,10 +92,10 @@ class Engine(ABC):
         Args:
             xml: MJCF text.
             assets: File name in ``xml`` -> content.
-            embodiment: The robot in it.
-            physics: Numerical settings. ``xml`` has those of MuJoCo already.
-            threads: Number of threads or processes, 0 for one per core.
-            model: The compiled model, if there is one already; compiled from ``xml`` if None.
+            embodiment: The robot.
+            physics: Numerical settings. ``xml`` already has those of MuJoCo.
+            threads: Number of threads or processes (0: one per core).
+            model: The compiled model. None compiles ``xml``.
 
         Raises:
             LevadeError: If a library is missing, or the engine cannot simulate the model.
@@ -110,7 +110,7 @@ class Engine(ABC):
 
     @abstractmethod
     def _prepare(self) -> None:
-        """Make what the engine needs besides. Called once, at the end of ``__init__``; raises as that does."""
+        """Make what the engine needs in addition. Called once, at the end of ``__init__``, with the same errors."""
 
     @classmethod
     @abstractmethod
@@ -138,21 +138,22 @@ class Engine(ABC):
     ) -> Trajectories:
         """Simulate n trials. ``starts``, ``reference`` and ``models`` have n rows each, or one row for all trials.
 
-        A trial has the same bits alone and in any batch. Trials of different horizons are simulated each to its own end.
+        A trial has the same bits alone and in any batch. Trials of different horizons each run to their own end.
 
         Args:
-            starts: Where the trials start.
-            reference: What they are to follow.
-            models: Versions of the model; the nominal model if None. A version that differs in nothing agrees with the
-                nominal model to rounding, not to the bit.
-            feedback: Stabiliser that corrects the reference from what each trial senses.
-            sensor_errors: What is added to what is sensed, shape (n, ticks, sensed); see `levade.feedback.SensorErrors`.
-            record: What to record besides: `FOOT_CONTACT_FORCE`, `levade.engines.SELF_DISTANCE`, and names of `bodies` for
+            starts: Starts of the trials.
+            reference: References that they follow.
+            models: Versions of the model. None for the nominal model. A version without differences agrees with the nominal
+                model to rounding, not to the bit.
+            feedback: Stabiliser that corrects the reference by each trial's sensor readings.
+            sensor_errors: Errors that are added to the sensor readings, shape (n, ticks, sensed): see
+                `levade.feedback.SensorErrors`.
+            record: What to record in addition: `FOOT_CONTACT_FORCE`, `levade.engines.SELF_DISTANCE`, and names of `bodies` for
                 their contact force with the scene.
 
         Returns:
-            What the trials did. Trials whose simulation breaks down are marked in ``diverged``; their later rows repeat
-            the last sound one.
+            The trajectories. Trials whose simulation breaks down are marked in ``diverged``; their later rows repeat the last
+            sound one.
 
         Raises:
             LevadeError: If the rows do not fit together, a name in ``record`` is unknown or cannot be measured, or the engine
@@ -178,7 +179,7 @@ class Engine(ABC):
         return self._with_distances(done, record).aligned(np.argsort(order))
 
     def _with_distances(self, done: Trajectories, record: Sequence[str]) -> Trajectories:
-        """Add the distances between the robot's parts, if they are asked for and the engine has not measured them itself."""
+        """Add the distances between the robot's parts, if they are recorded and the engine has not measured them itself."""
         if SELF_DISTANCE not in record or done.self_distance is not None:
             return done
         qpos = np.tile(self.model.qpos0, (done.n, done.steps, 1))
@@ -193,30 +194,30 @@ class Engine(ABC):
 
     @abstractmethod
     def hold(self, model: mujoco.MjModel, data: mujoco.MjData, posture: Array, time: float) -> State:
-        """Let a robot go, with its joints holding a posture.
+        """Let a robot go while its joints hold a posture.
 
         Args:
             model: `model`, or the same with other gains.
-            data: Where the robot is let go; it may be changed.
+            data: State in which the robot is let go; it may be changed.
             posture: Joint angles to hold [rad], shape (joints,).
-            time: How long [s].
+            time: Duration [s].
 
         Returns:
-            Where the robot is then, one row.
+            The state at the end, one row.
 
         Raises:
             LevadeError: If the simulation breaks down.
         """
 
     def ctrl(self, reference: JointReference, n: int | None = None) -> Array:
-        """What is sent to the actuators: position and velocity of each joint.
+        """Compute the commands to the actuators: position and velocity of each joint.
 
         Args:
-            reference: Of one trial or of n.
+            reference: Reference of one trial or of n.
             n: Number of trials. Defaults to the rows of ``reference``.
 
         Returns:
-            Controls of the model, shape (n, steps, nu). The next call uses the same memory if its shape is the same.
+            Controls of the model, shape (n, steps, nu). The next call reuses the memory if the shape is the same.
         """
         shape = (len(reference.position) if n is None else n, reference.steps, self.model.nu)
         if self._ctrl is None or self._ctrl.shape != shape:
@@ -233,7 +234,7 @@ class Engine(ABC):
         feedback: Feedback | None = None,
         sensor_errors: Array | None = None,
     ) -> Trials:
-        """Put a roll-out together. Every simulation of trials passes here, and their steps are counted here alone."""
+        """Assemble a roll-out. Every simulation of trials passes here, and only here are steps counted."""
         rows = {"starts": len(starts), "reference": len(reference.position)}
         if models is not None:
             rows["models"] = len(models)
@@ -264,7 +265,7 @@ class Engine(ABC):
 
 
 def broke_down(time: float) -> LevadeError:
-    """The error of a robot that breaks down while it settles for a time [s]."""
+    """Return the error for a robot whose simulation breaks down while it settles for a time [s]."""
     return LevadeError(
         f"start: the simulation broke down within {time} s; a smaller physics.timestep or lower gains may help"
     )

@@ -1,4 +1,4 @@
-"""Folding up after a fall: from then on, a robot lies in one of a few ways, with its joints where they always are.
+"""Fold a robot up after a fall. It then lies in one of a few ways, always with the same joint angles.
 
 posture = fold_posture(robot, Fold("tucked"))
 lying = folded(engine, fallen, posture, Fold("tucked"))
@@ -20,7 +20,7 @@ from levade.trajectory import JointReference
 
 
 def fold_posture(robot: Robot, fold: Fold) -> Array:
-    """Where the joints of a robot that fell go first [rad], shape (joints,). Raises LevadeError if there is no such posture."""
+    """Return the folded posture of a robot [rad], shape (joints,). Raises LevadeError if there is none."""
     with located("start.fallen.fold.posture: "):
         if fold.posture == "tucked" and "tucked" not in robot.postures:
             return tucked(robot)
@@ -31,19 +31,19 @@ def fold_posture(robot: Robot, fold: Fold) -> Array:
 
 
 def folded(engine: Engine, state: State, posture: Array, fold: Fold) -> State:
-    """Simulate how robots fold up: their joints go smoothly to a posture, and rest there.
+    """Simulate how robots fold up: their joints move smoothly to a posture, and rest there.
 
     Args:
         engine: The engine.
-        state: Where they lie.
-        posture: Where the joints go [rad], shape (joints,).
-        fold: How long that takes.
+        state: How the robots lie.
+        posture: The posture [rad], shape (joints,).
+        fold: Durations.
 
     Returns:
-        How they lie then, as many rows.
+        How they lie afterwards, as many rows.
 
     Raises:
-        LevadeError: If the engine has no such simulation, or it breaks down.
+        LevadeError: If the engine cannot simulate this, or the simulation breaks down.
     """
     if not isinstance(engine, MujocoEngine):
         raise LevadeError(f"start.fallen.fold: engine {engine.name} simulates no folding; use the engine mujoco")

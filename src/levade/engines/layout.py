@@ -1,4 +1,4 @@
-"""Where the robot's quantities are in the vectors of an engine's model, and the sensors that record contact forces."""
+"""Addresses of the robot's quantities in the vectors of an engine's model, and sensors that record contact forces."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ from levade.robots.addresses import Addresses, Index, compact
 from levade.trajectory import JointReference, Trajectories
 
 FOOT_CONTACT_FORCE = "foot_contact_force"
-"""In what a roll-out records: the contact force on each foot. Names other than this and `SELF_DISTANCE` are those of bodies."""
+"""Name of the contact forces on the feet, among the quantities that a roll-out records. Other names are those of bodies."""
 
 _FOOT_SENSOR, _BODY_SENSOR = "_contact_force", "_scene_force"
-"""What follows the name of a foot's geom, or of a body, in the name of its sensor."""
+"""Suffixes of a foot's geom, and of a body, in the names of their sensors."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,13 +30,13 @@ class Layout(Addresses):
 
     Attributes:
         embodiment: The robot.
-        actuators: Where the joints' torques are in actuator_force.
-        ctrl_position: Where the joints' position references are in ctrl.
-        ctrl_velocity: Where their velocity references are.
-        foot_sensors: Where the force on each foot is in sensordata.
-        body_sensors: Where the force on each body is in sensordata, by the body's name.
-        distance_sensor: Where the least distance between the robot's parts is in sensordata; None if it is not measured.
-        clearance: Distance from which on parts count as apart [m]; None if it is not measured.
+        actuators: Addresses of the joints' torques in actuator_force.
+        ctrl_position: Addresses of the joints' position references in ctrl.
+        ctrl_velocity: Addresses of their velocity references.
+        foot_sensors: Addresses of the force on each foot in sensordata.
+        body_sensors: Body -> addresses of the force on it in sensordata.
+        distance_sensor: Address of the least distance between the robot's parts in sensordata. None if it is not measured.
+        clearance: Distance from which parts count as apart [m]. None if it is not measured.
     """
 
     embodiment: Embodiment
@@ -75,28 +75,31 @@ class Layout(Addresses):
         )
 
     def state(self, qpos: Array, qvel: Array, act: Array, *, joint_reference: Array | None = None) -> State:
-        """Make a state of the model's vectors, copied.
+        """Make a state from copies of the model's vectors.
 
         Args:
             qpos: Positions, shape (nq,) or (rows, nq).
             qvel: Velocities, shape (nv,) or (rows, nv).
             act: States of the actuators, shape (na,) or (rows, na).
-            joint_reference: What the joints were commanded last [rad], shape (joints,) or (rows, joints). Defaults to
-                where they are.
+            joint_reference: Last commands of the joints [rad], shape (joints,) or (rows, joints). Defaults to the joint
+                positions.
+
+        Returns:
+            The state.
         """
         joint_position = np.asarray(qpos)[..., self.joint_qpos]
         parts = (qpos, qvel, act, joint_position, joint_position if joint_reference is None else joint_reference)
         return State(*(np.array(np.atleast_2d(part), dtype=float) for part in parts))
 
     def sensed(self, qpos: Array, qvel: Array) -> Array:
-        """Read what a robot senses: see `levade.feedback.sensed`.
+        """Compute the sensed values of a robot: see `levade.feedback.sensed`.
 
         Args:
             qpos: MuJoCo's positions, shape (..., nq).
             qvel: MuJoCo's velocities, shape (..., nv).
 
         Returns:
-            Shape (..., 6 + 2 joints).
+            Sensed values, shape (..., 6 + 2 joints).
         """
         return sensed(
             qpos[..., self.trunk_quaternion],
@@ -113,13 +116,16 @@ class Layout(Addresses):
         diverged: NDArray[np.bool_],
         record: Sequence[str] = (),
     ) -> Trajectories:
-        """Make trajectories of what MuJoCo recorded.
+        """Make trajectories from MuJoCo's records.
 
         Args:
-            out: qpos, qvel, actuator_force, and sensordata if forces are asked for; each (n, steps, ...).
-            reference: What was asked of the joints in the same n trials.
+            out: qpos, qvel, actuator_force, and sensordata if forces are recorded; shape (n, steps, ...) each.
+            reference: Joint references of the same n trials.
             diverged: Trials that broke down, shape (n,).
-            record: Forces to include: `FOOT_CONTACT_FORCE`, and bodies whose contact force with the scene is meant.
+            record: Forces to include: `FOOT_CONTACT_FORCE`, and bodies for their contact force with the scene.
+
+        Returns:
+            The trajectories.
         """
         qpos, qvel = out["qpos"], out["qvel"]
         return Trajectories(
@@ -142,7 +148,7 @@ class Layout(Addresses):
         )
 
     def addresses(self, record: Sequence[str]) -> list[int]:
-        """Where the sensors of what a roll-out records are in sensordata."""
+        """Return the addresses in sensordata of what a roll-out records."""
         found = [self.body_sensors[name] for name in record if name in self.body_sensors]
         if FOOT_CONTACT_FORCE in record:
             found += self.foot_sensors

@@ -1,11 +1,11 @@
-"""Many versions of one model: robots and scenes that differ from the nominal one, for any engine.
+"""Versions of one model, for any engine: robots and scenes that differ from the nominal one.
 
     sample = Perturbation().draw(engine.model, joints, n=500, seed=0)
     starts, models = perturbed_models(engine.model, engine.layout, sample, start)
     trajectories = engine.rollout(starts, reference, models=models)         # of 500 trials
 
-Versions are fields of the compiled model, so none is compiled again. An engine computes what follows from them (inverse
-inertias, bounding volumes), so a version is a model compiled with its values, to rounding.
+Versions are fields of the compiled model, so none is compiled again. An engine computes the values that depend on them (inverse
+inertias, bounding volumes). So a version equals a model compiled with its values, to rounding.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ FIELDS = (
 """Fields of `mujoco.MjModel` in which perturbed models differ."""
 
 SOFTNESS_FIELDS = ("geom_solref", "geom_solimp", "pair_solref", "pair_solimp")
-"""Fields in which those also differ that are softer or harder than the nominal one."""
+"""Further fields in which softer or harder models differ."""
 
 _DCMOTOR = int(mujoco.mjtGain.mjGAIN_DCMOTOR)
 _NONE = int(mujoco.mjtSameFrame.mjSAMEFRAME_NONE)
@@ -45,12 +45,12 @@ _PID_KP, _PID_KD = 1, 2
 
 @dataclass(frozen=True, eq=False)
 class Models:
-    """n versions of a model.
+    """Holds n versions of a model.
 
     Attributes:
-        fields: Name of a field of `mujoco.MjModel` -> its values in each version, shape (n, ...). The nominal model has
-            those that are not named. Frames (``geom_pos``, ``geom_quat``, ``body_ipos``) may only differ for what belongs
-            to the scene and for the trunk (`with_free_frames`).
+        fields: Field of `mujoco.MjModel` -> its values in each version, shape (n, ...). Other fields are those of the nominal
+            model. Frames (``geom_pos``, ``geom_quat``, ``body_ipos``) may only differ for the scene and for the trunk
+            (`with_free_frames`).
         delay: Time from a reference to the servos [s], shape (n,).
     """
 
@@ -61,32 +61,32 @@ class Models:
         return len(self.delay)
 
     def __getitem__(self, rows: int | slice | Sequence[int] | NDArray[np.integer | np.bool_]) -> Models:
-        """Some of the versions, in the order given; a version may be there several times."""
+        """Select versions, in the order given; a version may come several times."""
         if isinstance(rows, int):
             rows = [rows]
         return Models({name: values[rows] for name, values in self.fields.items()}, self.delay[rows])
 
     @classmethod
     def stacked(cls, models: Sequence[Models]) -> Models:
-        """The versions of several, one after another; all name the same fields."""
+        """Join the versions of several, in sequence. All have the same fields."""
         fields = {name: np.concatenate([one.fields[name] for one in models]) for name in models[0].fields}
         return cls(fields, np.concatenate([one.delay for one in models]))
 
 
 def perturbed_models(model: mujoco.MjModel, layout: Layout, sample: Sample, start: State) -> tuple[State, Models]:
-    """Make the versions that a sample stands for, and where each starts.
+    """Make the versions of a sample, and their starts.
 
     Args:
         model: The nominal model.
-        layout: Where the robot is in it.
+        layout: Addresses of the robot in it.
         sample: Values of n versions.
-        start: Where the nominal model starts, one row.
+        start: Start of the nominal model, one row.
 
     Returns:
         Starts of n rows, as near to ``start`` as the ground and the joints of each version allow; and the versions.
 
     Raises:
-        LevadeError: If ``start`` has more rows than one.
+        LevadeError: If ``start`` has more than one row.
     """
     if len(start) != 1:
         raise LevadeError(f"perturbed models: the start has {len(start)} rows, should have one")
@@ -102,9 +102,9 @@ def perturbed_models(model: mujoco.MjModel, layout: Layout, sample: Sample, star
 
 
 def with_free_frames(model: mujoco.MjModel, layout: Layout) -> mujoco.MjModel:
-    """A copy of a model in which the frames of the scene's geoms and of the trunk's inertia may be changed.
+    """Copy a model so that the frames of the scene's geoms and of the trunk's inertia may be changed.
 
-    MuJoCo does not compute frames that coincide with their body's. The last bits of a simulation depend on it.
+    MuJoCo does not compute frames that coincide with their body's, and the last bits of a simulation depend on it.
     """
     model = copy.deepcopy(model)
     model.geom_sameframe[model.geom_bodyid == 0] = _NONE
@@ -113,14 +113,17 @@ def with_free_frames(model: mujoco.MjModel, layout: Layout) -> mujoco.MjModel:
 
 
 def delayed(reference: JointReference, delay: Array) -> JointReference:
-    """Delay a reference: the motion that reaches the servos of n trials.
+    """Delay a reference until it reaches the servos of n trials.
 
-    Between rows it goes in proportion. Until it comes, the joints have what they were commanded before, at rest
-    (``reference.before``), or its first angles where that is not known.
+    Rows are interpolated linearly. Until the reference arrives, the joints keep their earlier command at rest
+    (``reference.before``), or the first angles if that is not known.
 
     Args:
-        reference: Of one trial or of n.
+        reference: Reference of one trial or of n.
         delay: Delay of each trial [s], shape (n,).
+
+    Returns:
+        The delayed reference.
     """
     n, steps = len(delay), reference.steps
     if not delay.any():
@@ -142,7 +145,7 @@ def delayed(reference: JointReference, delay: Array) -> JointReference:
 
 
 def _fields(model: mujoco.MjModel, layout: Layout, values: Mapping[str, Array]) -> dict[str, Array]:
-    """Model fields (n, ...) of a sample, without the slope."""
+    """Compute the model fields of a sample, shape (n, ...), without the slope."""
     n, trunk = len(values["mass"]), model.body(layout.embodiment.trunk).id
     fields = {name: np.repeat(getattr(model, name)[None], n, axis=0) for name in FIELDS}
     fields["geom_friction"][..., 0] *= values["friction"]
@@ -173,13 +176,13 @@ def _fields(model: mujoco.MjModel, layout: Layout, values: Mapping[str, Array]) 
 
 
 def soften(solref: Array, solimp: Array, factor: float | Array) -> None:
-    """Make contacts softer, in place: MuJoCo's solref (..., 2) and solimp (..., 5).
+    """Make contacts softer, in place: MuJoCo's solref, shape (..., 2), and solimp, shape (..., 5).
 
     Args:
-        solref: Time constant and damping ratio; or, where the first is not positive, minus stiffness and minus damping.
+        solref: Time constant and damping ratio; or, if the first is not positive, minus stiffness and minus damping.
         solimp: Impedances, of which the first two are shares of the full force.
-        factor: On the time that a contact takes to push bodies apart, and on what it may be short of the full force;
-            that broadcasts to (..., 1).
+        factor: Factor on the time in which a contact pushes bodies apart, and on the missing share of the full force. It
+            broadcasts to (..., 1).
     """
     direct = solref[..., :1] <= 0
     of_time = np.concatenate([np.broadcast_to(factor, direct.shape), np.ones(direct.shape)], axis=-1)
@@ -193,7 +196,7 @@ def soften(solref: Array, solimp: Array, factor: float | Array) -> None:
 def _tilt(
     model: mujoco.MjModel, fields: dict[str, Array], qpos: Array, qvel: Array, layout: Layout, slope: Array
 ) -> None:
-    """Turn the scene and the robot on it by slope (n, 2) [rad], about x and y through the ground below the trunk."""
+    """Turn the scene and the robot on it by a slope [rad], shape (n, 2), about x and y through the ground below the trunk."""
     if not slope.any():
         return
     scene = np.flatnonzero(model.geom_bodyid == 0)

@@ -1,4 +1,4 @@
-"""The default engine: MuJoCo, its simulations stepped in a batch on a thread pool."""
+"""The default engine, MuJoCo: simulations are stepped in a batch on a thread pool."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _RECORDED = ("qpos", "qvel", "actuator_force")
 
 
 class MujocoEngine(Engine):
-    """MuJoCo."""
+    """The engine MuJoCo."""
 
     name: ClassVar[str] = "mujoco"
     stops: ClassVar[bool] = True
@@ -44,10 +44,13 @@ class MujocoEngine(Engine):
         return {name: version(name) for name in ("mujoco", "numpy")}
 
     def with_model(self, model: mujoco.MjModel) -> MujocoEngine:
-        """Make an engine of a model that was changed after it was compiled: other options, other contacts.
+        """Make an engine from a model that was changed after it was compiled, such as other options or contacts.
 
         Args:
-            model: The changed model. Names, joints and actuators are those of `model`. ``xml`` does not describe it.
+            model: The changed model, with the names, joints and actuators of `model`. ``xml`` does not describe it.
+
+        Returns:
+            The engine.
         """
         physics = replace(self.physics, timestep=float(model.opt.timestep))
         return MujocoEngine(self.xml, self.assets, self.embodiment, physics, threads=self.threads, model=model)
@@ -65,9 +68,9 @@ class MujocoEngine(Engine):
         """Simulate as `rollout` does, and record MuJoCo's own arrays.
 
         Args:
-            starts: Where the trials start.
-            reference: What they are to follow.
-            fields: Names of arrays of `mujoco.MjData`, but of those of shapes: only shapes that can touch are simulated.
+            starts: Starts of the trials.
+            reference: References that they follow.
+            fields: Names of arrays of `mujoco.MjData`, except those of shapes: only shapes that can touch are simulated.
             models: As in `rollout`.
             feedback: As in `rollout`.
             sensor_errors: As in `rollout`.
@@ -100,7 +103,7 @@ class MujocoEngine(Engine):
         return found if SELF_DISTANCE not in record else replace(found, self_distance=self._distances(trials, out))
 
     def _distances(self, trials: Trials, out: Mapping[str, Array]) -> Array:
-        """Distances [m] at the end of each step, shape (n, steps), from a sensor of those at its beginning."""
+        """Return distances at the end of each step [m], shape (n, steps), from a sensor of those at its beginning."""
         address, clearance = self.layout.distance_sensor, self.layout.clearance
         assert address is not None
         assert clearance is not None
@@ -125,7 +128,7 @@ class MujocoEngine(Engine):
         return simulate(batch, rows, ctrl, fields)
 
     def _corrected(self, batch: Batch, ctrl: Array, correcting: Correcting) -> Iterator[tuple[slice, int]]:
-        """Tick by tick, put what feedback sends into ctrl, and yield the tick's rows."""
+        """Write the corrected commands into ctrl tick by tick, and yield the tick's rows."""
         n, layout = len(ctrl), self.layout
         qpos, qvel = batch.bind("qpos"), batch.bind("qvel")
         for tick, part in correcting:
@@ -145,14 +148,13 @@ class MujocoEngine(Engine):
         return with_free_frames(self._lean.model, self.layout)
 
     def _batch_for(self, n: int, *, sensors: tuple[int, ...] | None, versions: bool) -> Batch:
-        """A batch of at least n simulations. A batch takes its options when it is made, and which sensors it computes.
+        """Return a batch of at least n simulations. A batch is made with its options and the sensors that it computes.
 
-        Sensors are read only, so the motion is the same with and without them. A batch of versions of the model has
-        fields of its own in each simulation.
+        Sensors are only read, so they do not change the motion. A batch of versions has separate fields in each simulation.
 
         Args:
             n: Number of simulations.
-            sensors: Addresses of the sensors to compute, in ascending order; all of them if None.
+            sensors: Addresses of the sensors to compute, in ascending order. None for all.
             versions: Whether each simulation has a version of the model.
         """
         batch = self._batches.get((sensors, versions))
@@ -165,7 +167,7 @@ class MujocoEngine(Engine):
         return batch
 
     def _set_fields(self, batch: Batch, fields: Mapping[str, Array], n: int) -> None:
-        """Give the first n simulations their versions' fields, and what follows from them."""
+        """Give the first n simulations their versions' fields, and the values that depend on them."""
         self._varied |= set(fields)
         for name in self._varied:  # a version has the nominal values of what an earlier one differed in
             given = fields.get(name)
@@ -174,9 +176,9 @@ class MujocoEngine(Engine):
             batch.set_const(np.arange(n))
 
     def _rows(self, starts: State) -> Array:
-        """The states as a batch takes them: as after ``mj_resetData`` and setting qpos, qvel and act.
+        """Return the states as a batch takes them: after ``mj_resetData``, with qpos, qvel and act.
 
-        Made again only for another object: a search starts every trial from one.
+        They are made again only for another object, because a search starts every trial from the same one.
         """
         if self._latest is None or self._latest[0] is not starts:
             rows = np.repeat(self._reset[None], len(starts), axis=0)
@@ -195,7 +197,7 @@ class MujocoEngine(Engine):
 
 
 def _ending(ends: NDArray[np.intp]) -> Iterator[tuple[slice, int]]:
-    """Rows from one end of trials to the next, and how many trials are still going: the first, as the longest come first."""
+    """Yield the rows between successive ends of trials, and the number of trials that still run. The longest come first."""
     begin = 0
     for end in np.unique(ends):
         yield slice(begin, int(end)), int(np.count_nonzero(ends >= end))
@@ -205,7 +207,7 @@ def _ending(ends: NDArray[np.intp]) -> Iterator[tuple[slice, int]]:
 def _in_parts(
     batch: Batch, rows: Array, ctrl: Array, fields: Sequence[str], parts: Iterator[tuple[slice, int]]
 ) -> tuple[dict[str, Array], NDArray[np.bool_]]:
-    """Simulate as `simulate` does, part by part; a part names its rows and how many of the first trials go on through it.
+    """Simulate like `simulate`, part by part. A part names its rows, and how many of the first trials run through it.
 
     ``ctrl`` and the batch's state are read when a part begins, after the iterator has yielded it.
     """

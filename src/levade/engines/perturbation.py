@@ -1,12 +1,12 @@
-"""What may differ between the model and the robot: ranges, as data, and samples drawn from them.
+"""Ranges in which robots differ from the model, as data, and samples from them.
 
     perturbation = Perturbation(friction=(0.5, 1.5), latency=None)      # others as by default
-    sample = perturbation.draw(model, joints, n=500, seed=0)        # joints: how many
+    sample = perturbation.draw(model, joints, n=500, seed=0)            # joints: their number
     sample.values["kp"]                                                 # (500, joints), factors
     starts, models = perturbed_models(model, layout, sample, start)     # see `levade.engines.models`
 
-Every number is drawn uniformly within its range, independently of all others. Run i of a sample does not depend on how many
-runs there are, nor on which other parameters are switched off.
+Every number is drawn uniformly within its range, independently of all others. Run i of a sample depends neither on the number
+of runs nor on which other parameters are off.
 """
 
 from __future__ import annotations
@@ -29,14 +29,14 @@ Range = tuple[float, float] | None
 
 @dataclass(frozen=True)
 class Parameter:
-    """What one perturbed quantity is.
+    """Describes one perturbed quantity.
 
     Attributes:
-        unit: "x" for a factor on what the model says, else the SI unit of what is added to it.
-        per: What has a number of its own: the model (one number), the axes, turns about them, tilts about x and y, the
-            joints, the obstacles' axes.
-        what: In a sentence.
-        why: The default range is as wide as it is.
+        unit: "x" for a factor on the model's value, otherwise the SI unit of an offset.
+        per: What has its own number: the model (one number), the axes, turns about them, tilts about x and y, the joints, the
+            obstacles' axes.
+        what: What it is, in a sentence.
+        why: Why the default range is as wide as it is.
     """
 
     unit: str
@@ -142,21 +142,21 @@ PARAMETERS: dict[str, Parameter] = {
         "off: numbers of the simulation, not of the robot; a certificate tries both ends of 0.5 to 2",
     ),
 }
-"""Name -> what it is, in the order of `Perturbation`."""
+"""Name -> description, in the order of `Perturbation`."""
 
 _LATE, _LATE_TAG = ("softness",), 1_819_440_229
-"""Parameters with random numbers of their own, and what keeps these apart: the others' are as before there were these."""
+"""Parameters with separate random numbers, and their tag. So the numbers of the others are as they were without these."""
 
 
 @dataclass(frozen=True)
 class Perturbation:
-    """Ranges of what may differ. Factors (unit "x") are around 1, everything else is an offset around 0, in SI units.
+    """Ranges in which robots differ. Factors (unit "x") are around 1, offsets around 0, in SI units.
 
-    What each is, how many numbers it takes, and why the default is what it is: `PARAMETERS`, and docs/check.md. A robot
-    or scene without a thing (a lag, an obstacle) is not perturbed in it.
+    `PARAMETERS` and docs/check.md describe each, with the number of its values and the reason for its default. A parameter that
+    a robot or scene lacks (a lag, an obstacle) has no effect.
 
     Raises:
-        LevadeError: For ranges that make no sense.
+        LevadeError: If a range is not valid.
     """
 
     friction: Range = (0.7, 1.3)
@@ -191,16 +191,19 @@ class Perturbation:
                 raise LevadeError(f"perturb.{name}: {low} is too low; {least} or more, {about.nominal:g} is nominal")
 
     def spread(self, model: mujoco.MjModel, joints: int, *, n: int, seed: int | tuple[int, ...]) -> Sample:
-        """Sample n runs that together cover every range evenly: a Latin hypercube, for few runs that stand for many.
+        """Sample n runs that together cover every range evenly: a Latin hypercube, for few runs that represent many.
 
-        Each number's range is cut into n parts, and each run has it in another one (McKay, Beckman and Conover, Technometrics
+        Each range is cut into n parts, and each run has its number in another part (McKay, Beckman and Conover, Technometrics
         21, 1979).
 
         Args:
             model: The nominal model.
             joints: Number of joints.
             n: Number of runs.
-            seed: One number, or several that together make one.
+            seed: One number, or several that together form one.
+
+        Returns:
+            The sample.
         """
 
         def spread(generator: np.random.Generator, size: int) -> Array:
@@ -216,7 +219,10 @@ class Perturbation:
             model: The nominal model.
             joints: Number of joints.
             n: Number of runs.
-            seed: One number, or several that together make one.
+            seed: One number, or several that together form one.
+
+        Returns:
+            The sample.
         """
         return self._drawn(lambda generator, size: generator.random((n, size)), _sizes(model, joints), seed)
 
@@ -226,9 +232,19 @@ class Perturbation:
         return Sample({name: np.full((n, size), PARAMETERS[name].nominal) for name, size in sizes.items()})
 
     def corners(self, model: mujoco.MjModel, joints: int, name: str, *, n: int, seed: int) -> Sample:
-        """Runs in which one parameter alone is perturbed, each of its numbers at one end of the range or the other.
+        """Sample runs in which only one parameter is perturbed, with each of its numbers at one end of the range.
 
-        A single number takes both ends, one run each; several take n random combinations and their opposites.
+        A single number takes both ends, one run each. Several take n random combinations and their opposites.
+
+        Args:
+            model: The nominal model.
+            joints: Number of joints.
+            name: Name of the parameter.
+            n: Number of combinations.
+            seed: Seed of the combinations.
+
+        Returns:
+            The sample.
         """
         size = _sizes(model, joints)[name]
         if size <= 1:
@@ -246,7 +262,7 @@ class Perturbation:
         shapes: Mapping[str, int],
         seed: int | tuple[int, ...],
     ) -> Sample:
-        """A sample of numbers in [0, 1], shape (n, size) each, that ``draw`` makes."""
+        """Make a sample from numbers in [0, 1], shape (n, size) each, that ``draw`` returns."""
         seeds = seed if isinstance(seed, tuple) else (seed,)
         late = {name: size for name, size in shapes.items() if name in _LATE}
         early = {name: size for name, size in shapes.items() if name not in _LATE}
@@ -263,7 +279,7 @@ class Perturbation:
         return Sample(values)
 
     def _scaled(self, name: str, unit: Array) -> Array:
-        """Numbers in [0, 1] to the range."""
+        """Scale numbers in [0, 1] to the range."""
         ends = getattr(self, name)
         if ends is None:
             return np.full(unit.shape, PARAMETERS[name].nominal)
@@ -272,7 +288,7 @@ class Perturbation:
 
 @dataclass(frozen=True, eq=False)
 class Sample:
-    """Values of every parameter in n runs: name -> (n, numbers); factors, or offsets in SI units."""
+    """Holds the values of every parameter in n runs: name -> factors, or offsets in SI units, shape (n, numbers)."""
 
     values: Mapping[str, Array]
 
@@ -280,29 +296,29 @@ class Sample:
         return len(next(iter(self.values.values())))
 
     def __getitem__(self, rows: slice | Sequence[int]) -> Sample:
-        """Some of the runs, in the order given."""
+        """Select runs, in the order given."""
         return Sample({name: values[rows] for name, values in self.values.items()})
 
 
 def joined(samples: list[Sample]) -> Sample:
-    """The runs of several samples, one after another."""
+    """Join the runs of several samples, in sequence."""
     return Sample({name: np.concatenate([s.values[name] for s in samples]) for name in samples[0].values})
 
 
 def ground(model: mujoco.MjModel) -> list[int]:
-    """Geoms of the scene that the robot stands on where there is no obstacle: beside gaps, platforms are."""
+    """List the geoms on which the robot stands where there is no obstacle. With gaps, these are platforms."""
     names = {i: model.geom(i).name for i in range(model.ngeom) if model.geom_bodyid[i] == 0}
     return [i for i, name in names.items() if name == GROUND or name.startswith(PLATFORM)]
 
 
 def obstacles(model: mujoco.MjModel) -> list[int]:
-    """Geoms of the scene that are not the ground."""
+    """List the geoms of the scene that are not ground."""
     level = ground(model)
     return [i for i in range(model.ngeom) if model.geom_bodyid[i] == 0 and i not in level]
 
 
 def labels(model: mujoco.MjModel, joint_names: tuple[str, ...], name: str) -> list[str]:
-    """What each number of a parameter is about: joint names, axes, obstacles; one empty text where there is one number."""
+    """Name each number of a parameter: joint names, axes, obstacles; one empty text for a single number."""
     return {
         "model": [""],
         "axis": ["x", "y", "z"],
@@ -314,6 +330,6 @@ def labels(model: mujoco.MjModel, joint_names: tuple[str, ...], name: str) -> li
 
 
 def _sizes(model: mujoco.MjModel, joints: int) -> dict[str, int]:
-    """How many numbers each parameter takes."""
+    """Return how many numbers each parameter takes."""
     count = {"model": 1, "axis": 3, "turn": 3, "tilt": 2, "joint": joints, "obstacle": 3 * len(obstacles(model))}
     return {name: count[about.per] for name, about in PARAMETERS.items()}

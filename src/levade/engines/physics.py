@@ -12,16 +12,18 @@ from levade.errors import LevadeError, located
 
 @dataclass(frozen=True)
 class Ode:
-    """Settings of the engine ode; the defaults are Gazebo's.
+    """Settings of the engine ode. The defaults are Gazebo's.
 
     Attributes:
-        solver: "quick" is ``dWorldQuickStep``, ``iterations`` sweeps of successive over-relaxation by the factor
-            ``relaxation``; "exact" is ``dWorldStep``, which solves for all constraints at once, but bounds friction by
-            the normal forces that there would be without it.
+        solver: "quick" is ``dWorldQuickStep``: ``iterations`` sweeps of successive over-relaxation by the factor
+            ``relaxation``. "exact" is ``dWorldStep``, which solves all constraints at once, but bounds friction by the normal
+            forces without friction.
+        iterations: Sweeps of the solver "quick" in a step.
+        relaxation: Factor of over-relaxation of the solver "quick".
         erp: Share of a constraint's error that is corrected in a step.
-        cfm: Its softness [1/(N s/m)].
-        surface_layer: [m], depth up to which contacts may sink in.
-        max_correcting_velocity: [m/s], of contacts.
+        cfm: Softness of a constraint [1/(N s/m)].
+        surface_layer: Depth up to which contacts may sink in [m].
+        max_correcting_velocity: Largest speed at which contacts are pushed apart [m/s].
     """
 
     solver: Literal["quick", "exact"] = "quick"
@@ -47,20 +49,17 @@ class Ode:
 
 @dataclass(frozen=True)
 class Physics:
-    """Which engine simulates, and how time and contact are resolved.
+    """The engine, and its resolution of time and contact.
+
+    The elliptic cone with a friction constraint that is stiffer than the normal one (impratio > 1) keeps feet from creeping.
+    With MuJoCo's own defaults a standing HyQ2Max sinks by 1 cm in 5 s, because its feet slide apart.
 
     Attributes:
         engine: Name of the engine; docs/engines.md says what each needs.
-        timestep: [s].
-        integrator: As in MuJoCo's ``option``, of no effect in ODE. The elliptic cone with a friction constraint that is
-            stiffer than the normal one (impratio > 1) keeps feet from creeping: with MuJoCo's own defaults HyQ2Max,
-            standing still, sinks by 1 cm in 5 s as its feet slide apart.
-        cone: As in MuJoCo's ``option``, of no effect in ODE. The elliptic cone with a friction constraint that is
-            stiffer than the normal one (impratio > 1) keeps feet from creeping: with MuJoCo's own defaults HyQ2Max,
-            standing still, sinks by 1 cm in 5 s as its feet slide apart.
-        impratio: As in MuJoCo's ``option``, of no effect in ODE. The elliptic cone with a friction constraint that is
-            stiffer than the normal one (impratio > 1) keeps feet from creeping: with MuJoCo's own defaults HyQ2Max,
-            standing still, sinks by 1 cm in 5 s as its feet slide apart.
+        timestep: Time step [s].
+        integrator: Integrator of MuJoCo. ODE ignores it.
+        cone: Friction cone of MuJoCo, "elliptic" or "pyramidal". ODE ignores it.
+        impratio: Ratio of frictional to normal impedance in MuJoCo. ODE ignores it.
         ode: See `Ode`.
     """
 

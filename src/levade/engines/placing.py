@@ -1,4 +1,4 @@
-"""How a robot is put into a scene: the model's text, the engine made of it, and the state that a motion starts from.
+"""Put a robot into a scene: the model's text, its engine, and the state from which a motion starts.
 
 engine = make_engine(load_robot("hyq2max"), Scene(), Physics())
 state = start_state(engine, robot, Scene(), Settled("neutral"))
@@ -24,12 +24,12 @@ from levade.robots.shapes import support
 from levade.scenes import Scene, compose
 
 _OVERLAP = 0.003
-"""[m]: what may overlap before the start; contacts at rest sink in by less."""
+"""Largest overlap before the start [m]. Contacts at rest sink in by less."""
 _DOWN = np.array([0.0, 0.0, -1.0])
 _LEVEL = np.array([1.0, 0.0, 0.0, 0.0])
 
 _DRAWS = 1000
-"""Postures that are drawn for a fall until no parts overlap."""
+"""Number of postures that are drawn for a fall until no parts overlap."""
 
 _FAMILY = 1_178_686_574
 """Keeps the random numbers of families of falls apart from others."""
@@ -45,7 +45,10 @@ def model_xml(
         scene: Ground and obstacles.
         physics: Numerical settings.
         gain_scale: Factor on the gains of the joints.
-        clearance: Up to where distances between the robot's parts are measured [m]; None if they are not.
+        clearance: Distance up to which the robot's parts are measured [m]. None for no measurement.
+
+    Returns:
+        The text.
     """
     spec = compose(robot, scene, gain_scale=gain_scale)
     option = spec.option
@@ -69,18 +72,21 @@ def make_engine(
         robot: The robot.
         scene: Ground and obstacles.
         physics: Engine and numerical settings.
-        threads: Number of threads or processes, 0 for one per core. Results do not depend on it.
-        clearance: Up to where distances between the robot's parts are measured [m]; None if they are not.
+        threads: Number of threads or processes (0: one per core). Results do not depend on it.
+        clearance: Distance up to which the robot's parts are measured [m]. None for no measurement.
+
+    Returns:
+        The engine.
 
     Raises:
-        LevadeError: If the engine needs what is not installed, or cannot simulate the robot.
+        LevadeError: If the engine needs a missing library, or cannot simulate the robot.
     """
     xml = model_xml(robot, scene, physics, clearance=clearance)
     return engine_kind(physics.engine).make(xml, robot.assets, robot.embodiment, physics, threads=threads)
 
 
 def start_state(engine: Engine, robot: Robot, scene: Scene, start: Start) -> State:
-    """Simulate how the robot comes to where a motion starts.
+    """Simulate how the robot comes to the start of a motion.
 
     Args:
         engine: The engine of the robot in the scene.
@@ -89,10 +95,10 @@ def start_state(engine: Engine, robot: Robot, scene: Scene, start: Start) -> Sta
         start: How the motion starts.
 
     Returns:
-        The state at the start of the motion, one row.
+        The state at the start, one row.
 
     Raises:
-        LevadeError: If the robot overlaps the scene, or itself, before it is let go, or the simulation breaks down.
+        LevadeError: If the robot overlaps the scene or itself before it is let go, or the simulation breaks down.
     """
     if isinstance(start, GivenState):
         return _given(engine, start)
@@ -123,7 +129,7 @@ def start_state(engine: Engine, robot: Robot, scene: Scene, start: Start) -> Sta
 
 
 def _with_gain(engine: Engine, robot: Robot, scene: Scene, gain: float) -> mujoco.MjModel:
-    """The engine's model with a factor on the gains of the joints."""
+    """Return the engine's model with a factor on the gains of the joints."""
     if gain == 1.0:
         return engine.model
     xml = model_xml(robot, scene, engine.physics, gain_scale=gain)
@@ -168,7 +174,7 @@ def _given(engine: Engine, start: GivenState) -> State:
 
 
 def _check_apart(model: mujoco.MjModel, data: mujoco.MjData) -> None:
-    """Raise LevadeError where parts overlap."""
+    """Raise LevadeError if parts overlap."""
     overlap = _overlap(model, data)
     if overlap:
         raise LevadeError(
@@ -184,7 +190,7 @@ def _put(
     quaternion: Array,
     posture: Array,
 ) -> mujoco.MjData:
-    """The robot as it is put down: where asked for, or higher if a part of it were in the ground."""
+    """Put the robot down at a position, or higher if a part of it would be in the ground."""
     data, layout = mujoco.MjData(model), engine.layout
     data.qpos[layout.trunk_position] = position
     data.qpos[layout.trunk_quaternion] = quaternion
@@ -195,7 +201,7 @@ def _put(
 
 
 def _overlap(model: mujoco.MjModel, data: mujoco.MjData) -> str:
-    """Which two parts overlap, and by how much; "" if none do."""
+    """Say which two parts overlap, and by how much; "" if none do."""
     for contact in data.contact:
         if contact.dist < -_OVERLAP and not contact.exclude:
             one, other = (_geom_name(model, int(geom)) for geom in contact.geom)
@@ -204,7 +210,7 @@ def _overlap(model: mujoco.MjModel, data: mujoco.MjData) -> str:
 
 
 def _lift(model: mujoco.MjModel, data: mujoco.MjData, scene: Scene) -> float:
-    """How far a robot has to be lifted until its lowest point is on the ground [m], 0 if nothing of it is below."""
+    """Compute how far a robot must be lifted until its lowest point is on the ground [m]; 0 if no part is below."""
     mujoco.mj_kinematics(model, data)
     points = np.array(
         [

@@ -1,8 +1,8 @@
-"""How the robot touches the scene when a motion starts, and how it does when it starts a little differently.
+"""Adapt the trunk's pose at the start of a motion, if the robot or its joints differ a little.
 
-A joint that is off by 0.03 rad moves a foot by 2 cm. A robot that stands on its feet is then neither floating nor penetrating
-the ground: its trunk has another pose. So the trunk moves along (in height, roll and pitch) such that what touched the scene
-touches it again as well as a rigid robot can, before anything else is perturbed.
+A joint that is off by 0.03 rad moves a foot by 2 cm. A standing robot then neither floats nor penetrates the ground, but its
+trunk has another pose. So the trunk moves in height, roll and pitch until the same points touch the scene again, as well as a
+rigid robot can. Other perturbations follow.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ from levade.engines.state import State
 from levade.rotations import exponential, multiply, rotate
 
 _TOUCHING = 0.003
-"""[m], gap up to which a part counts as touching."""
+"""Gap up to which a part counts as touching [m]."""
 _RIDGE = 1e-3
-"""[m2], keeps the trunk from turning about an axis that nothing holds; feet are some 0.5 m apart."""
+"""Keeps the trunk from turning about an axis that nothing holds [m2]; feet are some 0.5 m apart."""
 _STEEP = 0.3
-"""Least vertical share of a contact's normal for which lifting the robot is the way out of it."""
+"""Least vertical share of a contact's normal for which lifting the robot resolves the contact."""
 
 
 class Stance:
@@ -59,7 +59,7 @@ class Stance:
         self._geoms = np.array(geoms, dtype=int)
 
     def perturb(self, qpos: Array, qvel: Array, values: Mapping[str, Array]) -> None:
-        """Change states (n, nq) and (n, nv), all of them those of the start, by a sample's values; in place."""
+        """Change states in place, shape (n, nq) and (n, nv), by a sample's values. All of them begin as the start."""
         layout = self._layout
         position = slice(layout.root_qpos, layout.root_qpos + 3)
         attitude = slice(layout.root_qpos + 3, layout.root_qpos + 7)
@@ -87,7 +87,7 @@ class Stance:
         qvel[:, layout.joint_qvel] += values["start_joint_velocity"]
 
     def _scene_moved(self, values: Mapping[str, Array]) -> Array:
-        """(n, contacts, 3) [m], how far the scene's part in each contact has moved."""
+        """Compute how far the scene's part in each contact has moved [m], shape (n, contacts, 3)."""
         model = self._model
         moved = np.zeros((len(values["mass"]), model.ngeom, 3))
         moved[:, ground(model), 2] = values["ground_height"]
@@ -96,7 +96,7 @@ class Stance:
         return moved[:, self._geoms]
 
     def _where(self, qpos: Array) -> Array:
-        """(n, contacts, 3) [m], where the robot's touching points are."""
+        """Compute the positions of the robot's touching points [m], shape (n, contacts, 3)."""
         n = len(qpos)
         batch = Batch(self._model, n, 1)
         position, matrix = batch.bind("xpos"), batch.bind("xmat")
@@ -106,11 +106,11 @@ class Stance:
         return position[:n, self._bodies] + turned
 
     def _gap(self, points: Array, moved: Array) -> Array:
-        """(n, contacts) [m], gaps between robot and scene beyond those at the start; negative if deeper."""
+        """Compute the gaps between robot and scene beyond those at the start [m], shape (n, contacts); negative if deeper."""
         return np.einsum("nci,ci->nc", points - self._points - moved, self._normals)
 
     def _fit(self, lever: Array, gap: Array) -> tuple[Array, Array]:
-        """Lift (n, 3) [m] and small turn (n, 3) [rad] of the trunk that close the gaps best, in the least-squares sense."""
+        """Fit the lift [m] and small turn [rad] of the trunk, shape (n, 3) each, that close the gaps best."""
         normal = self._normals
         turning = np.cross(lever, normal)  # n . (turn x lever) = turn . (lever x n)
         rates = np.stack([np.broadcast_to(normal[:, 2], gap.shape), turning[..., 0], turning[..., 1]], axis=-1)
@@ -128,6 +128,6 @@ def _move(qpos: Array, position: slice, attitude: slice, lift: Array, turn: Arra
 
 
 def _moved(points: Array, origin: Array, lift: Array, turn: Array) -> Array:
-    """The points (n, contacts, 3) after `_move` of a trunk whose origin (n, 3) was there before."""
+    """Return the points, shape (n, contacts, 3), after `_move` of a trunk with its origin at (n, 3) before."""
     lever = rotate(exponential(turn)[:, None], points - origin[:, None])
     return (origin + lift)[:, None] + lever

@@ -1,4 +1,4 @@
-"""How a motion starts: standing in a posture, lying after a fall, one of a family of them, or as an earlier motion ended."""
+"""How a motion starts: standing in a posture, lying after a fall or one of a family of falls, or where a motion ended."""
 
 from __future__ import annotations
 
@@ -13,12 +13,15 @@ from levade.errors import LevadeError
 class Settled:
     """Standing on the ground in a posture, at rest.
 
-    The robot is put down level, with its lowest foot touching (or whatever is lower), above the point x, y, and holds
-    the posture with its own gains for ``time`` [s]; it sags a little, as its joints give way to gravity.
+    The robot is put down level above the point x, y, with its lowest foot (or any lower part) touching the ground. It holds the
+    posture with its own gains for ``time`` [s], and sags a little, because its joints give way to gravity.
 
     Attributes:
-        posture: Name of a posture of the robot; or, on top of the neutral one, joint -> angle [rad], and leg, "front",
-            "hind", "left" or "right" -> name of the posture that these legs take.
+        posture: Name of a posture of the robot. Or a table that changes the neutral posture: joint -> angle [rad], and leg,
+            "front", "hind", "left" or "right" -> name of the posture of these legs.
+        x: Position [m].
+        y: Position [m].
+        time: Time to come to rest [s].
     """
 
     posture: str | Mapping[str, float | str] = "neutral"
@@ -33,19 +36,22 @@ class Settled:
 
 @dataclass(frozen=True)
 class Fall:
-    """Lying as a fall with weak joints left it: deterministic, from the numbers here.
+    """Lying after a fall with weak joints. The same numbers give the same fall.
 
     Attributes:
-        height: [m], trunk's origin over z = 0 at release; higher where a part of the robot would be in the ground.
-        x: [m].
-        y: [m].
-        roll: [rad] at release, z-y-x.
-        pitch: [rad] at release, z-y-x.
-        yaw: [rad] at release, z-y-x.
-        posture: As in `Settled`; the joints hold it with ``gain`` times their gains while they fall.
-        time: [s] from release to the start of the motion.
-        spread: [rad], standard deviation of random changes of the joints and of roll, pitch and yaw at release, drawn
-            with ``seed``: a family of falls for a library or a test.
+        height: Height of the trunk's origin over z = 0 at release [m]. It is higher if a part of the robot would be in the
+            ground.
+        x: Position at release [m].
+        y: Position at release [m].
+        roll: Roll at release [rad], z-y-x.
+        pitch: Pitch at release [rad], z-y-x.
+        yaw: Yaw at release [rad], z-y-x.
+        posture: Posture as in `Settled`, which the joints hold during the fall.
+        gain: Factor on the gains of the joints during the fall.
+        time: Time from release to the start of the motion [s].
+        spread: Standard deviation of random changes of the joints and of roll, pitch and yaw at release [rad]: a family of
+            falls.
+        seed: Seed of these changes.
     """
 
     height: float
@@ -72,11 +78,13 @@ class Fall:
 
 @dataclass(frozen=True)
 class Fold:
-    """What a robot does first once it has fallen: its joints go to a posture, smoothly, and rest there.
+    """How a robot folds up after it has fallen: its joints move smoothly to a posture, and rest there.
 
-    posture: as in `Settled`; or "tucked", with the legs drawn in (`levade.robots.tucking`): it then lies in one of a few
-        ways, however it fell.
-    time: [s], of going there. rest: [s], until the motion starts.
+    Attributes:
+        posture: Posture as in `Settled`; or "tucked", with the legs drawn in (`levade.robots.tucking`), in which it lies in one
+            of a few ways.
+        time: Duration of the movement [s].
+        rest: Time at rest until the motion starts [s].
     """
 
     posture: str | Mapping[str, float | str] = "tucked"
@@ -90,21 +98,21 @@ class Fold:
 
 @dataclass(frozen=True)
 class Fallen:
-    """Lying however it fell: one of a family of falls, from any attitude and with any posture.
+    """Lying after one of a family of falls, from any attitude and with any posture.
 
-    The attitude is uniform over all rotations. Each joint's angle is uniform over its range, a whole turn if it has
-    none, and all are drawn again where parts of the robot overlap each other or an obstacle.
+    The attitude is uniform over all rotations. Each joint's angle is uniform over its range, or a whole turn if it has none.
+    All angles are drawn again if parts of the robot overlap each other or an obstacle.
 
     Attributes:
-        height: [m], trunk's origin over the ground under it at release; higher where a part of the robot would be in
-            the ground.
-        x: [m].
-        y: [m].
-        gain: The joints hold the angles that they were released with, with this many times their gains.
-        time: [s] from release to the start of the motion.
-        seed: Which fall of which family. A fall does not depend on how many of its family are asked for.
-        index: Which fall of which family. A fall does not depend on how many of its family are asked for.
-        fold: What the joints do then, before the motion starts; None if nothing.
+        height: Height of the trunk's origin over the ground below it at release [m]. It is higher if a part of the robot would
+            be in the ground.
+        x: Position at release [m].
+        y: Position at release [m].
+        gain: Factor on the gains with which the joints hold their angles at release.
+        time: Time from release to the start of the motion, or to the fold [s].
+        seed: Seed of the family.
+        index: Number of the fall in its family. A fall does not depend on how many others are used.
+        fold: What the joints do before the motion starts. None for nothing.
     """
 
     height: float
@@ -133,10 +141,10 @@ class GivenState:
     """A state in numbers, such as the end of an earlier motion (`levade.motions.end_of`).
 
     Attributes:
-        qpos: In the model's own order, SI.
-        qvel: In the model's own order, SI.
-        act: In the model's own order, SI.
-        joint_reference: What the joints were commanded last [rad], in the robot's joint order.
+        qpos: Positions in the model's own order, SI.
+        qvel: Velocities in the model's own order, SI.
+        act: States of the actuators in the model's own order, SI.
+        joint_reference: Last commands of the joints [rad], in the robot's joint order.
     """
 
     qpos: tuple[float, ...]
@@ -160,7 +168,7 @@ def _check_finite(where: str, **values: float) -> None:
 
 
 _LONGEST = 600.0
-"""[s], of simulation before a motion starts: a minute of computing, where robots come to rest in seconds."""
+"""Largest simulated time before a motion starts [s]: a minute of computing. Robots come to rest in seconds."""
 
 
 def _check_time(name: str, time: float) -> None:

@@ -1,4 +1,4 @@
-"""The state of the robot that a roll-out starts from, of one trial or of n."""
+"""The state of the robot at the start of a roll-out, for one trial or for n."""
 
 from __future__ import annotations
 
@@ -14,20 +14,19 @@ from levade.errors import LevadeError
 
 @dataclass(frozen=True, eq=False)
 class State:
-    """Where trials start: one row for all of them, or a row for each.
+    """The start of trials: one row for all of them, or one row each.
 
-    `levade.engines.Layout.state` makes one of MuJoCo's vectors alone.
+    `levade.engines.Layout.state` makes one from MuJoCo's vectors.
 
     Attributes:
         qpos: Positions in the model's own order, shape (rows, nq).
         qvel: Velocities, shape (rows, nv).
         act: States of the actuators, shape (rows, na).
-        joint_position: Joint angles [rad] in the robot's joint order, shape (rows, joints).
-        joint_reference: What the joints were commanded last [rad], so that a motion can begin there without a jump,
-            shape (rows, joints).
+        joint_position: Joint angles in the robot's joint order [rad], shape (rows, joints).
+        joint_reference: Last commands of the joints [rad], from which a motion can begin without a jump, shape (rows, joints).
 
     Raises:
-        LevadeError: If an array has no rows, or not as many as the others.
+        LevadeError: If an array has no rows, or another number of rows than the others.
     """
 
     qpos: Array
@@ -45,18 +44,18 @@ class State:
         return len(self.qpos)
 
     def __getitem__(self, rows: int | slice | Sequence[int] | NDArray[np.integer | np.bool_]) -> State:
-        """Some of the rows, in the order given; a row may be there several times."""
+        """Select rows, in the order given; a row may come several times."""
         if isinstance(rows, int):
             rows = [rows]
         return State(**{name: values[rows] for name, values in self._arrays().items()})
 
     def repeated(self, n: int) -> State:
-        """The same state for n trials, if it is of one; itself if it is of n."""
+        """Repeat a state of one row for n trials. A state of n rows is returned unchanged."""
         return self if len(self) == n else self[np.zeros(n, dtype=np.intp)]
 
     @classmethod
     def stacked(cls, states: Sequence[State]) -> State:
-        """The rows of several states, one after another."""
+        """Join the rows of several states, in sequence."""
         parts = [state._arrays() for state in states]
         return cls(**{one.name: np.concatenate([part[one.name] for part in parts]) for one in fields(cls)})
 

@@ -1,10 +1,10 @@
-"""The engines there are, one row each. To add an engine, write its class and add its row.
+"""The table of engines. To add an engine, write its class and add its row.
 
     ENGINES["ode"].deterministic
     ENGINES["ode"].missing()        # None, or one line that says what to install
     engine = ENGINES["ode"].make(xml, assets, embodiment, physics, threads=0)
 
-The class of an engine is imported when it is first asked for, and its library is looked for when an engine is made.
+An engine's class is imported on first use, and its library is loaded when an engine is made.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ from levade.errors import LevadeError, did_you_mean
 
 @dataclass(frozen=True)
 class EngineKind:
-    """What is known of an engine before it is made.
+    """Describes an engine before it is made.
 
     Attributes:
         name: Its name in a task, as ``physics.engine``.
         title: Its name in texts.
         path: Module and class, as "module:class".
-        deterministic: Whether the same inputs give the same bits: for any number of threads, and in any batch.
+        deterministic: Whether the same inputs give the same bits, for any number of threads and in any batch.
         feedback: Whether it simulates feedback (`levade.feedback`).
     """
 
@@ -50,7 +50,7 @@ class EngineKind:
         threads: int = 0,
         model: Any = None,
     ) -> Any:
-        """Make an engine; arguments as of `levade.engines.Engine`.
+        """Make an engine. The arguments are those of `levade.engines.Engine`.
 
         Raises:
             LevadeError: If a library is missing, or the engine cannot simulate the model.
@@ -66,7 +66,7 @@ class EngineKind:
         return self.load().versions()
 
     def missing(self) -> str | None:
-        """What to install before an engine can be made, in one line; None if everything is there."""
+        """Say in one line what to install before an engine can be made. None if nothing is missing."""
         try:
             self.versions()
         except LevadeError as error:
@@ -85,10 +85,16 @@ ENGINES: dict[str, EngineKind] = {
 
 
 def engine_kind(name: str) -> EngineKind:
-    """Look up an engine.
+    """Look up an engine by name.
+
+    Args:
+        name: A key of `ENGINES`.
+
+    Returns:
+        The engine's row.
 
     Raises:
-        LevadeError: If there is none of this name.
+        LevadeError: If it does not exist.
     """
     if name not in ENGINES:
         raise LevadeError(f"no engine {name!r}; {did_you_mean(name, ENGINES)}")
@@ -96,6 +102,6 @@ def engine_kind(name: str) -> EngineKind:
 
 
 def no_feedback(name: str) -> LevadeError:
-    """The error of an engine that is asked for feedback and simulates none."""
+    """Return the error for an engine that cannot simulate feedback."""
     able = " or ".join(kind.name for kind in ENGINES.values() if kind.feedback)
     return LevadeError(f"feedback: the engine {name} does not simulate it yet; use the engine {able}")

@@ -1,6 +1,6 @@
-"""What may touch what in a model, and with how much friction, by MuJoCo's rules.
+"""Which geoms of a model may touch, and with how much friction, by MuJoCo's rules.
 
-Explicit pairs (`mujoco.MjModel.pair_geom1`) come on top of these, and are not looked at here.
+Explicit pairs (`mujoco.MjModel.pair_geom1`) come in addition, and are ignored here.
 """
 
 from __future__ import annotations
@@ -9,7 +9,10 @@ import mujoco
 
 
 def may_touch(model: mujoco.MjModel, one: int, other: int) -> bool:
-    """Whether MuJoCo looks for contact between two geoms: by their masks, not within a body, nor of a body with its parent."""
+    """Tell whether MuJoCo looks for contact between two geoms.
+
+    Their masks decide. Geoms of one body, or of a body and its parent, do not touch.
+    """
     affine = (model.geom_contype[one] & model.geom_conaffinity[other]) or (
         model.geom_contype[other] & model.geom_conaffinity[one]
     )
@@ -24,7 +27,7 @@ def may_touch(model: mujoco.MjModel, one: int, other: int) -> bool:
 
 
 def friction_between(model: mujoco.MjModel, one: int, other: int) -> float:
-    """Coefficient of sliding friction: the geom of higher priority decides; of equal ones, the larger coefficient."""
+    """Return the coefficient of sliding friction: that of the geom with higher priority, otherwise the larger one."""
     priority = model.geom_priority[one] - model.geom_priority[other]
     deciding = [one] if priority > 0 else [other] if priority < 0 else [one, other]
     if max(model.geom_condim[geom] for geom in deciding) == 1:

@@ -1,10 +1,10 @@
-"""Motions for other tools and for robots: files in their formats, made from a motion file.
+"""Export motions for robots and other tools, in their formats.
 
     motion = Motion.load("rearing/motion.npz")
     exported = export(motion, "csv", Path("rearing/motion-csv"))
     exported.written, exported.notes
 
-docs/export.md has every format's files, columns, units and frames.
+docs/export.md describes the files, columns, units and frames of every format.
 """
 
 from levade.exports.export import FORMATS, Exported, Format, export

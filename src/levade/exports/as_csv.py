@@ -1,4 +1,4 @@
-"""``csv``: a table with one header line, for spreadsheets, pandas, PlotJuggler and `player.py`."""
+"""Export ``csv``: a table with one header line, for spreadsheets, pandas, PlotJuggler and `player.py`."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ XYZ, WXYZ = ("x", "y", "z"), ("w", "x", "y", "z")
 
 
 def columns(samples: Samples) -> dict[str, Array]:
-    """Name of each column -> its values, (rows,)."""
+    """Return the name of each column -> its values, shape (rows,)."""
     table = {"time": samples.time}
     for i, joint in enumerate(samples.joints.names):
         for name in ("position", "velocity", "torque"):
@@ -42,7 +42,7 @@ def columns(samples: Samples) -> dict[str, Array]:
 
 
 def write_table(path: Path, table: dict[str, Array]) -> None:
-    """Write columns with all their digits: reading the numbers gives the same bits."""
+    """Write columns with all their digits. Reading the numbers gives the same bits."""
     with path.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(table)
@@ -50,7 +50,7 @@ def write_table(path: Path, table: dict[str, Array]) -> None:
 
 
 def write(content: Content, directory: Path) -> list[str]:
-    """motion.csv, and next to it meta.json and player.py."""
+    """Write motion.csv, and next to it meta.json and player.py."""
     table, feedback = directory / "motion.csv", directory / FEEDBACK
     write_table(table, columns(content.playing))
     belongs = [table.read_bytes()]
@@ -64,26 +64,26 @@ def write(content: Content, directory: Path) -> list[str]:
 
 
 def write_feedback(path: Path, feedback: Feedback) -> None:
-    """A stabiliser's arrays, for numpy; the same ones give the same bytes."""
+    """Write a stabiliser's arrays for numpy. The same arrays give the same bytes."""
     path.write_bytes(packed({"gain": feedback.gain, "reference": feedback.reference}))
 
 
 def write_player(directory: Path) -> None:
-    """player.py, as it is here."""
+    """Write player.py, a copy of the module."""
     write_script("player.py", directory / "player.py")
 
 
 def write_script(name: str, place: Path) -> None:
-    """A script of this room that runs on its own; where it imports the player, that one is beside it."""
+    """Write a script of this room that runs on its own. If it imports the player, the player must be next to it."""
     source = resources.files("levade.exports").joinpath(name).read_text(encoding="utf-8")
     place.write_text(source.replace("from levade.exports import player\n", "import player\n"), encoding="utf-8")
 
 
 def write_json(path: Path, content: object, *, indent: int | None = None) -> None:
-    """A JSON file; numbers with all their digits."""
+    """Write a JSON file. Numbers have all their digits."""
     path.write_text(to_json(content, indent=indent) + "\n", encoding="utf-8")
 
 
 def to_json(content: object, *, indent: int | None = None) -> str:
-    """JSON proper: nothing that is not a number among the numbers."""
+    """Return strict JSON: it has no NaN or infinity."""
     return json.dumps(content, ensure_ascii=False, allow_nan=False, indent=indent)

@@ -1,4 +1,4 @@
-"""``json``: everything in one file."""
+"""Export ``json``: everything in one file."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from levade.exports.player import canonical, checksum
 
 
 def write(content: Content, directory: Path) -> list[str]:
-    """motion.json, and player.py, which reads it."""
+    """Write motion.json, and player.py, which reads it."""
     samples = content.samples
     meta = describe(content, samples)
     document = {

@@ -1,7 +1,7 @@
-"""``mjcf``: the robot and the whole simulation as MuJoCo models, with the files that they need, and the files for playing.
+"""Export ``mjcf``: the robot and the whole simulation as MuJoCo models, with their files, and the files for playing.
 
-mjcf/robot.xml     the robot with its actuators, without ground and obstacles: the same bytes whatever it does
-mjcf/scene.xml     robot and scene, letter by letter what the motion was simulated with
+mjcf/robot.xml     the robot with its actuators, without ground and obstacles; it does not depend on the motion
+mjcf/scene.xml     robot and scene, exactly as the motion was simulated
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ ROBOT, SCENE = "robot.xml", "scene.xml"
 
 
 def check(motion: Motion) -> None:
-    """Raise LevadeError for names of files that would lead out of the folder, or to the models themselves."""
+    """Raise LevadeError for file names that would leave the directory, or replace the models."""
     for name in motion.assets:
         parts = PurePosixPath(name).parts
         leads_away = PureWindowsPath(name).anchor or PurePosixPath(name).anchor or ".." in parts or "\\" in name
@@ -32,7 +32,7 @@ def check(motion: Motion) -> None:
 
 
 def write(content: Content, directory: Path) -> list[str]:
-    """mjcf/robot.xml, mjcf/scene.xml, the files that they need, and the files for playing."""
+    """Write mjcf/robot.xml, mjcf/scene.xml, the files that they need, and the files for playing."""
     motion, folder = content.motion, directory / "mjcf"
     folder.mkdir()
     for name, data in motion.assets.items():
@@ -46,7 +46,7 @@ def write(content: Content, directory: Path) -> list[str]:
 
 
 def robot_alone(model_xml: str, assets: Mapping[str, bytes], feet: Sequence[str]) -> str:
-    """Take the scene, and the sensors that levade adds, out of a simulation's MJCF.
+    """Remove the scene, and levade's sensors, from a simulation's MJCF.
 
     Args:
         model_xml: Robot and scene.

@@ -1,10 +1,11 @@
-"""``mjlab``: a reference motion for mjlab's tracking task.
+"""Export ``mjlab``: a reference motion for mjlab's tracking task.
 
-mjlab 1.6.0 reads reference.npz with ``MotionLoader`` of mjlab/tasks/tracking/mdp/commands.py: joint_pos, joint_vel,
-body_pos_w, body_quat_w, body_lin_vel_w, body_ang_vel_w, a row per control step. They are what its own
-mjlab/scripts/csv_to_npz.py writes, with ``fps``, from the entity's joint_pos, joint_vel and body_link_*_w: hinges and bodies in
-the model's order, the frames of bodies (not of their centres of mass), world axes, quaternions w-x-y-z. reference.csv is
-what csv_to_npz.py reads: position and quaternion x-y-z-w of the trunk, then joint angles; no header.
+mjlab 1.6.0 reads reference.npz with ``MotionLoader`` of mjlab/tasks/tracking/mdp/commands.py: joint_pos, joint_vel, body_pos_w,
+body_quat_w, body_lin_vel_w, body_ang_vel_w, a row per control step. Its own mjlab/scripts/csv_to_npz.py writes the same arrays,
+with ``fps``, from the entity's joint_pos, joint_vel and body_link_*_w. Hinges and bodies are in the model's order. Frames are
+those of bodies, not of their centres of mass. Axes are the world's, quaternions w-x-y-z.
+
+reference.csv is the input of csv_to_npz.py: position and quaternion x-y-z-w of the trunk, then joint angles, without a header.
 """
 
 from __future__ import annotations
@@ -20,11 +21,11 @@ from levade.exports.content import Content, held
 from levade.exports.links import body_frames, frames_of, links_of
 
 RATE = 50.0
-"""[Hz], control rate of mjlab's tracking task: a step of 5 ms, four of them between controls."""
+"""Control rate of mjlab's tracking task [Hz]: four steps of 5 ms per control."""
 
 
 def write(content: Content, directory: Path) -> list[str]:
-    """reference.npz and reference.csv, and the files for playing."""
+    """Write reference.npz and reference.csv, and the files for playing."""
     samples, model = content.samples, content.model
     names, position, velocity = _all_joints(content)
     links = links_of(model)
@@ -54,9 +55,9 @@ def write(content: Content, directory: Path) -> list[str]:
 
 
 def _all_joints(content: Content) -> tuple[list[str], Array, Array]:
-    """Names of the joints of the robot's own MJCF, in its order, their positions and velocities, (rows, joints).
+    """Return the joints of the robot's own MJCF: names in its order, positions and velocities, shape (rows, joints).
 
-    Joints that the simulation holds are in mjlab's model, too; there they stay where they are held.
+    Joints that the simulation holds are also in mjlab's model. There they stay where they are held.
     """
     samples, model, still = content.samples, content.model, held(content.motion)
     free = [model.joint(i).name for i in range(model.njnt) if model.jnt_type[i] == mujoco.mjtJoint.mjJNT_HINGE]

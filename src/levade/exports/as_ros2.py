@@ -1,9 +1,10 @@
-"""``ros2``: a bag for ``ros2 bag play`` and Foxglove, and the trajectory in YAML for a JointTrajectoryController.
+"""Export ``ros2``: a bag for ``ros2 bag play`` and Foxglove, and the trajectory in YAML for a JointTrajectoryController.
 
     bag/metadata.yaml, bag/bag_0.mcap      /joint_trajectory, /joint_states, /tf, /robot_description
     joint_trajectory.yaml                  trajectory_msgs/msg/JointTrajectory
 
-Needs mcap (`pip install levade[ros2]`), not ROS. The same motion gives the same bytes: the bag begins at 1 s after the epoch.
+It needs mcap (`pip install levade[ros2]`), not ROS. The bag begins at 1 s after the epoch, so the same motion gives the same
+bytes.
 """
 
 from __future__ import annotations
@@ -26,10 +27,10 @@ from levade.exports.urdf import urdf
 from levade.motions import Motion
 
 WORLD = "world"
-"""The frame that the trunk's pose is in."""
+"""Frame of the trunk's pose."""
 
 _START = NANO
-"""[ns]: a stamp of zero would mean "now" to some, "latest" to others."""
+"""Start of the bag [ns]. Some tools read a stamp of zero as "now", others as "latest"."""
 
 _TOPICS = {
     "/robot_description": "std_msgs/msg/String",
@@ -38,11 +39,11 @@ _TOPICS = {
     "/tf": "tf2_msgs/msg/TFMessage",
 }
 _KEPT = ("/robot_description", "/joint_trajectory")
-"""Sent once, and kept for those who come later (transient local)."""
+"""Topics that are sent once, and kept for later subscribers (transient local)."""
 
 
 def check(motion: Motion) -> None:
-    """Raise LevadeError where mcap is missing."""
+    """Raise LevadeError if mcap is missing."""
     try:
         import mcap.writer  # noqa: F401
     except ImportError:
@@ -50,7 +51,7 @@ def check(motion: Motion) -> None:
 
 
 def write(content: Content, directory: Path) -> list[str]:
-    """The bag, the YAML, and the files for playing."""
+    """Write the bag, the YAML, and the files for playing."""
     bag = directory / "bag"
     bag.mkdir()
     counts = _write_bag(content, bag / "bag_0.mcap")
@@ -68,17 +69,20 @@ def _in_a_line(value: object) -> str:
 
 
 def nanoseconds(samples: Samples) -> list[int]:
-    """[ns] from the start, of each row."""
+    """Return the time of each row from the start [ns]."""
     return np.rint(samples.time * NANO).astype(np.int64).tolist()
 
 
 def _efforts(samples: Samples) -> np.ndarray | None:
-    """No torque to send is no effort: a JointTrajectoryController without effort interface takes no other."""
+    """Return the torques to send; None if there are none.
+
+    A JointTrajectoryController without effort interface only takes none.
+    """
     return samples.command_torque if samples.reference == "measured" else None
 
 
 def _messages(content: Content) -> Iterator[tuple[int, str, bytes]]:
-    """Time [ns], topic, bytes, in the order of time."""
+    """Yield time [ns], topic and bytes, in the order of time."""
     samples, names = content.samples, content.samples.joints.names
     times = nanoseconds(samples)
     yield (
@@ -104,7 +108,7 @@ def _messages(content: Content) -> Iterator[tuple[int, str, bytes]]:
 
 
 def _write_bag(content: Content, path: Path) -> dict[str, int]:
-    """Returns the number of messages of each topic."""
+    """Write the bag. Returns the number of messages of each topic."""
     from mcap.writer import Writer
 
     counts = dict.fromkeys(_TOPICS, 0)
@@ -139,7 +143,7 @@ def _write_bag(content: Content, path: Path) -> dict[str, int]:
 
 
 def _metadata(counts: dict[str, int], times: list[int]) -> dict[str, Any]:
-    """metadata.yaml in the layout of version 5, which every rosbag2 from Humble on reads."""
+    """Return metadata.yaml in the layout of version 5, which every rosbag2 from Humble on reads."""
     start, duration = {"nanoseconds_since_epoch": _START}, {"nanoseconds": times[-1]}
     total = sum(counts.values())
     return {
@@ -170,7 +174,7 @@ def _metadata(counts: dict[str, int], times: list[int]) -> dict[str, Any]:
 
 
 def _quality(topic: str) -> str:
-    """How the topic is offered, in YAML: reliable; transient local or volatile. The numbers are rmw's."""
+    """Return the quality of service of a topic as YAML: reliable, and transient local or volatile. The numbers are rmw's."""
     ever = {"sec": 9223372036, "nsec": 854775807}
     profile = {
         "history": 1,  # keep last
@@ -187,7 +191,7 @@ def _quality(topic: str) -> str:
 
 
 def _trajectory(samples: Samples) -> dict[str, Any]:
-    """The message as ``ros2 topic pub`` takes it."""
+    """Return the message as ``ros2 topic pub`` takes it."""
     efforts = _efforts(samples)
     return {
         "header": {"stamp": {"sec": 0, "nanosec": 0}, "frame_id": ""},
@@ -206,7 +210,7 @@ def _trajectory(samples: Samples) -> dict[str, Any]:
 
 
 class _Plain(yaml.CSafeDumper if yaml.__with_libyaml__ else yaml.SafeDumper):  # type: ignore[misc]
-    """Without anchors: what is there twice is written twice."""
+    """Writes YAML without anchors."""
 
     def ignore_aliases(self, data: Any) -> bool:
         return True

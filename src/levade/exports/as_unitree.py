@@ -1,7 +1,7 @@
-"""``unitree``: position, velocity, feed-forward torque, kp and kd of each motor, as Unitree's low-level commands have them.
+"""Export ``unitree``: position, velocity, feed-forward torque, kp and kd of each motor, as in Unitree's low-level commands.
 
 The order is that of ``LowCmd.motor_cmd`` in Unitree's SDKs (``LegID`` in unitree_sdk2_python's unitree_legged_const.py): FR_0
-to FR_2, FL, RR, RL, each hip, thigh, calf. The names of the fields, q, dq, tau, kp, kd, and the 500 Hz are theirs too.
+to FR_2, FL, RR, RL, each hip, thigh, calf. The field names q, dq, tau, kp, kd and the 500 Hz are also Unitree's.
 """
 
 from __future__ import annotations
@@ -20,18 +20,24 @@ from levade.exports.content import Content
 from levade.motions import Motion
 
 RATE = 500.0
-"""[Hz]."""
+"""Rows per second [Hz]."""
 
 LEGS = {"FR": ("front", "right"), "FL": ("front", "left"), "RR": ("hind", "right"), "RL": ("hind", "left")}
 AXES = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
-"""Of hip, thigh and calf in the trunk frame at angle zero: Unitree's joints turn about x, y, y on all legs."""
+"""Axes of hip, thigh and calf in the trunk frame at angle zero: on all legs Unitree's joints turn about x, y, y."""
 
 
 def motors(motion: Motion) -> dict[str, str]:
-    """Motor -> joint, in Unitree's order.
+    """Map each motor to a joint, in Unitree's order.
+
+    Args:
+        motion: The motion.
+
+    Returns:
+        Motor -> joint.
 
     Raises:
-        LevadeError: Unless the robot has four such legs of three joints.
+        LevadeError: If the robot does not have four legs of three joints.
     """
     order: dict[str, str] = {}
     for leg in motion.legs:
@@ -54,7 +60,7 @@ def motors(motion: Motion) -> dict[str, str]:
 
 
 def write(content: Content, directory: Path) -> list[str]:
-    """unitree.csv, and motion.csv with meta.json and player.py, all in Unitree's order and under its names."""
+    """Write unitree.csv, and motion.csv with meta.json and player.py, all in Unitree's order and under its names."""
     order = motors(content.motion)
     names = content.samples.joints.names
     index = [names.index(joint) for joint in order.values()]

@@ -1,8 +1,8 @@
-"""``urdf``: the robot as URDF, its meshes next to it, and the files for playing.
+"""Export ``urdf``: the robot as URDF, its meshes next to it, and the files for playing.
 
     robot.urdf, meshes/*.stl
 
-It is made from the motion's model. The scene is no part of it, so the same robot gives the same bytes whatever it does.
+The URDF comes from the motion's model, without the scene. So the same robot gives the same bytes for every motion.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from levade.exports.urdf import mesh_bytes, mesh_files, urdf
 
 
 def write(content: Content, directory: Path) -> list[str]:
-    """robot.urdf, its meshes, and the files for playing."""
+    """Write robot.urdf, its meshes, and the files for playing."""
     files = mesh_files(content.model)
     for mesh, file in files.items():
         (directory / file).parent.mkdir(exist_ok=True)

@@ -1,24 +1,25 @@
 #!/usr/bin/env python3
-"""Get a robot up however it fell: ask a motion library, play what it answers, look, ask again. Needs Python 3.10 and numpy.
+"""Get a robot up from any fall: ask a motion library, play the answer, check, ask again. Needs Python 3.10 and numpy.
 
-    python ask.py --state state.json                        # which motion, and how likely it works
-    python ask.py --robot my_robot:MyRobot --attempts 3     # MyRobot is yours: see player.py; it needs read_trunk
+    python ask.py --state state.json                        # name a motion, and its probability
+    python ask.py --robot my_robot:MyRobot --attempts 3     # your class with read_trunk: see player.py
 
-state.json has what a robot senses when it lies still, with its joints where the library's `fold` has them:
+state.json has the sensor readings of a robot that lies still, with its joints in the library's `fold`:
 
     {"attitude": [0.1, 0.99, 0.0, 0.05], "joints": {"lf_haa": 0.0, "lf_hfe": 1.5, "...": 0.0}}
 
-``attitude`` is a quaternion w-x-y-z, whatever its yaw; ``up`` can be given instead, in trunk axes. An attempt is:
+``attitude`` is a quaternion w-x-y-z; its yaw does not matter. Instead, ``up`` gives the upward direction in trunk axes. An
+attempt has these steps:
 
-1. The joints go to the fold's posture within its time, and rest there.
+1. The joints move to the fold's posture within its time, and rest there.
 2. The library is asked with the trunk's attitude and the joints.
-3. Its likeliest motion is played, with the start checks, limits and stops of player.py. What it is compared with is the
-   simulation from the way to lie that is nearest.
+3. Its likeliest motion is played, with the start checks, limits and stops of player.py. The player compares the robot with the
+   simulation from the nearest lying pose.
 4. The robot stands if its trunk is level and its joints are where the motion ends.
 
-A robot that does so much otherwise than the simulation that player.py stops is asked about again, after its drives have damped
-for a second. A robot that does not stand is asked about again at once. Everything else that player.py stops for ends it all.
-So does an error between two motions, and the last attempt. The drives then damp for a second. They hold a robot that stands.
+If the robot departs so far from the simulation that player.py stops, the drives damp for a second, and the next attempt begins.
+If the robot does not stand, the next attempt begins at once. Any other stop, an error between two motions, and the last attempt
+end the program. Then the drives damp for a second, or hold a robot that stands.
 
 Exit status: 0 it stands, 1 it does not or was stopped, 2 the input is wrong.
 """
@@ -44,31 +45,39 @@ from levade.exports import player
 Array = np.ndarray
 
 JOINTS = 0.25
-"""Of a difference of 1 rad in all joints, against one of 1 rad in attitude: a robot on its back has to roll over, however its
-legs are, and its joints are elsewhere in a moment."""
+"""Weight of a difference of 1 rad in all joints, relative to 1 rad in attitude.
+
+A robot on its back has to roll over for any leg posture, and its joints soon move elsewhere.
+"""
 
 NEAREST, LEAST_REACH = 8, 0.1
-"""Falls whose distance is how far a fall reaches, and the least of it [rad]."""
+"""The distance to this many nearest falls is the width of the weights, and its minimum [rad]."""
 
 HEARD = 128
-"""Falls, and images of falls, that have a say: the nearest ones. An answer then takes as long for thousands of falls."""
+"""Number of nearest falls, including mirror images, that count. An answer then takes as long for thousands of falls."""
 
 PRIOR = 0.5
-"""Falls that the share of all of them counts as: what is known nearby soon outweighs it."""
+"""Weight of the share over all falls, in falls. Nearby falls soon outweigh it."""
 
 LEVEL, THERE = 0.35, 0.4
-"""How far a robot that stands may be tilted, and its joints be from where the motion ends [rad]."""
+"""Largest tilt of a standing robot, and largest distance of its joints from the end of the motion [rad]."""
 
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """Which motion works from where: each fall nearby has a say, by how near it is, and all falls together have one.
+    """Predicts which motion works from where.
 
-    up: which way is up in each fall, in trunk axes, (n, 3). joint_position: (n, joints) [rad].
-    tried, worked: how often each motion was tried from each fall, and how often it worked, (n, m).
-    motions: their numbers, (m,).
-    image: column of each motion's image in the robot's mirror, (m,); of size 0 if its sides differ.
-    mirror_joints, mirror_signs: of which joint each joint of the image takes the angle, and with which sign, (joints,).
+    Each nearby fall counts by its distance, and the share over all falls counts, too.
+
+    Attributes:
+        up: Upward direction in trunk axes in each fall, shape (n, 3).
+        joint_position: Joint angles in each fall [rad], shape (n, joints).
+        tried: How often each motion was tried from each fall, shape (n, m).
+        worked: How often it worked, shape (n, m).
+        motions: Numbers of the motions, shape (m,).
+        image: Column of each motion's mirror image, shape (m,); of size 0 if the robot is not symmetric.
+        mirror_joints: Joint whose angle each joint of the mirror image takes, shape (joints,).
+        mirror_signs: Sign of that angle, shape (joints,).
     """
 
     up: Array
@@ -81,13 +90,16 @@ class Model:
     mirror_signs: Array
 
     def distances(self, up: Array, joint_position: Array) -> Array:
-        """How far a state is from each fall [rad], (n,): the angle between ways up, and a share of the joints' differences."""
+        """Compute the distance of a state from each fall [rad], shape (n,).
+
+        It combines the angle between upward directions with the joints' differences.
+        """
         angle = np.arccos(np.clip(self.up @ up, -1.0, 1.0))
         joints = np.sqrt(((self.joint_position - joint_position) ** 2).mean(axis=1))
         return np.hypot(angle, JOINTS * joints)
 
     def probabilities(self, up: Array, joint_position: Array) -> Array:
-        """How likely each motion works from a state, on the model or on a robot near it, (m,)."""
+        """Predict how likely each motion works from a state, on the nominal model or a perturbed one, shape (m,)."""
         if not len(self.motions):
             return np.zeros(0)
         distance = self.distances(up, joint_position)
@@ -109,17 +121,17 @@ class Model:
 
     @cached_property
     def _share(self) -> Array:
-        """From how many of all falls each motion works, or its image does from theirs, (m,)."""
+        """Share of all falls from which each motion works, or its mirror image from their mirror images, shape (m,)."""
         share = (self.worked.sum(axis=0) + 1.0) / (self.tried.sum(axis=0) + 2.0)
         return (share + share[self.image]) / 2 if len(self.image) else share
 
     def ranked(self, up: Array, joint_position: Array) -> list[tuple[int, float]]:
-        """Motions and how likely each works from a state, the likeliest first."""
+        """Return motions and their probabilities from a state, the likeliest first."""
         return ranked(self.motions, self.probabilities(up, joint_position))
 
 
 def features(up: Array, joint_position: Array) -> Array:
-    """What is learned from, (..., 3 + joints): the distance between two states is about that of `Model.distances`."""
+    """Compute the inputs of learned models, shape (..., 3 + joints). Their distance is about that of `Model.distances`."""
     return np.concatenate([up, joint_position * (JOINTS / math.sqrt(joint_position.shape[-1]))], axis=-1)
 
 
@@ -127,8 +139,12 @@ def features(up: Array, joint_position: Array) -> Array:
 class Learned:
     """A model that was learned from which motion works from which fall: `levade.library.learning`.
 
-    kind: "gaussian-process", "trees" or "networks". motions: their numbers, (m,). arrays: what it is made of.
-    slope, offset: of a probability's log odds, so that it is how often a motion works.
+    Attributes:
+        kind: "gaussian-process", "trees" or "networks".
+        motions: Numbers of the motions, shape (m,).
+        arrays: Arrays of the model.
+        slope: Slope of the line that calibrates the log odds.
+        offset: Offset of that line.
     """
 
     kind: str
@@ -138,36 +154,36 @@ class Learned:
     offset: float = 0.0
 
     def probabilities(self, up: Array, joint_position: Array) -> Array:
-        """How likely each motion works from a state, (m,)."""
+        """Predict how likely each motion works from a state, shape (m,)."""
         return calibrated(_RAW[self.kind](self.arrays, features(up, joint_position)), self.slope, self.offset)
 
     def ranked(self, up: Array, joint_position: Array) -> list[tuple[int, float]]:
-        """Motions and how likely each works from a state, the likeliest first."""
+        """Return motions and their probabilities from a state, the likeliest first."""
         return ranked(self.motions, self.probabilities(up, joint_position))
 
 
 def calibrated(raw: Array, slope: float, offset: float) -> Array:
-    """Probabilities of any shape, with their log odds on a line, so that each is how often a motion works."""
+    """Calibrate probabilities of any shape by a line through their log odds."""
     raw = np.clip(raw, 0.005, 0.995)
     return 1.0 / (1.0 + np.exp(-(slope * np.log(raw / (1.0 - raw)) + offset)))
 
 
 def ranked(motions: Array, probability: Array) -> list[tuple[int, float]]:
-    """Motions, (m,), and how likely each works, the likeliest first."""
+    """Return motions, shape (m,), and their probabilities, the likeliest first."""
     order = np.argsort(-probability, kind="stable")
     return [(int(motions[j]), float(probability[j])) for j in order]
 
 
 def _gaussian_process(of: dict[str, Array], x: Array) -> Array:
-    """Posterior mean. states: (k, f). weights: (k, m). mean: (m,). length, amplitude: (1,)."""
+    """Compute the posterior mean. states: (k, f). weights: (k, m). mean: (m,). length, amplitude: (1,)."""
     squared = ((of["states"] - x) ** 2).sum(axis=1)
     return of["mean"] + of["amplitude"] * np.exp(-0.5 * squared / of["length"] ** 2) @ of["weights"]
 
 
 def _trees(of: dict[str, Array], x: Array) -> Array:
-    """Sum of boosted trees, each of one motion. feature, threshold, left, right, value: (trees, nodes). motion: (trees,).
+    """Sum boosted trees, each of one motion. feature, threshold, left, right, value: (trees, nodes). motion: (trees,).
 
-    first: (m,), what they start from. A leaf is its own child.
+    first, shape (m,), is the value from which they start. A leaf is its own child.
     """
     tree, node = np.arange(len(of["motion"])), np.zeros(len(of["motion"]), dtype=int)
     for _ in range(int(of["depth"][0])):
@@ -177,7 +193,7 @@ def _trees(of: dict[str, Array], x: Array) -> Array:
 
 
 def _networks(of: dict[str, Array], x: Array) -> Array:
-    """Mean of networks with one hidden layer. into: (e, f, h). bias: (e, h). out: (e, h, m). last: (e, m)."""
+    """Average networks with one hidden layer. into: (e, f, h). bias: (e, h). out: (e, h, m). last: (e, m)."""
     hidden = np.tanh(np.einsum("f,efh->eh", x, of["into"]) + of["bias"])
     return (np.einsum("eh,ehm->em", hidden, of["out"]) + of["last"]).mean(axis=0)
 
@@ -187,10 +203,17 @@ _RAW = {"gaussian-process": _gaussian_process, "trees": _trees, "networks": _net
 
 @dataclass(frozen=True, eq=False)
 class Library:
-    """An exported library. Raises ValueError if it is not one.
+    """An exported library.
 
-    joints: their names. model: what it answers by. fold: the posture that the joints go to first, as a motion that rests there.
-    fold_time: [s], of going there. motions: number -> the motion, once for each way to lie that it was simulated from.
+    Attributes:
+        joints: Names of the joints.
+        model: The model that ranks motions.
+        fold: The folded posture, as a motion that rests there.
+        fold_time: Time to move there [s].
+        motions: Number -> the motion, once for each lying pose from which it was simulated.
+
+    Raises:
+        ValueError: If it is not a library.
     """
 
     joints: list[str]
@@ -201,11 +224,17 @@ class Library:
 
     @classmethod
     def load(cls, folder: str | Path) -> Library:
-        """Read library.json, model.npz and the motions beside them.
+        """Read library.json, model.npz and the motions next to them.
+
+        Args:
+            folder: Directory of the export.
+
+        Returns:
+            The library.
 
         Raises:
             OSError: If a file cannot be read.
-            ValueError: If a file is not one of an export, or was changed since.
+            ValueError: If a file does not belong to an export, or was changed since.
         """
         folder = Path(folder)
         try:
@@ -233,55 +262,74 @@ class Library:
             ) from None
 
     def ask(self, up: Array, joint_position: Array) -> list[tuple[int, float]]:
-        """Motions and how likely each works, the likeliest first.
+        """Rank motions for a state.
 
-        up: in trunk axes, of any length, (3,). joint_position: (joints,) [rad]. Raises ValueError if a shape is wrong, or
-        not all are numbers.
+        Args:
+            up: Upward direction in trunk axes, of any length, shape (3,).
+            joint_position: Joint angles [rad], shape (joints,).
+
+        Returns:
+            Motions and their probabilities, the likeliest first.
+
+        Raises:
+            ValueError: If a shape is wrong, or a value is not finite.
         """
         up, joints = np.asarray(up, dtype=float), np.asarray(joint_position, dtype=float)
         if up.shape != (3,) or not np.isfinite(up).all() or not np.linalg.norm(up) > 0:
-            raise ValueError("up: should be three numbers, which way is up in trunk axes")
+            raise ValueError("up: should be three numbers, the upward direction in trunk axes")
         if joints.shape != (len(self.joints),) or not np.isfinite(joints).all():
             raise ValueError(f"joints: should be the angles of {len(self.joints)} joints [rad]")
         return self.model.ranked(up / np.linalg.norm(up), joints)
 
 
 def nearest(motions: list[player.Motion], up: Array, joint_position: Array) -> player.Motion:
-    """The one that was simulated from the state nearest to this one.
+    """Return the motion that was simulated from the nearest state.
 
-    up: in trunk axes, (3,). joint_position: (joints,) [rad].
+    Args:
+        motions: The same motion, simulated from several states.
+        up: Upward direction in trunk axes, shape (3,).
+        joint_position: Joint angles [rad], shape (joints,).
+
+    Returns:
+        One of the motions.
     """
     return min(motions, key=lambda one: apart(one.up[0], one.start_position, up, joint_position))
 
 
 def apart(up: Array, joint_position: Array, other_up: Array, other_position: Array) -> float:
-    """How far two ways to lie are apart [rad]: by the angle between ways up, or by the joint that differs most."""
+    """Compute the distance of two lying poses [rad]: the angle between upward directions, or the largest joint difference."""
     angle = math.acos(min(1.0, max(-1.0, float(up @ other_up))))
     return max(angle, float(np.abs(joint_position - other_position).max()))
 
 
 def unpacked(content: bytes) -> Model | Learned:
-    """The model of a model.npz: by what is nearby, or a learned one."""
+    """Return the model of a model.npz: that of the nearest falls, or a learned one."""
     with np.load(io.BytesIO(content), allow_pickle=False) as file:
         if "kind" not in file:
             return Model(**{one.name: file[one.name] for one in fields(Model)})
         of = {name: file[name] for name in file}
     kind, motions, slope, offset = (of.pop(name) for name in ("kind", "motions", "slope", "offset"))
     if str(kind) not in _RAW:
-        raise ValueError(f"{kind} is no kind of model; one of {', '.join(_RAW)}")
+        raise ValueError(f"unknown kind of model {kind}; valid kinds: {', '.join(_RAW)}")
     return Learned(str(kind), motions, of, float(slope), float(offset))
 
 
 def checksum(about: dict[str, Any], model: bytes) -> str:
-    """Over all of library.json except its own "checksum", and over model.npz."""
+    """Compute the checksum of library.json, except its own "checksum", and of model.npz."""
     rest = {key: value for key, value in about.items() if key != "checksum"}
     return f"sha256:{hashlib.sha256(player.canonical(rest) + model).hexdigest()}"
 
 
 def resting(like: player.Motion, posture: Array, rest: float) -> player.Motion:
-    """A motion that stays in a posture, with the drives of another one.
+    """Make a motion that stays in a posture, with the drives of another one.
 
-    posture: (joints,) [rad]. rest: [s].
+    Args:
+        like: Motion whose drives it has.
+        posture: Joint angles [rad], shape (joints,).
+        rest: Duration [s].
+
+    Returns:
+        The motion.
     """
     rows, joints = max(1, round(rest * like.rate)), len(like.joints)
     still, table = np.zeros((rows, joints)), np.tile(posture, (rows, 1))
@@ -308,9 +356,11 @@ def resting(like: player.Motion, posture: Array, rest: float) -> player.Motion:
 
 @dataclass(frozen=True)
 class Attempt:
-    """What came of an attempt.
+    """Reports an attempt.
 
-    motion: its number; None if the robot did not fold up. stopped: why it was stopped, if it was.
+    Attributes:
+        motion: Number of the motion. None if the robot did not fold up.
+        stopped: Why it was stopped, if it was.
     """
 
     motion: int | None
@@ -336,31 +386,31 @@ def get_up(
     wait: Callable[[], Callable[[float], float]] = player.clock,
     observe: Callable[[Attempt], object] = lambda attempt: None,
 ) -> list[Attempt]:
-    """Sense, ask, play, look, and again.
+    """Sense, ask, play and check, until the robot stands.
 
     Args:
-        library: What to ask.
-        robot: What is to get up: with ``read``, ``write`` and ``read_trunk``, see player.py.
-        attempts: How often at most.
+        library: The library.
+        robot: The robot, with ``read``, ``write`` and ``read_trunk``: see player.py.
+        attempts: Largest number of attempts.
         fold_tolerance: How far joints may be from the fold's posture once they rest there [rad]. By default they may be
-            anywhere, as on their way: legs lie under the robot. What is played then has to begin near where they are.
+            anywhere, because legs may lie under the robot. The motion then has to begin near where they are.
         tolerance: How far the joints may be from the simulation in a motion [rad].
         speed_tolerance: How much faster joints and trunk may move than they ever do in the simulation [rad/s].
         tilt_tolerance: Largest angle between the trunk's attitude and that in the simulation [rad].
         clamp: As in ``player.play``.
-        wait: Makes a clock for each motion, as ``player.play`` takes one.
+        wait: Makes a clock for each motion, as in ``player.play``.
         observe: Called after each attempt.
 
     Returns:
-        The attempts: none if it stands already; else it stands if the last one says so.
+        The attempts. There are none if the robot stands already; otherwise it stands if the last one says so.
 
     Raises:
-        Stopped: If the robot's joints have other names, it has no ``read_trunk``, or a reading or the loop is not to be
-            trusted. Whatever the robot's methods raise is passed on.
+        Stopped: If the robot's joints have other names, it has no ``read_trunk``, or a reading or the loop is not valid.
+            Exceptions of the robot's methods are passed on.
     """
     player.check_robot(library.fold, robot)
     if not callable(getattr(robot, "read_trunk", None)):
-        raise player.Stopped("the robot has no read_trunk; a library is asked with the trunk's attitude")
+        raise player.Stopped("the robot has no read_trunk, but a library needs the trunk's attitude")
     done: list[Attempt] = []
     if any(stands(motion, robot) for own in library.motions.values() for motion in own):
         return done
@@ -415,20 +465,23 @@ def get_up(
 
 
 def sense(robot: Any, joints: int) -> tuple[Array, Array]:
-    """Which way is up in trunk axes, (3,), and the joints' angles [rad]. Raises Stopped for readings that are none."""
+    """Return the upward direction in trunk axes, shape (3,), and the joint angles [rad].
+
+    Raises Stopped if a reading is not valid.
+    """
     position, _ = player.pair("position and velocity", robot.read(), (joints, joints))
     quaternion, _ = player.trunk(robot)
     return np.array(player.up_of(*quaternion)), position
 
 
 def stands(motion: player.Motion, robot: Any) -> bool:
-    """Whether the trunk is level, and the joints are where a motion ends."""
+    """Tell whether the trunk is level, and the joints are where a motion ends."""
     up, joints = sense(robot, len(motion.joints))
     return bool(up[2] > math.cos(LEVEL) and np.abs(joints - motion.expected[-1]).max() < THERE)
 
 
 def read_state(path: Path, joints: list[str]) -> tuple[Array, Array]:
-    """Which way is up, and the joints' angles, of a JSON file. Raises ValueError if it has no such thing."""
+    """Read the upward direction and the joint angles from a JSON file. Raises ValueError if they are missing."""
     content = json.loads(path.read_text(encoding="utf-8"))
     if not isinstance(content, dict) or "joints" not in content or not {"up", "attitude"} & set(content):
         raise ValueError(f"{path}: should have joints, and attitude (w-x-y-z) or up")
@@ -455,25 +508,45 @@ def _say_what_is_sent(library: Library, *, clamp: bool) -> None:
     if clamp and beyond:
         sent = sum(motion.position.size for motion in motions)
         print(
-            f"{beyond} of {sent} positions are beyond the joints' ranges, and are clamped: these are not the motions that were"
+            f"{beyond} of {sent} positions are beyond the joints' ranges, and are clamped, which changes the simulated motions;"
         )
-        print("simulated; on drives like the simulated ones: --no-clamp")
+        print("add --no-clamp for drives like the simulated ones")
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """The command line."""
-    parser = argparse.ArgumentParser(description="Get a robot up however it fell, with an exported motion library.")
-    parser.add_argument("--library", metavar="DIR", default=str(Path(__file__).resolve().parent), help="this folder")
-    parser.add_argument("--state", metavar="FILE", help="say which motion: JSON with attitude or up, and joints")
-    parser.add_argument("--robot", metavar="MODULE:CLASS", help="your class with read, write and read_trunk")
-    parser.add_argument("--attempts", type=int, default=3, help="at most; 3")
-    parser.add_argument("--tolerance", type=float, default=1.0, help="of joints, from the simulation [rad]; 1")
-    parser.add_argument("--tilt-tolerance", type=float, default=2.0, help="of the trunk, from the simulation [rad]; 2")
+    """Run the command line."""
+    parser = argparse.ArgumentParser(description="Get a robot up from any fall, with an exported motion library.")
     parser.add_argument(
-        "--speed-tolerance", type=float, default=20.0, help="beyond the fastest of the simulation [rad/s]; 20"
+        "--library",
+        metavar="DIR",
+        default=str(Path(__file__).resolve().parent),
+        help="directory of the library; by default this one",
     )
     parser.add_argument(
-        "--no-clamp", action="store_true", help="send positions beyond the joints' ranges, too, as told"
+        "--state", metavar="FILE", help="only name a motion for this state: JSON with attitude or up, and joints"
+    )
+    parser.add_argument("--robot", metavar="MODULE:CLASS", help="your class with read, write and read_trunk")
+    parser.add_argument("--attempts", type=int, default=3, help="largest number of attempts; by default 3")
+    parser.add_argument(
+        "--tolerance",
+        type=float,
+        default=1.0,
+        help="largest distance of joints from the simulation [rad]; by default 1",
+    )
+    parser.add_argument(
+        "--tilt-tolerance",
+        type=float,
+        default=2.0,
+        help="largest tilt of the trunk from the simulation [rad]; by default 2",
+    )
+    parser.add_argument(
+        "--speed-tolerance",
+        type=float,
+        default=20.0,
+        help="largest speed beyond that in the simulation [rad/s]; by default 20",
+    )
+    parser.add_argument(
+        "--no-clamp", action="store_true", help="also send positions beyond the joints' ranges, as in the simulation"
     )
     options = parser.parse_args(arguments)
     tolerances = (options.tolerance, options.tilt_tolerance, options.speed_tolerance)

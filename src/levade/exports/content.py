@@ -1,4 +1,4 @@
-"""What is exported, before it takes a form: samples, the model, and where all of it came from."""
+"""Content of an export before it has a format: samples, the model, and the provenance."""
 
 from __future__ import annotations
 
@@ -40,16 +40,16 @@ UNITS = {
 
 @dataclass(frozen=True, eq=False)
 class Content:
-    """What an export writes.
+    """Holds what an export writes.
 
     Attributes:
         motion: The motion.
         model: Its compiled model.
-        samples: The motion at the rate that was asked for.
+        samples: The motion at the required rate.
         playing: The motion at a rate that a robot can follow; mostly the same.
         provenance: Task, robot, scene, seed, versions, command.
         simulation: See `levade.exports.simulation`.
-        feedback: The stabiliser; None if none goes with the rows.
+        feedback: The stabiliser. None if the rows have none.
     """
 
     motion: Motion
@@ -62,7 +62,7 @@ class Content:
 
 
 def provenance(motion: Motion, command: str | None) -> dict[str, Any]:
-    """Where a motion came from, what it meets, and how well it does; JSON."""
+    """Describe where a motion comes from, what it meets, and how well it does, as JSON."""
     from levade.version import __version__
 
     scene = task_to_dict(motion.task, code=True)["scene"]
@@ -85,7 +85,7 @@ def provenance(motion: Motion, command: str | None) -> dict[str, Any]:
 
 
 def surroundings(motion: Motion) -> str:
-    """What the motion meets besides flat ground, in words; empty if nothing."""
+    """Describe what the motion meets besides flat ground, in words. Empty for nothing."""
     scene = motion.task.scene
     count = lambda what, plural, items: [f"{len(items)} {what if len(items) == 1 else plural}"] * bool(items)  # noqa: E731
     parts = count("box", "boxes", scene.boxes) + count("gap", "gaps", scene.gaps)
@@ -95,7 +95,7 @@ def surroundings(motion: Motion) -> str:
 
 
 def held(motion: Motion) -> dict[str, float]:
-    """Joints that the simulation holds, and nothing commands -> their positions [rad], of slides [m]."""
+    """Return joints that the simulation holds without a command -> their positions [rad], for slides [m]."""
     return dict(motion.held)
 
 
@@ -104,10 +104,10 @@ def describe(content: Content, samples: Samples) -> dict[str, Any]:
 
     Args:
         content: What is exported.
-        samples: The rows, those of the content or of its ``playing``.
+        samples: The rows: those of the content, or of its ``playing``.
 
     Returns:
-        JSON. Limits are null where there is none.
+        JSON. A limit is null if there is none.
     """
     feedback = content.feedback
     joints = samples.joints
@@ -131,7 +131,7 @@ def describe(content: Content, samples: Samples) -> dict[str, Any]:
 
 
 def _describe(feedback: Feedback, joints: tuple[str, ...]) -> dict[str, Any]:
-    """All about a stabiliser but its arrays; JSON."""
+    """Describe a stabiliser without its arrays, as JSON."""
     return {
         "rate": 1.0 / feedback.period,
         "latency": feedback.period,

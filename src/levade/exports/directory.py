@@ -1,4 +1,4 @@
-"""A directory whose new files are all there in the end, or none of them."""
+"""Write the files of a directory all together, or none of them."""
 
 from __future__ import annotations
 
@@ -14,9 +14,15 @@ from levade.writing import check_replaceable
 
 @contextmanager
 def filling(directory: Path) -> Iterator[Path]:
-    """A place to write the files at; they go into the directory at the end, or away if something goes wrong.
+    """Give a place to write files. At the end they move into the directory; after an error they are removed.
 
-    Files of the same names are replaced, others stay. The directory is made if need be.
+    Files of the same names are replaced, others stay. The directory is created if it does not exist.
+
+    Args:
+        directory: The directory.
+
+    Yields:
+        A directory for the new files.
 
     Raises:
         LevadeError: If it cannot be written, before any work is done.

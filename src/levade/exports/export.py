@@ -1,4 +1,4 @@
-"""The formats, and how a motion is put into one."""
+"""The export formats, and the export of a motion."""
 
 from __future__ import annotations
 
@@ -20,21 +20,21 @@ from levade.motions import Motion
 from levade.robots.settling import sunk_feet
 
 SLOW = 200.0
-"""[Hz]: commands that stay in force for longer than 5 ms are no longer those of a motion of tenths of seconds."""
+"""Lowest useful rate [Hz]. Commands that last longer than 5 ms no longer give a motion of tenths of seconds."""
 
 Write = Callable[[Content, Path], list[str]]
 
 
 @dataclass(frozen=True)
 class Format:
-    """A format of exports.
+    """Describes an export format.
 
     Attributes:
-        description: What it is for.
-        write: Puts the files into a directory, and returns notes for the user.
-        rate: Rows a second [Hz]; None for the simulation's.
-        plays: Whether its rows can be sent to a robot. If not, the files for playing are at the simulation's rate.
-        check: Raises LevadeError where the motion cannot be put into the format.
+        description: Purpose of the format.
+        write: Writes the files into a directory, and returns notes for the user.
+        rate: Rows per second [Hz]. None for the simulation's.
+        plays: Whether its rows can be sent to a robot. If not, the files for playing have the simulation's rate.
+        check: Raises LevadeError if the motion does not fit the format.
     """
 
     description: str
@@ -57,7 +57,7 @@ FORMATS = {
 
 @dataclass(frozen=True, eq=False)
 class Exported:
-    """What was written.
+    """Lists what was written.
 
     Attributes:
         notes: Sentences that the user should read.
@@ -82,24 +82,24 @@ def export(
     kd: float | None = None,
     command: str | None = None,
 ) -> Exported:
-    """Write a motion in a format, all files of it or none.
+    """Write a motion in a format: all files or none.
 
     Args:
         motion: A motion.
         to: Name of the format, a key of `FORMATS`.
-        directory: Directory to write; it is made if need be.
-        rate: Rows a second [Hz]. Defaults to the format's own.
+        directory: Directory to write. It is created if it does not exist.
+        rate: Rows per second [Hz]. Defaults to the format's.
         reference: What to send, "measured" or "commanded": see `levade.exports.samples.sample`.
         hold: Whether to go on after the horizon.
         kp: Position gain of all joints [Nm/rad]. Defaults to the simulation's.
         kd: Velocity gain of all joints [Nm s/rad]. Defaults to the simulation's.
-        command: The command that asked for it, for the provenance.
+        command: The command line, for the provenance.
 
     Returns:
-        What was written, with its samples and notes.
+        The files that were written, with samples and notes.
 
     Raises:
-        LevadeError: If the format does not exist or the motion does not fit into it.
+        LevadeError: If the format does not exist, or the motion does not fit it.
     """
     if to not in FORMATS:
         raise LevadeError(f"no format {to!r}; {did_you_mean(to, FORMATS)}", field="to")
@@ -130,7 +130,7 @@ def export(
 
 
 def _feedback(motion: Motion, playing: Samples, *, own_gains: bool) -> Feedback | None:
-    """The motion's stabiliser, where it fits what is played: drives of the same gains, and a row at each of its ticks."""
+    """Return the motion's stabiliser if it fits the rows: drives of the same gains, and a row at each of its ticks."""
     feedback = motion.feedback
     if feedback is None or not own_gains:
         return None
@@ -167,7 +167,7 @@ def _sunk_notes(model: mujoco.MjModel, depth: Mapping[str, float]) -> list[str]:
 
 
 def _notes(motion: Motion, samples: Samples) -> list[str]:
-    """What the user of the files should know before the robot does."""
+    """Say what the user of the files should know before playing them."""
     notes = [] if motion.result.success else ["the motion does not meet its success criteria"]
     if around := surroundings(motion):
         notes.append(

@@ -1,12 +1,12 @@
-"""The robot as a tree of links, each joined to its parent by one hinge or none, and where the links are during a motion.
+"""Describe the robot as a tree of links, and compute where the links are during a motion.
 
     links = links_of(model)
     frames = frames_of(links, samples)            # every link at every row, without a loop over rows
     frames.position, frames.linear_velocity       # (rows, links, 3)
 
-A link is a body of the model, under the body's name; a body that turns about several hinges has links ``BODY_JOINT`` before
-it. Where a hinge does not go through its body's origin, the link's frame is on the hinge: URDF knows no other, and
-``shift`` says how far off the body's frame is.
+Each link is joined to its parent by one hinge or none. A link is a body of the model, under the body's name. A body that turns
+about several hinges has links ``BODY_JOINT`` before it. If a hinge does not go through its body's origin, the link's frame is
+on the hinge, because URDF knows no other place. ``shift`` is then the place of the body's frame.
 """
 
 from __future__ import annotations
@@ -23,15 +23,17 @@ from levade.rotations import exponential, multiply, rotate
 
 @dataclass(frozen=True, eq=False)
 class Link:
-    """position (3,) [m] and quaternion (4,): of the link's frame in the parent's, at joint angle zero.
+    """Describes a link.
+
+    Position [m], shape (3,), and quaternion, shape (4,), place its frame in the parent's at joint angle zero.
 
     Attributes:
-        name: Of the body.
-        parent: Index of the parent's link; None for the trunk, which is free in the world.
-        joint: Name of the hinge, None where it is fixed to its parent.
-        axis: (3,), of the hinge in the link's frame.
-        body: Index in the model; None for a link that is only there to be between two hinges.
-        shift: (3,) [m], origin of the body's frame in the link's.
+        name: Name of the body.
+        parent: Index of the parent's link. None for the trunk, which is free in the world.
+        joint: Name of the hinge. None if the link is fixed to its parent.
+        axis: Axis of the hinge in the link's frame, shape (3,).
+        body: Index in the model. None for a link between two hinges of a body.
+        shift: Origin of the body's frame in the link's [m], shape (3,).
     """
 
     name: str
@@ -66,7 +68,7 @@ class Frames:
 
 
 def links_of(model: mujoco.MjModel) -> list[Link]:
-    """The robot's links, parents before children, in the model's order of bodies. The scene has no bodies."""
+    """List the robot's links, parents before children, in the model's order of bodies. The scene has no bodies."""
     links: list[Link] = []
     of_body: dict[int, int] = {}
     for body in range(1, model.nbody):
@@ -102,7 +104,15 @@ def links_of(model: mujoco.MjModel) -> list[Link]:
 
 
 def frames_of(links: list[Link], samples: Samples) -> Frames:
-    """Where each link is, and how it moves, at every row."""
+    """Compute where each link is, and how it moves, at every row.
+
+    Args:
+        links: The links.
+        samples: The motion.
+
+    Returns:
+        The frames of the links.
+    """
     rows, n = len(samples.time), len(links)
     frames = Frames(*(np.empty((rows, n, width)) for width in (3, 4, 3, 3, 3, 4)))
     column = {name: i for i, name in enumerate(samples.joints.names)}
@@ -132,7 +142,7 @@ def frames_of(links: list[Link], samples: Samples) -> Frames:
 
 
 def body_frames(links: list[Link], frames: Frames) -> Frames:
-    """Frames of the model's bodies, as MuJoCo has them, in its order; what is relative is left as the links have it."""
+    """Return the frames of the model's bodies, as in MuJoCo and in its order. Relative values remain those of the links."""
     index = [i for i, link in enumerate(links) if link.body is not None]
     shift = np.array([links[i].shift for i in index])
     quaternion, w = frames.quaternion[:, index], frames.angular_velocity[:, index]

@@ -1,4 +1,4 @@
-"""What an export needs of the motion's own model: actuators, the state at the start, and the torque that keeps it."""
+"""Values that an export takes from the motion's model: actuators, the start, and the torque that holds it."""
 
 from __future__ import annotations
 
@@ -14,12 +14,19 @@ from levade.motions import Motion
 
 
 def gains(model: mujoco.MjModel, joints: Sequence[str]) -> tuple[Array, Array]:
-    """Position gain [Nm/rad] and velocity gain [Nm s/rad] of each joint's actuator, shape (joints,) each.
+    """Return position gain [Nm/rad] and velocity gain [Nm s/rad] of each joint's actuator, shape (joints,) each.
 
     The actuators are MuJoCo's dcmotor with a controller, or pid (see `levade.robots.actuation`).
 
+    Args:
+        model: The compiled model.
+        joints: Names of the joints.
+
+    Returns:
+        The gains.
+
     Raises:
-        LevadeError: For others.
+        LevadeError: If a joint has another actuator.
     """
     kp, kd = np.zeros(len(joints)), np.zeros(len(joints))
     for i, name in enumerate(joints):
@@ -32,15 +39,16 @@ def gains(model: mujoco.MjModel, joints: Sequence[str]) -> tuple[Array, Array]:
 
 @dataclass(frozen=True)
 class Drive:
-    """A joint's actuator, see `levade.robots.actuation`.
+    """Describes a joint's actuator: see `levade.robots.actuation`.
 
     Attributes:
         kind: "pid" or "dcmotor".
-        kp: [Nm/rad].
-        kd: [Nm s/rad].
-        torque: [Nm], the most it delivers, infinite for no limit. stall_torque [Nm] and no_load_speed [rad/s]: the line
-            that bounds the torque while driving; infinite for none.
-        time_constant: [s], of the lag from commanded to delivered torque; 0 for none.
+        kp: Position gain [Nm/rad].
+        kd: Velocity gain [Nm s/rad].
+        torque: Largest delivered torque [Nm], infinite for no limit.
+        stall_torque: Torque at standstill of the line that bounds a driving joint [Nm], infinite for none.
+        no_load_speed: Speed at which that line is zero [rad/s], infinite for none.
+        time_constant: Lag from commanded to delivered torque [s]; 0 for none.
     """
 
     kind: str
@@ -53,7 +61,7 @@ class Drive:
 
 
 def drive_of(model: mujoco.MjModel, joint: str) -> Drive | None:
-    """Read a joint's actuator from the model; None unless it has a single pid or dcmotor."""
+    """Read a joint's actuator from the model. None unless it has a single pid or dcmotor."""
     at_joint = model.actuator_trntype == mujoco.mjtTrn.mjTRN_JOINT
     driving = np.flatnonzero((model.actuator_trnid[:, 0] == model.joint(joint).id) & at_joint)
     if len(driving) != 1:
@@ -80,9 +88,10 @@ def drive_of(model: mujoco.MjModel, joint: str) -> Drive | None:
 
 
 def holding_torque(motion: Motion, model: mujoco.MjModel) -> Array:
-    """(joints,) [Nm], what the joints deliver at the start, within their limits, if nothing accelerates there.
+    """Compute the torques of the joints at the start, within their limits, if nothing accelerates [Nm], shape (joints,).
 
-    By inverse dynamics. The little that a standing robot still moves counts: friction between feet and ground hangs on it.
+    They come from inverse dynamics. A standing robot still moves a little, and that counts: it decides the friction of its
+    feet.
     """
     data = mujoco.MjData(model)
     data.qpos[:], data.qvel[:], data.qacc[:] = motion["qpos0"], motion["qvel0"], 0.0

@@ -1,46 +1,46 @@
 #!/usr/bin/env python3
-"""Play an exported motion on a robot. Needs Python 3.10 and numpy, nothing else.
+"""Play an exported motion on a robot. Needs only Python 3.10 and numpy.
 
     python player.py motion.csv --dry-run                       # without a robot: the file and the sequence, not the timing
-    python player.py motion.csv --robot my_robot:MyRobot        # MyRobot is yours, see below
+    python player.py motion.csv --robot my_robot:MyRobot        # your class, see below
 
 motion.csv is read together with the meta.json next to it; motion.json needs no other file. Your robot is a class with two
-methods; arrays are in the order of `Motion.joints`, SI units:
+methods. Arrays are in the order of `Motion.joints`, in SI units:
 
     class MyRobot:
         joints = ["lf_haa", ...]                                # optional: compared with the motion's names
 
-        def read(self):                                         # what the joints do now
+        def read(self):                                         # measured joint positions and velocities
             return position, velocity                           # (joints,) [rad], [rad/s]
 
-        def write(self, position, velocity, torque, kp, kd):    # what each drive is to do until the next call:
+        def write(self, position, velocity, torque, kp, kd):    # the command of each drive until the next call:
             ...                                                 # kp (position - q) + kd (velocity - qd) + torque; kp may be 0
 
         def read_trunk(self):                                   # needed for a stabiliser; optional without one
             return quaternion, rate                             # trunk to world, w x y z; (3,) [rad/s] in trunk axes
 
-A motion with a stabiliser (`feedback` in its meta; feedback.npz next to motion.csv) corrects the positions by what the robot
-senses, from the first row on; --no-feedback plays it without, and does not read the trunk.
+A motion may have a stabiliser (`feedback` in its meta; feedback.npz next to motion.csv). It corrects the positions from the
+sensor readings, from the first row on. --no-feedback plays without it, and does not read the trunk.
 
 At the rate of the file:
 
-1. The joints must be near the start already, within their ranges, and the trunk near its attitude there. Otherwise nothing
+1. The joints must already be near the start and within their ranges, and the trunk near its attitude there. Otherwise nothing
    is sent.
-2. They are led from where they are to the start within the ramp, and must arrive.
-3. Every row is sent at its time; the last one, and --hold after it, with velocity 0.
+2. The joints move to the start within the ramp, and must arrive.
+3. Every row is sent at its time. The last one, and --hold after it, have velocity 0.
 
-Every position sent is within the joint's range and every torque within its limit. The motion stops when
+Every position that is sent is within the joint's range, and every torque within its limit. The motion stops if
 
-- a joint is further from where the simulation had it than the tolerance (in the ramp: from where it is led),
+- a joint is further from the simulation than the tolerance (in the ramp: from the ramp),
 - a joint or the trunk moves much faster than it ever does in the simulation,
 - the trunk is tilted further from the simulation than the tilt tolerance,
 - a reading has another shape or is not finite, or a robot's method raises an exception,
 - the loop, or a reading in it, is late,
 - the program gets a signal to end.
 
-To stop means: for a second kp and torque are 0, kd is the file's, and the position is the last reading that passed every check.
-Drives then damp, or stay where they are if they know no gains but their own. A write that fails does not end it. Then it is
-your controller's turn. The player does not know the height of the trunk, the ground, or people.
+After a stop, for a second, kp and torque are 0, kd is the file's, and the position is the last reading that passed every check.
+Drives then damp. Drives that only know their own gains stay where they are. A failing write does not end the damping. Then your
+controller takes over. The player does not know the height of the trunk, the ground, or people.
 
 Exit status: 0 played to the end, 1 stopped, 2 the input is wrong.
 """
@@ -68,43 +68,45 @@ Array = np.ndarray
 
 
 class Robot(Protocol):
-    """What the player asks of a robot."""
+    """Describes the methods that a robot needs."""
 
     def read(self) -> tuple[Array, Array]:
-        """Position [rad] and velocity [rad/s] of the joints, (joints,) each."""
+        """Return positions [rad] and velocities [rad/s] of the joints, shape (joints,) each."""
         ...
 
     def write(self, position: Array, velocity: Array, torque: Array, kp: Array, kd: Array) -> None:
-        """What each drive is to do until the next call, (joints,) each."""
+        """Command each drive until the next call, shape (joints,) each."""
         ...
 
 
 class SensingRobot(Robot, Protocol):
-    """What the player also asks of a robot, if the motion has a stabiliser; without one, it watches the trunk by it."""
+    """Describes the method that a robot also needs for a stabiliser. Without a stabiliser the player checks the trunk by it."""
 
     def read_trunk(self) -> tuple[Array, Array]:
-        """Attitude, trunk to world, w-x-y-z (yaw does not matter), and angular velocity in trunk axes [rad/s]."""
+        """Return attitude, trunk to world, w-x-y-z (yaw does not matter), and angular velocity in trunk axes [rad/s]."""
         ...
 
 
 class Stopped(Exception):
-    """The motion was not played to its end; why."""
+    """Says why a motion was not played to its end."""
 
 
 class Astray(Stopped):
-    """The robot does otherwise than the simulation did: it may be asked about again where it is now."""
+    """Says that the robot departs from the simulation. A library can be asked again where the robot is now."""
 
 
 @dataclass(frozen=True, eq=False)
 class Feedback:
     """A stabiliser: ``gain[j]`` times the deviation from ``reference[j]`` at tick j, in force from the next tick on.
 
+    The sensed values are the upward direction in trunk axes (3), angular velocity in trunk axes (3) [rad/s], joint positions
+    [rad] and joint velocities [rad/s].
+
     Attributes:
-        gain: (gains, joints, sensed + joints); the last columns are for the correction in force.
-        reference: (ticks, sensed). After the last of each the last one stays.
-        rate: [Hz], of ticks.
-        bound: [rad], on each joint's correction. Sensed are: up in trunk axes (3), angular velocity in trunk axes (3)
-            [rad/s], joint positions [rad] and velocities [rad/s].
+        gain: Gains, shape (gains, joints, sensed + joints). The last columns multiply the correction in force.
+        reference: Expected sensed values, shape (ticks, sensed). After the last gain and reference, the last ones stay.
+        rate: Ticks per second [Hz].
+        bound: Largest correction of each joint [rad].
     """
 
     gain: Array
@@ -113,19 +115,22 @@ class Feedback:
     bound: float
 
     def correction(self, tick: int, measured: Array, last: Array) -> Array:
-        """(joints,) [rad], from the next tick on.
+        """Compute the correction from the next tick on.
 
         Args:
             tick: Number of the tick.
-            measured: (sensed,).
-            last: (joints,) [rad], in force now.
+            measured: Sensed values, shape (sensed,).
+            last: Correction in force now [rad], shape (joints,).
+
+        Returns:
+            The correction [rad], shape (joints,).
         """
         off = np.concatenate([measured - self.reference[min(tick, len(self.reference) - 1)], last])
         gain = self.gain[min(tick, len(self.gain) - 1)]
         return np.clip(np.einsum("c,jc->j", off, gain), -self.bound, self.bound)
 
     def check(self, joints: int, rate: float) -> None:
-        """Raise ValueError unless it is one for this many joints and rows at this rate [Hz]."""
+        """Raise ValueError unless the stabiliser fits this many joints, and rows at this rate [Hz]."""
         fits = self.gain.shape[1:] == (joints, 6 + 3 * joints) and self.reference.shape[1:] == (6 + 2 * joints,)
         if not (fits and len(self.gain) and len(self.reference)):
             raise ValueError(f"its stabiliser is not one for {joints} joints")
@@ -139,44 +144,44 @@ class Feedback:
 
 
 def sensed(quaternion: Array, rate: Array, position: Array, velocity: Array) -> Array:
-    """What a stabiliser looks at, (6 + 2 joints,)."""
+    """Compute the values that a stabiliser senses, shape (6 + 2 joints,)."""
     return np.concatenate([up_of(*quaternion), rate, position, velocity])
 
 
 def up_of(w: Any, x: Any, y: Any, z: Any) -> list[Any]:
-    """Opposite of gravity in trunk axes, of an attitude from trunk to world."""
+    """Return the direction opposite to gravity in trunk axes, for an attitude from trunk to world."""
     return [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]
 
 
 LARGEST = {"position": 1e2, "velocity": 1e3, "torque": 1e5, "gain": 1e6}
-"""[rad], [rad/s], [Nm], [Nm/rad] or [Nm s/rad]: what is larger is no number of a legged robot's joint."""
+"""Largest plausible values of a legged robot's joint [rad], [rad/s], [Nm], [Nm/rad] or [Nm s/rad]."""
 
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """A motion as exported.
+    """An exported motion.
 
     Attributes:
-        joints: Their names, in the order of all arrays over joints.
-        rate: [Hz], of the rows.
-        position: What to send, (rows, joints) [rad], [rad/s], [Nm].
-        velocity: What to send, (rows, joints) [rad], [rad/s], [Nm].
-        torque: What to send, (rows, joints) [rad], [rad/s], [Nm].
-        expected: What the joints did in the simulation, (rows, joints) [rad], [rad/s].
-        expected_velocity: What the joints did in the simulation, (rows, joints) [rad], [rad/s].
-        up: Opposite of gravity in trunk axes in the simulation, (rows, 3).
-        turning: How fast the trunk turned, (rows,) [rad/s].
-        kp: Gains, (joints,) [Nm/rad], [Nm s/rad].
-        kd: Gains, (joints,) [Nm/rad], [Nm s/rad].
-        start_position: What to hold before, (joints,) [rad], [Nm].
-        start_torque: What to hold before, (joints,) [rad], [Nm].
-        lower: (joints,) [rad], [rad], [Nm]; infinite for none.
-        upper: (joints,) [rad], [rad], [Nm]; infinite for none.
-        torque_limit: (joints,) [rad], [rad], [Nm]; infinite for none.
-        held: Joints without commands -> where the simulation held them [rad], slides [m].
+        joints: Names of the joints, in the order of all arrays over joints.
+        rate: Rows per second [Hz].
+        position: Positions to send [rad], shape (rows, joints).
+        velocity: Velocities to send [rad/s], shape (rows, joints).
+        torque: Torques to send [Nm], shape (rows, joints).
+        expected: Joint positions in the simulation [rad], shape (rows, joints).
+        expected_velocity: Joint velocities in the simulation [rad/s], shape (rows, joints).
+        up: Direction opposite to gravity in trunk axes in the simulation, shape (rows, 3).
+        turning: Angular speed of the trunk in the simulation [rad/s], shape (rows,).
+        kp: Position gains [Nm/rad], shape (joints,).
+        kd: Velocity gains [Nm s/rad], shape (joints,).
+        start_position: Positions to hold before the motion [rad], shape (joints,).
+        start_torque: Torques that hold them [Nm], shape (joints,).
+        lower: Lower ends of the ranges [rad], infinite for none, shape (joints,).
+        upper: Upper ends of the ranges [rad], infinite for none, shape (joints,).
+        torque_limit: Torque limits [Nm], infinite for none, shape (joints,).
+        held: Joints without commands -> where the simulation held them [rad], for slides [m].
 
     Raises:
-        ValueError: For numbers that no robot should be sent.
+        ValueError: If a number is not plausible for a robot.
     """
 
     joints: list[str]
@@ -237,11 +242,11 @@ class Motion:
             path: The file.
 
         Returns:
-            The motion; everything that is played has been checked, and is as it was exported.
+            The motion. Everything that is played has been checked, and is unchanged since the export.
 
         Raises:
             OSError: If a file cannot be read.
-            ValueError: If a file is not one of an export, was changed since, or has numbers that no robot should be sent.
+            ValueError: If a file does not belong to an export, was changed since, or has implausible numbers.
         """
         try:
             return cls._load(Path(path))
@@ -302,27 +307,30 @@ class Motion:
         return motion
 
     def sent(self, row: int, added: Array, clamp: bool) -> Array:
-        """Position to send, (joints,) [rad]: corrections do not take it out of the joints' ranges, nor further out."""
+        """Return the position to send [rad], shape (joints,).
+
+        Corrections do not move it beyond a joint's range, nor further beyond.
+        """
         told = np.clip(self.position[row], self.lower, self.upper) if clamp else self.position[row]
         return np.clip(told + added, np.minimum(self.lower, told), np.maximum(self.upper, told))
 
     def clamped(self) -> tuple[Array, Array]:
-        """Positions within the joints' ranges and torques within their limits, (rows, joints)."""
+        """Return positions clamped to the joints' ranges and torques clamped to their limits, shape (rows, joints) each."""
         return np.clip(self.position, self.lower, self.upper), np.clip(
             self.torque, -self.torque_limit, self.torque_limit
         )
 
 
 def checksum(meta: dict[str, Any], *contents: bytes) -> str:
-    """Over all of an export's meta except its own "checksum", and over what belongs to it.
+    """Compute the checksum of an export's meta, except its own "checksum", and of the files that belong to it.
 
     Args:
         meta: The meta, JSON.
-        contents: With csv the bytes of motion.csv (lines ended by a newline alone), and of feedback.npz if there is one;
-            with json `canonical` of the rest of the document.
+        contents: With csv the bytes of motion.csv (lines end with a newline alone), and of feedback.npz if it exists; with json
+            `canonical` of the rest of the document.
 
     Returns:
-        What "checksum" should be.
+        The value that "checksum" should have.
     """
     digest = hashlib.sha256()
     for part in (canonical({key: value for key, value in meta.items() if key != "checksum"}), *contents):
@@ -331,12 +339,12 @@ def checksum(meta: dict[str, Any], *contents: bytes) -> str:
 
 
 def canonical(content: Any) -> bytes:
-    """The same bytes for the same JSON, however it was laid out."""
+    """Return the same bytes for the same JSON in any layout."""
     return json.dumps(content, sort_keys=True, separators=(",", ":")).encode()
 
 
 _Export = tuple[dict[str, Any], dict[str, Array], dict[str, Any], str]
-"""meta; column of motion.csv -> (rows,); arrays of the stabiliser; checksum of what was read."""
+"""meta; column of motion.csv -> values, shape (rows,); arrays of the stabiliser; checksum of what was read."""
 
 
 def _read_json(path: Path) -> _Export:
@@ -372,7 +380,7 @@ def _read_csv(path: Path) -> _Export:
 
 
 def _feedback(about: Any, gains: dict[str, Any], joints: list[str]) -> Feedback | None:
-    """The stabiliser that a meta describes, with its arrays; None if it describes none."""
+    """Return the stabiliser that a meta describes, with its arrays. None if it describes none."""
     if not about:
         return None
     seen = [f"{what}/{axis}" for what in ("up", "rate") for axis in "xyz"]
@@ -390,7 +398,7 @@ def _number(name: str, value: Any) -> float:
 
 
 def _numbers(name: str, values: Any, none: float | None = None) -> Array:
-    """A list of JSON as an array; null is `none` if there can be none."""
+    """Return a list of JSON as an array. Null becomes `none`, if none is allowed."""
     if not isinstance(values, list):
         raise ValueError(f"{name}: is {_line(values)}; should be a list of numbers")
     empty = none is not None
@@ -403,7 +411,7 @@ def _numbers(name: str, values: Any, none: float | None = None) -> Array:
 def _check_numbers(
     name: str, values: Array, shape: tuple[int, ...], least: float, most: float, joints: list[str] | None = None
 ) -> None:
-    """Raise ValueError unless an array has a shape, and all its values lie in a range."""
+    """Raise ValueError unless an array has a shape, and all its values are in a range."""
     if values.shape != shape:
         raise ValueError(f"{name}: has the shape {values.shape}; should be {shape}")
     wrong = np.argwhere(~((values >= least) & (values <= most)))
@@ -414,7 +422,7 @@ def _check_numbers(
 
 
 def _line(what: object, longest: int = 200) -> str:
-    """Text on one line that a terminal can show."""
+    """Return text as one line that a terminal can show."""
     text = " ".join(str(what).split())
     text = "".join(char if char.isprintable() else "?" for char in text)
     return text if len(text) <= longest else f"{text[:longest]}..."
@@ -438,30 +446,30 @@ def play(
     """Play a motion.
 
     Args:
-        motion: What to play.
-        robot: What plays it.
+        motion: The motion.
+        robot: The robot.
         ramp: Time from the present joint positions to the start [s]; 0 for none.
-        start_tolerance: How far the joints may be from the start before the ramp (else nothing is sent), and in it from
-            where they are led [rad].
-        tolerance: How far the joints may be from the simulation, from the end of the ramp on [rad]; wider by the
-            stabiliser's correction in force.
+        start_tolerance: How far the joints may be from the start before the ramp, and from the ramp during it [rad]. Beyond it
+            before the ramp, nothing is sent.
+        tolerance: How far the joints may be from the simulation after the ramp [rad]. The stabiliser's correction in force is
+            added to it.
         speed_tolerance: How much faster joints and trunk may move than they ever do in the simulation [rad/s].
-        tilt_tolerance: Largest angle between the trunk's attitude and that in the simulation, yaw apart [rad].
-        hold: For how long the last row is sent on after the end [s].
-        feedback: Whether to read the trunk, if the robot can, and to use the motion's stabiliser, if it has one; with a
-            stabiliser the robot needs ``read_trunk``.
-        clamp: Whether positions are kept within the joints' ranges. Without it, they go as far out as they were in the
-            simulation: for commanded references on drives like the simulated ones.
+        tilt_tolerance: Largest angle between the trunk's attitude and that in the simulation, without yaw [rad].
+        hold: How long the last row is sent after the end [s].
+        feedback: Whether to read the trunk, if the robot can, and to use the motion's stabiliser, if it has one. A stabiliser
+            needs a robot with ``read_trunk``.
+        clamp: Whether positions are kept within the joints' ranges. Without it, they may go as far as in the simulation, which
+            suits commanded references on drives like the simulated ones.
         wait: Called before each tick, and again before its command is sent, with the tick's time since the first [s]. Returns
-            how late it is [s]. By default the clock.
-        damping: The same for the second in which the drives damp after an error. By default the clock if ``wait`` is, else
-            nothing is waited for.
+            how late it is [s]. Defaults to the clock.
+        damping: The same for the second in which the drives damp after an error. Defaults to the clock if ``wait`` is the
+            clock, otherwise to no waiting.
 
     Returns:
         The largest tracking error [rad].
 
     Raises:
-        Stopped: If the motion did not begin, or was not played to its end. Whatever the robot's methods raise is passed on.
+        Stopped: If the motion did not begin, or was not played to its end. Exceptions of the robot's methods are passed on.
         ValueError: If a time or tolerance is negative or not finite.
     """
     times = {"ramp": ramp, "hold": hold}
@@ -519,7 +527,7 @@ def play(
 
 
 def let_go(motion: Motion, robot: Robot, *, wait: Callable[[float], float] | None = None) -> list[str]:
-    """Let the drives that hold a motion's last command only damp, for a second.
+    """Let drives that hold a motion's last command damp for a second.
 
     Args:
         motion: The motion.
@@ -527,7 +535,7 @@ def let_go(motion: Motion, robot: Robot, *, wait: Callable[[float], float] | Non
         wait: As for ``play``.
 
     Returns:
-        A line about the commands that did not get through, if there were any.
+        A line about the commands that failed, if any did.
     """
     joints = _Joints(motion, robot, math.inf, clamp=True)
     joints.position = motion.expected[-1]
@@ -535,7 +543,7 @@ def let_go(motion: Motion, robot: Robot, *, wait: Callable[[float], float] | Non
 
 
 def check_robot(motion: Motion, robot: Any, *, feedback: bool = True) -> None:
-    """Raise Stopped if a robot's joints have other names than the motion's, or if it lacks what the stabiliser needs."""
+    """Raise Stopped if a robot's joints have other names than the motion's, or if a stabiliser lacks its method."""
     names = getattr(robot, "joints", None)
     if names is not None:
         names = [str(name) for name in names] if isinstance(names, list | tuple | np.ndarray) else [_line(names)]
@@ -552,20 +560,20 @@ def _senses(robot: Any) -> bool:
 
 
 HOLDING = 0.02
-"""[s], within which the torque that holds the start comes in: a robot that stands there already would sink without it."""
+"""Time within which the torque that holds the start is reached [s]. Without it a standing robot would sink."""
 
 
 BEYOND = 0.1
-"""[rad] beyond its range at which a joint may be before the ramp: soft stops give way."""
+"""How far beyond its range a joint may be before the ramp [rad], because soft stops give way."""
 
 
 def _smooth(s: float) -> float:
-    """From 0 to 1, beginning and ending at rest."""
+    """Return a smooth step from 0 to 1 that begins and ends at rest."""
     return s * s * (3.0 - 2.0 * s)
 
 
 def pair(what: str, values: Any, sizes: tuple[int, int]) -> tuple[Array, Array]:
-    """Two readings as arrays of their own. Raises Stopped unless they are finite and of these sizes."""
+    """Return two readings as new arrays. Raises Stopped unless they are finite and of these sizes."""
     try:
         one, other = (np.array(part, dtype=float) for part in values)
     except (TypeError, ValueError, OverflowError):
@@ -577,9 +585,9 @@ def pair(what: str, values: Any, sizes: tuple[int, int]) -> tuple[Array, Array]:
 
 
 class _Joints:
-    """The robot's joints: every reading is checked, every command clamped.
+    """Checks every reading of the robot's joints, and clamps every command.
 
-    Arrays are copied both ways: the robot may go on using its own.
+    Arrays are copied in both directions, so the robot may keep using its own.
     """
 
     def __init__(self, motion: Motion, robot: Robot, speed_tolerance: float, *, clamp: bool) -> None:
@@ -590,12 +598,12 @@ class _Joints:
             self._lower = np.minimum(self._lower, motion.position.min(axis=0))
             self._upper = np.maximum(self._upper, motion.position.max(axis=0))
         self.position = motion.start_position
-        """Last reading that passed every check, (joints,) [rad]."""
+        """Last reading that passed every check [rad], shape (joints,)."""
 
     def read(self, expected: Array, tolerance: float | Array, when: str) -> tuple[Array, Array, float]:
-        """Position and velocity, (joints,) each, and the largest distance from what was expected [rad].
+        """Return position and velocity, shape (joints,) each, and the largest distance from the expected position [rad].
 
-        Raises Stopped for a reading that is not to be trusted, or is further off than the tolerance.
+        Raises Stopped if a reading is not valid, or is further off than the tolerance.
         """
         joints = len(self.motion.joints)
         position, velocity = pair("position and velocity", self._robot.read(), (joints, joints))
@@ -611,7 +619,7 @@ class _Joints:
         return position, velocity, off
 
     def check_range(self, position: Array) -> None:
-        """Raise Stopped where a joint reads far beyond its range: the first command, clamped to it, would be a jump."""
+        """Raise Stopped if a joint reads far beyond its range. The first command, clamped to the range, would be a jump."""
         beyond = np.maximum(self._lower - position, position - self._upper)
         joint = int(np.argmax(beyond))
         if not beyond[joint] <= BEYOND:
@@ -621,7 +629,7 @@ class _Joints:
             )
 
     def write(self, position: Array, velocity: Array, torque: Array, kp: Array, kd: Array) -> None:
-        """Send a command. Raises Stopped, and sends nothing, if it is not made of numbers."""
+        """Send a command. If it is not finite, raise Stopped and send nothing."""
         limit = self.motion.torque_limit
         command = (np.clip(position, self._lower, self._upper), velocity, np.clip(torque, -limit, limit), kp, kd)
         if not all(np.isfinite(values).all() for values in command):
@@ -630,7 +638,10 @@ class _Joints:
 
 
 def trunk(robot: Any) -> tuple[Array, Array]:
-    """Read the trunk: attitude, a unit quaternion (4,), and rate (3,) [rad/s]. Raises Stopped for readings that are none."""
+    """Read the trunk: attitude, a unit quaternion, shape (4,), and rate [rad/s], shape (3,).
+
+    Raises Stopped if they are not valid.
+    """
     quaternion, rate = pair("the trunk's attitude and the trunk's rate", robot.read_trunk(), (4, 3))
     length = math.hypot(*quaternion)
     if not abs(length - 1.0) < 0.01:
@@ -639,14 +650,17 @@ def trunk(robot: Any) -> tuple[Array, Array]:
 
 
 class _Trunk:
-    """The robot's trunk: every reading is checked."""
+    """Checks every reading of the robot's trunk."""
 
     def __init__(self, motion: Motion, robot: Any, speed_tolerance: float, tilt_tolerance: float) -> None:
         self._motion, self._robot, self._most = motion, robot, tilt_tolerance
         self._fastest = float(motion.turning.max()) + speed_tolerance
 
     def read(self, row: int, when: str) -> tuple[Array, Array]:
-        """Attitude, a unit quaternion (4,), and rate (3,) [rad/s]. Raises Stopped if it is not as in the simulation."""
+        """Return attitude, a unit quaternion, shape (4,), and rate [rad/s], shape (3,).
+
+        Raises Stopped if they are far from the simulation.
+        """
         quaternion, rate = trunk(self._robot)
         cosine = float(np.dot(up_of(*quaternion), self._motion.up[row]))
         tilt = math.acos(min(1.0, max(-1.0, cosine)))
@@ -661,7 +675,7 @@ class _Trunk:
 
 
 class _Correcting:
-    """A stabiliser at work: measures at its ticks, and keeps the correction that is in force."""
+    """Runs a stabiliser: it measures at its ticks, and keeps the correction in force."""
 
     def __init__(self, feedback: Feedback, motion: Motion) -> None:
         self._feedback = feedback
@@ -669,17 +683,17 @@ class _Correcting:
         self._due = self._last = np.zeros(len(motion.joints))
 
     def measures(self, tick: int) -> bool:
-        """Whether a measurement is due."""
+        """Tell whether a measurement is due."""
         return tick % self._rows == 0
 
     def in_force(self, tick: int) -> Array:
-        """(joints,) [rad], to be added to what is sent now. To be asked once a tick, before the measurement."""
+        """Return the correction to add now [rad], shape (joints,). Call it once a tick, before the measurement."""
         if self.measures(tick):
             self._last = self._due
         return self._last
 
     def measure(self, tick: int, seen: Array) -> None:
-        """Take what is `sensed` at a tick."""
+        """Take the sensed values at a tick."""
         self._due = self._feedback.correction(tick // self._rows, seen, self._last)
 
 
@@ -702,10 +716,10 @@ def _on_time(late: float, rate: float) -> None:
 
 
 def _damp(joints: _Joints, wait: Callable[[float], float], seconds: float = 1.0) -> list[str]:
-    """Let the drives only damp, wherever the joints are; readings are not trusted any more.
+    """Let the drives only damp, wherever the joints are. Readings are no longer used.
 
-    The position is where the joints were last: a drive that cannot do without its own kp stays there. Nothing ends it before
-    its time, not even Ctrl-C. Returns a line about the commands that did not get through, if there were any.
+    The position is the last known one: a drive that needs its own kp stays there. Nothing ends the damping early, not even
+    Ctrl-C. Returns a line about the commands that failed, if any did.
     """
     motion = joints.motion
     zero, ticks = np.zeros(len(motion.joints)), max(1, round(seconds * motion.rate))
@@ -721,7 +735,7 @@ def _damp(joints: _Joints, wait: Callable[[float], float], seconds: float = 1.0)
 
 
 def clock() -> Callable[[float], float]:
-    """Wait for each instant since the first call; returns how late it is."""
+    """Return a function that waits for each instant since its first call, and returns how late it is."""
     began: list[float] = []
 
     def wait(instant: float) -> float:
@@ -736,7 +750,7 @@ def clock() -> Callable[[float], float]:
 
 
 class StandIn:
-    """For a dry run: its joints go where the ramp says, then do what the simulation did. Not a simulation."""
+    """Stands in for a robot in a dry run. Its joints follow the ramp and then the recorded motion, without simulation."""
 
     def __init__(self, motion: Motion, ramp: float) -> None:
         self._motion, self._ticks = motion, round(ramp * motion.rate)
@@ -754,23 +768,45 @@ class StandIn:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """The command line."""
+    """Run the command line."""
     parser = argparse.ArgumentParser(description="Play an exported motion on a robot.")
     parser.add_argument("motion", help="motion.csv (with meta.json next to it) or motion.json")
-    parser.add_argument("--dry-run", action="store_true", help="without a robot, as fast as it goes")
+    parser.add_argument("--dry-run", action="store_true", help="play without a robot, without waiting")
     parser.add_argument("--robot", metavar="MODULE:CLASS", help="your class with read and write")
-    parser.add_argument("--ramp", type=float, default=2.0, help="to the start [s]; 2")
-    parser.add_argument("--start-tolerance", type=float, default=0.5, help="from the start, before the ramp [rad]; 0.5")
-    parser.add_argument("--tolerance", type=float, default=0.5, help="from the simulation, in the motion [rad]; 0.5")
+    parser.add_argument("--ramp", type=float, default=2.0, help="time to the start [s]; by default 2")
     parser.add_argument(
-        "--speed-tolerance", type=float, default=20.0, help="beyond the fastest of the simulation [rad/s]; 20"
+        "--start-tolerance",
+        type=float,
+        default=0.5,
+        help="largest distance from the start before the ramp [rad]; by default 0.5",
     )
-    parser.add_argument("--tilt-tolerance", type=float, default=1.0, help="of the trunk, from the simulation [rad]; 1")
-    parser.add_argument("--no-feedback", action="store_true", help="without stabiliser, and without reading the trunk")
     parser.add_argument(
-        "--no-clamp", action="store_true", help="send positions beyond the joints' ranges, too, as commanded"
+        "--tolerance",
+        type=float,
+        default=0.5,
+        help="largest distance of joints from the simulation [rad]; by default 0.5",
     )
-    parser.add_argument("--hold", type=float, default=0.0, help="send the last row for longer [s]; 0")
+    parser.add_argument(
+        "--speed-tolerance",
+        type=float,
+        default=20.0,
+        help="largest speed beyond that in the simulation [rad/s]; by default 20",
+    )
+    parser.add_argument(
+        "--tilt-tolerance",
+        type=float,
+        default=1.0,
+        help="largest tilt of the trunk from the simulation [rad]; by default 1",
+    )
+    parser.add_argument(
+        "--no-feedback", action="store_true", help="play without the stabiliser, and do not read the trunk"
+    )
+    parser.add_argument(
+        "--no-clamp", action="store_true", help="also send positions beyond the joints' ranges, as in the simulation"
+    )
+    parser.add_argument(
+        "--hold", type=float, default=0.0, help="how long to send the last row after the end [s]; by default 0"
+    )
     options = parser.parse_args(arguments)
     if options.dry_run == (options.robot is not None):
         parser.error("give one of --dry-run and --robot MODULE:CLASS")
@@ -823,7 +859,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def why(stopped: BaseException) -> str:
-    """What ended a motion, on one line."""
+    """Say in one line what ended a motion."""
     if isinstance(stopped, KeyboardInterrupt):
         return "interrupted"
     if isinstance(stopped, Stopped):
@@ -836,7 +872,7 @@ def why(stopped: BaseException) -> str:
 
 
 def heed_signals() -> None:
-    """Let kill and a lost terminal end the program as Ctrl-C does, with drives that damp; but not if they are to be ignored."""
+    """Let kill and a lost terminal end the program as Ctrl-C does, with damping drives, unless they are ignored."""
 
     def interrupted(number: int, frame: object) -> None:
         raise KeyboardInterrupt

@@ -1,6 +1,7 @@
 """ROS 2 messages: their definitions, as rosbag2 keeps them in a bag, and their bytes (CDR, little endian).
 
-The definitions are those of common_interfaces, geometry2 and rcl_interfaces, alike in Humble and Jazzy, without the comments.
+The definitions are those of common_interfaces, geometry2 and rcl_interfaces, without comments. They are the same in Humble and
+Jazzy.
 """
 
 from __future__ import annotations
@@ -52,13 +53,13 @@ DEFINITIONS = {
         *("trajectory_msgs/JointTrajectoryPoint", "builtin_interfaces/Duration"),
     ),
 }
-"""Message type -> its definition with those of its parts, in the form ``ros2msg``."""
+"""Message type -> its definition and those of its parts, in the form ``ros2msg``."""
 
 NANO = 1_000_000_000
 
 
 class _Bytes:
-    """CDR: values one after the other, each aligned to its size, counted from after the four bytes of the head."""
+    """Encodes CDR: values in sequence, each aligned to its size, counted from the end of the four header bytes."""
 
     def __init__(self) -> None:
         self.data = bytearray(b"\x00\x01\x00\x00")
@@ -78,7 +79,7 @@ class _Bytes:
             self.text(value)
 
     def doubles(self, values: Array) -> None:
-        """float64[], of any length; without the length, its numbers only, see `fixed`."""
+        """Add a float64[] of any length."""
         self.number("I", len(values))
         if len(values):
             self.fixed(values)
@@ -100,7 +101,7 @@ class _Bytes:
 
 
 def string(text: str) -> bytes:
-    """std_msgs/msg/String."""
+    """Encode a std_msgs/msg/String."""
     out = _Bytes()
     out.text(text)
     return bytes(out.data)

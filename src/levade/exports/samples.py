@@ -1,20 +1,20 @@
-"""A motion at the rate of the program that plays or shows it: what to send to the joints, and what the robot then does.
+"""Sample a motion at the rate of the program that plays or shows it: commands to the joints, and the robot's state.
 
     samples = sample(motion, rate=500.0)
     samples.command_position, samples.command_torque     # (rows, joints) [rad], [Nm]
 
-Row j is the instant ``j / rate``, from the start of the motion, row 0, to its end. A command is to be sent at that instant and
-stays in force until the next one. State is that of the instant; torques and contact forces are the mean until the next,
-so that no impulse is lost or made up.
+Row j is the instant ``j / rate`` of the motion; row 0 is its start. A command is sent at its instant, and stays in force until
+the next one. States are those of the instant. Torques and contact forces are means until the next instant, which keeps every
+impulse.
 
-Two kinds of command make a motion:
+Two kinds of command produce a motion:
 
     measured   the angles and velocities that the joints had in the simulation, and the torque that they delivered
     commanded  the angles and velocities that they were commanded in the simulation, and no torque
 
-A drive delivers ``kp (position - q) + kd (velocity - qd) + torque``. On the motion, q and qd are the measured ones: with
-measured commands the drive then delivers the recorded torque whatever its gains are; with commanded ones it does so if it
-has the gains, lag and limits of the simulated one.
+A drive delivers ``kp (position - q) + kd (velocity - qd) + torque``. On the motion, q and qd are the measured ones. With
+measured commands the drive then delivers the recorded torque for any gains. With commanded ones it does so if it has the gains,
+lag and limits of the simulated drive.
 """
 
 from __future__ import annotations
@@ -44,15 +44,15 @@ _PER_JOINT = (
     "joint_torque",
 )
 _MOST = 1_000_000
-"""Rows."""
+"""Largest number of rows."""
 
 
 @dataclass(frozen=True, eq=False)
 class Joints:
-    """What holds for each joint, shape (joints,).
+    """Values for each joint, shape (joints,).
 
-    Gains are in Nm/rad and Nm s/rad. Limits are in rad, rad/s and Nm, infinite for none. Angle [rad] and torque [Nm] are
-    to be held before the motion starts.
+    Gains are in Nm/rad and Nm s/rad. Limits are in rad, rad/s and Nm, infinite for none. Angle [rad] and torque [Nm] are to be
+    held before the motion starts.
     """
 
     names: tuple[str, ...]
@@ -68,25 +68,25 @@ class Joints:
 
 @dataclass(frozen=True, eq=False)
 class Samples:
-    """Rows of commands and of the state that goes with them; arrays over joints in the order of ``joints.names``.
+    """Holds rows of commands and of the state at the same time. Arrays over joints are in the order of ``joints.names``.
 
     Attributes:
-        time: (rows,) [s].
-        rate: [Hz].
+        time: Instants [s], shape (rows,).
+        rate: Rows per second [Hz].
         reference: One of `REFERENCES`.
-        command_position: (rows, joints) [rad], [rad/s], [Nm].
-        command_velocity: (rows, joints) [rad], [rad/s], [Nm].
-        command_torque: (rows, joints) [rad], [rad/s], [Nm].
-        joint_position: (rows, joints), likewise.
-        joint_velocity: (rows, joints), likewise.
-        joint_torque: (rows, joints), likewise.
-        trunk_position: (rows, 3) [m].
-        trunk_com_position: (rows, 3) [m].
-        trunk_quaternion: (rows, 4), trunk to world, w-x-y-z.
-        trunk_linear_velocity: (rows, 3) [m/s], [rad/s], world axes.
-        trunk_angular_velocity: (rows, 3) [m/s], [rad/s], world axes.
-        foot_contact_force: (rows, feet, 3) [N], on the feet, world axes.
-        analytic: Whether commanded references between the simulated ones are the policy's own.
+        command_position: Commanded angles [rad], shape (rows, joints).
+        command_velocity: Commanded velocities [rad/s], shape (rows, joints).
+        command_torque: Feed-forward torques [Nm], shape (rows, joints).
+        joint_position: Angles in the simulation [rad], shape (rows, joints).
+        joint_velocity: Velocities in the simulation [rad/s], shape (rows, joints).
+        joint_torque: Delivered torques in the simulation [Nm], shape (rows, joints).
+        trunk_position: Origin of the trunk frame [m], shape (rows, 3).
+        trunk_com_position: The trunk's centre of mass [m], shape (rows, 3).
+        trunk_quaternion: Trunk to world, w-x-y-z, shape (rows, 4).
+        trunk_linear_velocity: Velocity of the trunk frame's origin, world axes [m/s], shape (rows, 3).
+        trunk_angular_velocity: Angular velocity, world axes [rad/s], shape (rows, 3).
+        foot_contact_force: Forces on the feet, world axes [N], shape (rows, feet, 3).
+        analytic: Whether commanded references between the simulated ones come from the policy itself.
     """
 
     time: Array
@@ -109,7 +109,7 @@ class Samples:
     analytic: bool
 
     def reordered(self, order: Sequence[int], names: Sequence[str]) -> Samples:
-        """The same with the joints in another order and under other names."""
+        """Return the same samples with the joints in another order and under other names."""
         index = list(order)
         arrays = {name: getattr(self.joints, name)[index] for name in Joints.__dataclass_fields__ if name != "names"}
         joints = Joints(names=tuple(names), **arrays)
@@ -131,18 +131,17 @@ def sample(
     Args:
         motion: A motion.
         model: Its compiled model.
-        rate: Rows a second [Hz].
-        reference: "measured": what the joints did, with the torque that they delivered. "commanded": what they were
-            commanded.
+        rate: Rows per second [Hz].
+        reference: "measured": positions, velocities and torques of the joints. "commanded": their commands.
         hold: Whether to go on after the horizon.
-        kp: Position gain of all joints [Nm/rad], instead of the simulation's; with "measured" only.
-        kd: Velocity gain of all joints [Nm s/rad], instead of the simulation's; with "measured" only.
+        kp: Position gain of all joints [Nm/rad], instead of the simulation's; only with "measured".
+        kd: Velocity gain of all joints [Nm s/rad], instead of the simulation's; only with "measured".
 
     Returns:
         The motion at this rate.
 
     Raises:
-        LevadeError: For a rate that is none, gains that do not go with the reference, or a motion that broke down.
+        LevadeError: If the rate is not valid, the gains do not go with the reference, or the motion broke down.
     """
     if reference not in REFERENCES:
         raise LevadeError(f"no reference {reference!r}; {did_you_mean(reference, REFERENCES)}", field="reference")
@@ -218,7 +217,7 @@ def _joints(
 
 
 def _state(motion: Motion, model: mujoco.MjModel, time: Array, timestep: float) -> dict[str, Array]:
-    """State of joints and trunk at the times: the start, then the end of each step."""
+    """Compute the state of joints and trunk at the times: the start, then the end of each step."""
     qpos, qvel = motion["qpos0"], motion["qvel0"]
     at = motion.addresses(model)
 

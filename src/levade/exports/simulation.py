@@ -1,9 +1,9 @@
-"""What another simulator needs besides URDF and motion: passive joints, drives, friction, what may touch, the goal.
+"""Describe what another simulator needs besides URDF and motion: passive joints, drives, friction, contact pairs, the goal.
 
     facts = simulation(motion, motion.compiled())
     facts["joints"]["lf_haa"]["armature"], facts["shapes"][0]["friction"]["ground"]
 
-All of it is JSON, named as the robot names things; docs/export.md has the units.
+All of it is JSON, with the robot's names. docs/export.md has the units.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ from levade.tasks import task_to_dict
 
 
 def simulation(motion: Motion, model: mujoco.MjModel) -> dict[str, Any]:
-    """Collect what the simulation of a motion was made of.
+    """Describe the simulation of a motion.
 
     Args:
         motion: The motion.
-        model: Its model, compiled.
+        model: Its compiled model.
 
     Returns:
         JSON, with null for infinity.
@@ -72,14 +72,14 @@ def _or_null(value: float) -> float | None:
 
 
 def _colliding(model: mujoco.MjModel) -> list[int]:
-    """The shapes of robot and scene that collide with anything."""
+    """List the shapes of robot and scene that collide with anything."""
     paired = {int(geom) for geom in (*model.pair_geom1, *model.pair_geom2)}
     masks = model.geom_contype | model.geom_conaffinity
     return [geom for geom in range(model.ngeom) if masks[geom] or geom in paired]
 
 
 def _pairs(model: mujoco.MjModel) -> dict[frozenset[int], float]:
-    """Explicit pairs of geoms -> their coefficient of sliding friction."""
+    """Map explicit pairs of geoms to their coefficient of sliding friction."""
     return {
         frozenset((int(model.pair_geom1[i]), int(model.pair_geom2[i]))): float(model.pair_friction[i, 0])
         if model.pair_dim[i] > 1
@@ -89,7 +89,7 @@ def _pairs(model: mujoco.MjModel) -> dict[frozenset[int], float]:
 
 
 def _shapes(motion: Motion, model: mujoco.MjModel) -> list[dict[str, Any]]:
-    """Each shape of the robot that collides: its friction, by itself and with each part of the scene that it may touch."""
+    """Describe each colliding shape of the robot: its own friction, and that with each part of the scene it may touch."""
     geoms, pairs = _colliding(model), _pairs(model)
     scene = [geom for geom in geoms if model.geom_bodyid[geom] == 0]
     links = {link.body: link.name for link in links_of(model) if link.body is not None}
@@ -118,9 +118,9 @@ def _shapes(motion: Motion, model: mujoco.MjModel) -> list[dict[str, Any]]:
 
 
 def never_touch(model: mujoco.MjModel) -> list[list[str]]:
-    """Pairs of links that have colliding shapes and pass through each other, by name, in the order of the links.
+    """List pairs of links that have colliding shapes and pass through each other, by name, in the order of the links.
 
-    Links that are fixed to each other are among them.
+    They include links that are fixed to each other.
     """
     pairs = _pairs(model)
     shapes: dict[int, list[int]] = {}
@@ -139,7 +139,7 @@ def never_touch(model: mujoco.MjModel) -> list[list[str]]:
 
 
 def start_depth(motion: Motion, model: mujoco.MjModel) -> dict[str, float]:
-    """Foot -> how far it is in the scene at the start [m], 0 where it does not touch. Soft contact lets feet sink in."""
+    """Map each foot to its depth in the scene at the start [m], 0 without contact. Soft contact lets feet sink in."""
     data = mujoco.MjData(model)
     data.qpos[:] = motion["qpos0"]
     mujoco.mj_kinematics(model, data)

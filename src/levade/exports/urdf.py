@@ -1,10 +1,10 @@
-"""The robot as URDF, made from its model: links, joints with their limits and transmissions, inertias, and shapes.
+"""Write the robot of a model as URDF: links, joints with limits and transmissions, inertias, and shapes.
 
-    text = urdf(model, samples.joints, "hyq2max")                              # a mesh is the box round it
+    text = urdf(model, samples.joints, "hyq2max")                              # meshes become bounding boxes
     text = urdf(model, samples.joints, "go1", meshes=mesh_files(model))        # with `mesh_bytes` of each in these files
 
-A description that travels in a bag cannot bring files along; one in a folder can. The scene is no part of it, and leaves no
-trace: the same robot gives the same text in every scene. Frames are those of `levade.exports.links`.
+A description in a bag has no files next to it; one in a directory has. The scene does not matter: the same robot gives the same
+text in every scene. Frames are those of `levade.exports.links`.
 """
 
 from __future__ import annotations
@@ -22,19 +22,19 @@ from levade.exports.samples import Joints
 from levade.rotations import roll_pitch_yaw, rotate
 
 _NO_LIMIT = 1e9
-"""URDF wants an effort and a velocity for every joint: where the robot gives none, more than any joint has."""
+"""URDF requires an effort and a velocity for every joint. This stands for no limit."""
 
 _GREY = (0.5, 0.5, 0.5, 1.0)
 
 
 def urdf(model: mujoco.MjModel, joints: Joints, name: str, *, meshes: Mapping[int, str] | None = None) -> str:
-    """Write the robot in a model, without the scene.
+    """Write the robot of a model, without the scene.
 
     Args:
         model: Robot and scene.
         joints: Limits of the joints.
-        name: The robot's.
-        meshes: Mesh of the model -> file that it is in. A mesh that is in none is the box round it.
+        name: Name of the robot.
+        meshes: Mesh of the model -> its file. A mesh without a file becomes its bounding box.
 
     Returns:
         URDF.
@@ -70,7 +70,7 @@ def mesh_files(model: mujoco.MjModel) -> dict[int, str]:
 
 
 def mesh_bytes(model: mujoco.MjModel, mesh: int) -> bytes:
-    """A mesh of the model as binary STL [m], in the frame that MuJoCo gives it."""
+    """Return a mesh of the model as binary STL [m], in MuJoCo's frame of the mesh."""
     first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
     face, faces = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])
     corners = model.mesh_vert[first : first + count][model.mesh_face[face : face + faces]]
@@ -82,7 +82,7 @@ def mesh_bytes(model: mujoco.MjModel, mesh: int) -> bytes:
 
 
 def shape_name(model: mujoco.MjModel, geom: int) -> str:
-    """A name for a geom of the robot: its own, else that of its body and its number there."""
+    """Return a name for a geom of the robot: its own, or that of its body with a number."""
     body = int(model.geom_bodyid[geom])
     return model.geom(geom).name or f"{model.body(body).name or f'body{body}'}_shape{geom - model.body_geomadr[body]}"
 
@@ -103,16 +103,16 @@ def _inertial(element: xml.Element, model: mujoco.MjModel, link: Link) -> None:
 
 
 def _seen(model: mujoco.MjModel, geom: int) -> bool:
-    """Whether MuJoCo's viewers show it at first."""
+    """Tell whether MuJoCo's viewers show a geom by default."""
     return bool(model.geom_group[geom] <= 2 and model.geom_rgba[geom, 3] > 0)
 
 
 _Part = tuple[str, dict[str, str], Array]
-"""A shape of URDF, its attributes, and its place (3,) [m] in the link."""
+"""A shape of URDF, its attributes, and its position in the link [m], shape (3,)."""
 
 
 def _parts(model: mujoco.MjModel, geom: int, shift: Array, meshes: Mapping[int, str]) -> list[_Part]:
-    """What a geom is made of: a capsule is a cylinder and two balls."""
+    """Split a geom into shapes of URDF: a capsule is a cylinder and two balls."""
     kind, size = model.geom_type[geom], model.geom_size[geom]
     place, quaternion = shift + model.geom_pos[geom], model.geom_quat[geom]
     sorts = mujoco.mjtGeom
@@ -136,7 +136,7 @@ def _parts(model: mujoco.MjModel, geom: int, shift: Array, meshes: Mapping[int, 
 def _shapes(
     element: xml.Element, model: mujoco.MjModel, geom: int, shift: Array, meshes: Mapping[int, str], *, seen: bool
 ) -> None:
-    """A geom as visual if it is seen, and as collision if it takes part in any."""
+    """Add a geom as visual if it is visible, and as collision if it collides."""
     collides = bool(model.geom_contype[geom] or model.geom_conaffinity[geom])
     collides |= geom in model.pair_geom1 or geom in model.pair_geom2
     name = shape_name(model, geom)
@@ -172,7 +172,7 @@ def _joint(root: xml.Element, model: mujoco.MjModel, joints: Joints, link: Link,
 
 
 def _transmission(root: xml.Element, joint: str) -> None:
-    """A motor that turns the joint one to one, as ros_control's interfaces to effort look for it."""
+    """Add a motor that turns the joint one to one, as ros_control's effort interfaces expect."""
     element = xml.SubElement(root, "transmission", name=f"{joint}_transmission")
     xml.SubElement(element, "type").text = "transmission_interface/SimpleTransmission"
     driven = xml.SubElement(element, "joint", name=joint)

@@ -1,6 +1,6 @@
-"""Motions: what a search found, as a typed object, its file, and the simulation of it.
+"""Motions: the result of a search as a typed object, its file, and its simulation.
 
-The room lies below the search, so that a motion can be an input of another search.
+The room lies below the search, so a motion can be an input of another search.
 
     motion = Motion.load("motion.npz")
     replay_in("ode", motion).success

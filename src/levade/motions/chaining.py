@@ -1,9 +1,9 @@
-"""Motions one after another: the next begins as the last one ended, and several are played as one.
+"""Chain motions: start one where another ends, and play several as one.
 
     task = after(load_task("squat-jump"), righting)             # its start is the end of another motion
     start, reference = chain([righting, jump])                  # for one roll-out of both
 
-The end of a motion is put over the origin of the world, heading along x, so that the next task's goals mean what they say.
+The end of a motion is moved to the world's origin, heading along x. So the next task's goals keep their meaning.
 """
 
 from __future__ import annotations
@@ -23,7 +23,13 @@ from levade.trajectory import JointReference
 
 
 def end_of(motion: Motion) -> GivenState:
-    """Simulate a motion to its end, hold and all, and put the robot that is there over the origin, heading along x.
+    """Simulate a motion to its end, including the hold, and move the robot to the origin, heading along x.
+
+    Args:
+        motion: The motion.
+
+    Returns:
+        The state at the end.
 
     Raises:
         LevadeError: If another engine than MuJoCo made it, it breaks down, or its model or task is damaged.
@@ -50,12 +56,18 @@ def end_of(motion: Motion) -> GivenState:
 
 
 def after(task: Task, motion: Motion) -> Task:
-    """A task whose start is the end of a motion."""
+    """Return the task with the end of a motion as its start."""
     return replace(task, start=StartChoice(state=end_of(motion)))
 
 
 def chain(motions: Sequence[Motion]) -> tuple[State, JointReference]:
-    """Several motions of one robot as one: the start of the first, and the references of all.
+    """Chain several motions of one robot.
+
+    Args:
+        motions: The motions, in order.
+
+    Returns:
+        The start of the first, and the references of all as one.
 
     Raises:
         LevadeError: If there are none, or their joints or time steps differ.

@@ -1,4 +1,4 @@
-"""What a motion file says about its robot, as JSON in its ``meta``: written from an `Embodiment`, and read back as one."""
+"""Write an `Embodiment` as JSON into a motion file's ``meta``, and read it back."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from levade.motions.file import finite, with_infinity
 from levade.robots import Leg
 
 Lines = tuple[Array, Array] | tuple[None, None]
-"""Stall torque [Nm] and no-load speed [rad/s], (joints,) each; None where no actuator has such a line."""
+"""Stall torque [Nm] and no-load speed [rad/s], shape (joints,) each. None if no actuator has such a line."""
 
 
 def robot_facts(embodiment: Embodiment, legs: Sequence[Leg]) -> dict[str, Any]:
-    """Write what ``meta`` holds of a robot: ``trunk``, ``legs``, ``limits``, ``trunk_com_offset`` and ``trunk_balls``."""
+    """Describe a robot for ``meta``: ``trunk``, ``legs``, ``limits``, ``trunk_com_offset`` and ``trunk_balls``."""
     return {
         "trunk": embodiment.trunk,
         "legs": {
@@ -64,9 +64,12 @@ def embodiment_of(meta: Mapping[str, Any], joint_names: tuple[str, ...], lines: 
     """Read the robot.
 
     Args:
-        meta: The file's.
-        joint_names: The robot's joint order.
-        lines: Called for the actuators' lines where the file does not say, as files of layout 1.
+        meta: The file's ``meta``.
+        joint_names: Names of the joints, in order.
+        lines: Called for the actuators' lines if the file has none, as files of layout 1.
+
+    Returns:
+        The robot.
     """
     return Embodiment(
         trunk=str(meta["trunk"]),
@@ -94,7 +97,7 @@ def embodiment_of(meta: Mapping[str, Any], joint_names: tuple[str, ...], lines: 
 
 
 def actuator_lines(model: mujoco.MjModel, joint_names: Sequence[str]) -> Lines:
-    """Read the lines of the actuators in a model; infinite for an actuator that has none."""
+    """Read the torque–speed lines of a model's actuators; infinite for an actuator without one."""
     lines = np.full((2, len(joint_names)), np.inf)
     for i, name in enumerate(joint_names):
         actuator = model.actuator(name).id

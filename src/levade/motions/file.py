@@ -1,6 +1,6 @@
-"""The motion file: its layout, reading and writing it, and what is checked on the way. docs/motion-file.md documents it.
+"""Read, write and check motion files. docs/motion-file.md documents their layout.
 
-content = read("motion.npz")            # of any layout from 1 on, as one of layout `SCHEMA`
+content = read("motion.npz")            # of any layout from 1 on, converted to layout `SCHEMA`
 write("copy.npz", content)
 """
 
@@ -24,7 +24,7 @@ from levade.rotations import conjugate, rotate
 from levade.writing import replacing
 
 SCHEMA = 2
-"""Version of the file's layout; raised when a reader of the old one would be wrong.
+"""Version of the file's layout. It increases if a reader of the old one would be wrong.
 
 1: ``trunk_angular_velocity`` is in world axes; there is no ``meta["policy"]``, and no stall torque in ``meta["limits"]``.
 2: ``trunk_angular_velocity`` is in trunk axes.
@@ -50,7 +50,10 @@ ARRAYS: dict[str, tuple[str, ...]] = {
     "foot_contact_force": ("steps", "feet", "3"),
     "weights": ("d",),
 }
-"""Array -> shape, by name of the dimension. Next to these: ``meta`` and ``model_xml``, texts, and ``asset:NAME``, bytes."""
+"""Array -> shape, by the names of its dimensions.
+
+A file also has the texts ``meta`` and ``model_xml``, and bytes ``asset:NAME``.
+"""
 
 LATER_ARRAYS: dict[str, tuple[str, ...]] = {"joint_position_reference0": ("joints",)}
 """Arrays that files of early versions lack."""
@@ -63,26 +66,26 @@ META = (
 """Keys of ``meta``."""
 
 LATER = ("cost_weights", "policy", "held", "model_joints", "initial", "trunk_balls")
-"""Keys of ``meta`` that files of early versions lack. ``feedback`` is there if the motion has a stabiliser."""
+"""Keys of ``meta`` that files of early versions lack. A motion with a stabiliser also has ``feedback``."""
 
 _LONGEST_META = 8_000_000
-"""[characters], of ``meta``: the largest height field takes an eighth of it."""
+"""Largest number of characters of ``meta``. The largest height field takes an eighth of it."""
 
 _FARTHEST = 1e12
-"""Beyond any number of a motion that has not diverged, in any unit."""
+"""Larger than any number of a motion that has not diverged, in any unit."""
 
 _UNIT = 1e-3
-"""How far the length of a quaternion may be off."""
+"""Largest deviation of a quaternion's length from 1."""
 
 
 @dataclass(frozen=True, eq=False)
 class Content:
-    """What is in a motion file.
+    """Holds the content of a motion file.
 
     Attributes:
-        meta: Its JSON.
-        model_xml: The model's MJCF.
-        arrays: Those of `ARRAYS`, and of `LATER_ARRAYS` and the stabiliser where it has them.
+        meta: The JSON.
+        model_xml: MJCF of the model.
+        arrays: The arrays of `ARRAYS`, and those of `LATER_ARRAYS` and the stabiliser that the file has.
         assets: Files that the model needs, by name.
     """
 
@@ -93,10 +96,14 @@ class Content:
 
 
 def write(path: str | Path, content: Content) -> None:
-    """Write the file, or leave the one that is there as it is: a new one is written next to it first.
+    """Write a file, or leave the existing one unchanged: a new file is written next to it first.
+
+    Args:
+        path: The file.
+        content: What to write.
 
     Raises:
-        OSError: If it cannot be done.
+        OSError: If the file cannot be written.
     """
     path = Path(path)
     data: dict[str, Any] = {
@@ -111,6 +118,12 @@ def write(path: str | Path, content: Content) -> None:
 
 def read(path: str | Path) -> Content:
     """Read a motion file of any layout up to `SCHEMA`, converted to that one.
+
+    Args:
+        path: The file.
+
+    Returns:
+        Its content.
 
     Raises:
         LevadeError: If the file is missing, damaged, something else, or of a later layout.
@@ -144,7 +157,7 @@ def read(path: str | Path) -> Content:
 
 
 def finite(values: Array) -> list[float | None]:
-    """A list for JSON, which has no infinity: None where there is no limit."""
+    """Return a list for JSON, which has no infinity: None stands for no limit."""
     return [float(value) if np.isfinite(value) else None for value in values]
 
 
@@ -159,7 +172,7 @@ def with_infinity(values: Sequence[float | None], infinity: float = np.inf) -> A
 
 
 def _converted(content: Content) -> Content:
-    """Content of layout `SCHEMA`. What an early version did not know stays out."""
+    """Convert content to layout `SCHEMA`. What an early version did not know stays out."""
     if content.meta["schema"] == SCHEMA:
         return content
     arrays = dict(content.arrays)
@@ -180,7 +193,7 @@ def _bytes(path: Path, name: str, data: Array) -> bytes:
 
 
 def _native(values: Array) -> Array:
-    """An array as levade writes it: floats of 64 bits, row after row."""
+    """Return an array as levade writes it: 64-bit floats, row by row."""
     return np.ascontiguousarray(values, dtype=None if values.dtype.kind == "U" else np.float64)
 
 
@@ -205,10 +218,10 @@ def _meta(path: Path, array: Array) -> dict[str, Any]:
 
 
 def _whole(digits: str) -> int:
-    """A whole number of JSON, if a float can hold its size.
+    """Read a whole number of JSON, if a float can hold it.
 
     Raises:
-        ValueError: If it cannot be done.
+        ValueError: If it cannot.
     """
     if len(digits) > 300:
         raise ValueError

@@ -1,8 +1,8 @@
-"""The form of a motion file's ``meta``: what each of its keys may be, and how they fit together and to the arrays.
+"""The form of a motion file's ``meta``: types of its keys, and how they fit each other and the arrays.
 
     check(meta, arrays)         # raises LevadeError: "meta.limits.torque: ..."
 
-docs/motion-file.md says what the keys mean. Keys that are not here are taken as they are: later versions have more.
+docs/motion-file.md explains the keys. Unknown keys are accepted, because later versions have more.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from levade.errors import LevadeError
 from levade.policies import policy_from_dict
 
 _CLOSE = 1e-6
-"""How well two ways to say the same number agree, as a share of it."""
+"""Largest relative difference between two values of the same number."""
 
 _DEEPEST = 50
 
@@ -56,7 +56,7 @@ class GeometryForm(_Form):
 
 
 class LegForm(_Form):
-    """A limb: its joints from the trunk outward, its foot's geom, all of several (pads), and its kind (`levade.robots.Leg`)."""
+    """A limb: its joints from the trunk outward, its foot's geom, all geoms of the sole, and its kind (`levade.robots.Leg`)."""
 
     joints: Annotated[list[Name], Field(min_length=1)]
     foot: Name
@@ -76,7 +76,7 @@ class CurveForm(_Form):
 
 
 class LimitsForm(_Form):
-    """In joint order; None for no limit."""
+    """Limits in joint order; None for no limit."""
 
     lower: list[Number | None]
     upper: list[Number | None]
@@ -135,7 +135,7 @@ class PolicyForm(_Form):
 
 
 class FeedbackForm(_Form):
-    """What is said of a stabiliser."""
+    """Describes a stabiliser."""
 
     rate: Annotated[float, Field(ge=1e-3, le=1e9)]
     period_steps: Steps
@@ -144,7 +144,7 @@ class FeedbackForm(_Form):
 
 
 class TaskForm(_Form):
-    """What is used of the task as it is in the file; `levade.tasks.task_from_dict` reads the rest when it is asked for."""
+    """Keys of the task that are used as they are in the file. `levade.tasks.task_from_dict` reads the rest on demand."""
 
     name: Name
     costs: dict[Name, dict[str, Any]]
@@ -152,7 +152,7 @@ class TaskForm(_Form):
 
 
 class MetaForm(_Form):
-    """The whole. Numbers that a trial came to may be no numbers: it may have diverged."""
+    """The whole ``meta``. Numbers of a trial that diverged may be NaN."""
 
     task: TaskForm
     robot: Name
@@ -184,10 +184,14 @@ class MetaForm(_Form):
 
 
 def check(meta: Mapping[str, Any], arrays: Mapping[str, Array]) -> None:
-    """Check a file's ``meta``, and that it fits the arrays, whose own shapes fit together.
+    """Check a file's ``meta``, and that it fits the arrays, whose own shapes fit each other.
+
+    Args:
+        meta: The JSON.
+        arrays: The arrays.
 
     Raises:
-        LevadeError: For the first thing that is wrong.
+        LevadeError: For the first mistake.
     """
     _check_texts(meta)
     try:
@@ -201,7 +205,7 @@ def check(meta: Mapping[str, Any], arrays: Mapping[str, Array]) -> None:
 
 
 def _check_texts(content: Any) -> None:
-    """Raise LevadeError for keys and texts that hold control characters; a text may have several lines."""
+    """Raise LevadeError for keys and texts with control characters. A text may have several lines."""
     waiting = [(content, 0)]
     while waiting:
         value, depth = waiting.pop()
@@ -218,7 +222,7 @@ def _check_texts(content: Any) -> None:
 
 
 def _mistakes(form: MetaForm, arrays: Mapping[str, Array]) -> Iterator[str]:
-    """What does not fit together, in words."""
+    """Yield what does not fit, in words."""
     names = [str(name) for name in arrays["joint_names"]]
     joints, steps = len(names), len(arrays["time"])
     if not joints or not steps:
@@ -236,12 +240,12 @@ def _mistakes(form: MetaForm, arrays: Mapping[str, Array]) -> Iterator[str]:
 
 
 def _mistakes_in_joints(form: MetaForm, names: list[str], *, feet: int) -> Iterator[str]:
-    """What of the legs and joints does not fit together.
+    """Yield what does not fit in legs and joints.
 
     Args:
         form: The form.
         names: The arrays' joints.
-        feet: How many the arrays have.
+        feet: Number of feet in the arrays.
     """
     if len(form.legs) != feet:
         yield f"foot_contact_force has {feet} feet, meta.legs has {len(form.legs)}"
@@ -257,7 +261,7 @@ def _mistakes_in_joints(form: MetaForm, names: list[str], *, feet: int) -> Itera
 
 
 def _mistakes_in_numbers(form: MetaForm) -> Iterator[str]:
-    """What of errors, costs and their weights does not fit together."""
+    """Yield what does not fit in errors, costs and their weights."""
     if missing := set(form.task.success) - set(form.errors):
         yield f"meta.errors: lacks {min(missing)!r}, a criterion of the task"
     numbers = [form.cost, *form.errors.values(), *form.cost_terms.values()]

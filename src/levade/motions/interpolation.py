@@ -1,19 +1,19 @@
-"""Values between the recorded instants, which are evenly spaced.
+"""Interpolate between recorded instants, which are evenly spaced.
 
-At a recorded instant every function returns what was recorded, to the bit.
+At a recorded instant every function returns the recorded value, to the bit.
 
     interval, share = locate(time, timestep, intervals)
     position = hermite(interval, share, positions, velocities, timestep)
 
-Between them, for a motion of step h whose recorded values and rates are exact:
+Errors between them, for a motion of step h with exact values and rates:
 
-    hermite    at most h^4 / 384 max|x''''| from it: a cubic through both ends with both rates
+    hermite    at most h^4 / 384 max|x''''|: a cubic through both ends with both rates
     linear     at most h^2 / 8 max|x''|
-    rotations  of fourth order too; exact where the axis is fixed and the rate constant
-    mean       exact for what a simulation holds constant over each step, as it does torques: impulses are kept
+    rotations  also of fourth order; exact for a fixed axis and a constant rate
+    mean       exact for values that a simulation holds constant over each step, such as torques: it keeps impulses
 
-MuJoCo's own velocities are not quite the rates of its positions: its positions move by the velocity at the end of a step.
-That adds up to 0.05 h |dv| between the instants to a position, where dv is what the velocity changes by within the step.
+MuJoCo's velocities are not exactly the rates of its positions, because positions move by the velocity at the end of a step.
+That adds up to 0.05 h |dv| to a position between the instants, where dv is the change of velocity within the step.
 """
 
 from __future__ import annotations
@@ -25,22 +25,21 @@ from levade.arrays import Array
 from levade.rotations import conjugate, exponential, log, multiply
 
 _SNAP = 1e-9
-"""Steps: times this near to a recorded instant are that instant."""
+"""Distance in steps within which a time counts as a recorded instant."""
 
 Index = NDArray[np.intp]
 
 
 def locate(time: Array, timestep: float, intervals: int) -> tuple[Index, Array]:
-    """In which interval between recorded instants each time is, and how far into it.
+    """Find the interval between recorded instants that contains each time.
 
     Args:
-        time: Times [s], shape (rows,). Instant i is at ``i * timestep``, from 0 to ``intervals``; later times are its
-            end.
+        time: Times [s], shape (rows,). Instant i is at ``i * timestep``, from 0 to ``intervals``. Later times count as the end.
         timestep: Time between instants [s].
         intervals: Number of intervals.
 
     Returns:
-        Interval (rows,), from 0 to intervals - 1, and share (rows,) in [0, 1].
+        The interval, from 0 to intervals - 1, and the share of it that has passed, in [0, 1]; shape (rows,) each.
     """
     x = np.asarray(time, dtype=np.float64) / timestep
     nearest = np.rint(x)
@@ -50,17 +49,17 @@ def locate(time: Array, timestep: float, intervals: int) -> tuple[Index, Array]:
 
 
 def hermite(interval: Index, share: Array, values: Array, rates: Array, timestep: float) -> Array:
-    """Cubics through the values with the given rates.
+    """Evaluate cubics through values with given rates.
 
     Args:
-        interval: Interval that each time is in, shape (rows,).
-        share: How far into it each time is, shape (rows,), in [0, 1].
+        interval: Interval of each time, shape (rows,).
+        share: Share of the interval that has passed, in [0, 1], shape (rows,).
         values: Values at the instants, shape (instants, n).
         rates: Their rates of change, shape (instants, n).
         timestep: Time between instants [s].
 
     Returns:
-        (rows, n).
+        Values at the times, shape (rows, n).
     """
     s = share[:, None]
     return (
@@ -71,17 +70,17 @@ def hermite(interval: Index, share: Array, values: Array, rates: Array, timestep
 
 
 def hermite_rate(interval: Index, share: Array, values: Array, rates: Array, timestep: float) -> Array:
-    """How fast the cubics of `hermite` change by time.
+    """Evaluate the rates of change of the cubics of `hermite`.
 
     Args:
-        interval: Interval that each time is in, shape (rows,).
-        share: How far into it each time is, shape (rows,), in [0, 1].
+        interval: Interval of each time, shape (rows,).
+        share: Share of the interval that has passed, in [0, 1], shape (rows,).
         values: Values at the instants, shape (instants, n).
         rates: Their rates of change, shape (instants, n).
         timestep: Time between instants [s].
 
     Returns:
-        (rows, n).
+        Rates at the times, shape (rows, n).
     """
     s = share[:, None]
     return (
@@ -92,22 +91,23 @@ def hermite_rate(interval: Index, share: Array, values: Array, rates: Array, tim
 
 
 def linear(interval: Index, share: Array, values: Array) -> Array:
-    """Straight lines between the values, (instants, n). Returns (rows, n)."""
+    """Interpolate values, shape (instants, n), linearly. Returns shape (rows, n)."""
     s = share[:, None]
     return (1 - s) * values[interval] + s * values[interval + 1]
 
 
 def mean(start: Array, stop: Array, values: Array, timestep: float) -> Array:
-    """Mean over each period of what is constant over each step.
+    """Average values that are constant over each step.
 
     Args:
-        start: (rows,) [s].
-        stop: (rows,) [s].
-        values: (steps, n), row k in force from ``k * timestep`` to ``(k + 1) * timestep``; the last goes on for ever.
+        start: Start of each period [s], shape (rows,).
+        stop: End of each period [s], shape (rows,).
+        values: Value of each step, shape (steps, n). Row k holds from ``k * timestep`` to ``(k + 1) * timestep``, the last one
+            for ever.
         timestep: Duration of a step [s].
 
     Returns:
-        (rows, n).
+        Mean of each period, shape (rows, n).
     """
     steps = len(values)
     first, into = locate(start, timestep, steps)
@@ -126,18 +126,18 @@ def mean(start: Array, stop: Array, values: Array, timestep: float) -> Array:
 
 
 def rotations(interval: Index, share: Array, quaternions: Array, rates: Array, timestep: float) -> Array:
-    """Rotations through the given ones with the given angular velocities.
+    """Interpolate rotations with given angular velocities.
 
     Args:
-        interval: Interval that each time is in, shape (rows,).
-        share: How far into it each time is, shape (rows,), in [0, 1].
-        quaternions: (instants, 4), body to world, w-x-y-z.
-        rates: (instants, 3) [rad/s], in body axes. The rotation vector from the start of each interval on is a cubic
-            with the rates at both ends.
+        interval: Interval of each time, shape (rows,).
+        share: Share of the interval that has passed, in [0, 1], shape (rows,).
+        quaternions: Body to world, w-x-y-z, shape (instants, 4).
+        rates: Angular velocities in body axes [rad/s], shape (instants, 3). The rotation vector from the start of each interval
+            is a cubic with the rates at both ends.
         timestep: Time between instants [s].
 
     Returns:
-        (rows, 4).
+        Quaternions at the times, shape (rows, 4).
     """
     s = share[:, None]
     start, stop = quaternions[interval], quaternions[interval + 1]
@@ -149,7 +149,7 @@ def rotations(interval: Index, share: Array, quaternions: Array, rates: Array, t
 
 
 def _vector_rate(vector: Array, rate: Array) -> Array:
-    """How fast a rotation vector (..., 3) changes while the body turns with a rate in body axes, (..., 3)."""
+    """Compute the rate of a rotation vector, shape (..., 3), of a body that turns with a rate in body axes, shape (..., 3)."""
     angle = np.linalg.norm(vector, axis=-1, keepdims=True)
     near = np.maximum(angle, 1e-4)  # below that, the limit of 1/12 to twelve digits
     share = np.where(angle < 1e-4, 1 / 12, 1 / near**2 - 1 / (2 * near * np.tan(near / 2)))

@@ -1,10 +1,10 @@
-"""The model of a motion file: its text stands alone, and asks for no more than a robot and its scene take.
+"""Check and compile the model of a motion file. It must stand alone, and be no larger than a robot with its scene.
 
-    check_text(xml, assets)                 # before MuJoCo sees it
+    check_text(xml, assets)                 # before MuJoCo reads it
     model = compile_text(xml, assets)
 
-MuJoCo looks on the disk for files that are not among the assets, and grows a few words into any number of bodies. levade
-writes neither, so a text that does is from elsewhere.
+MuJoCo reads files that are not among the assets from the disk, and expands a few words into any number of bodies. levade writes
+neither, so such a text comes from elsewhere.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from levade.document import hides
 from levade.errors import LevadeError
 
 _EXPANDED = ("include", "attach", "model", "replicate", "composite", "flexcomp")
-"""Elements that MuJoCo writes out as what they stand for."""
+"""Elements that MuJoCo expands."""
 
 _MOST = {"hfield": 1e7, "texture": 1e8}
-"""Numbers in one: rows times columns, width times height."""
+"""Largest number of values in one element: rows times columns, width times height."""
 
 _MOST_MEMORY = 4e9
-"""[bytes], or numbers, of what ``<size>`` asks for."""
+"""Largest memory [bytes], or numbers, that ``<size>`` may require."""
 
 _SUFFIXES = {"K": 2**10, "M": 2**20, "G": 2**30, "T": 2**40, "P": 2**50, "E": 2**60}
 
@@ -39,7 +39,7 @@ def check_text(text: str, assets: Collection[str]) -> None:
         assets: Names of the files that it may use.
 
     Raises:
-        LevadeError: If it is no MJCF, uses other files, or would grow beyond a robot and its scene.
+        LevadeError: If it is not MJCF, uses other files, or would grow beyond a robot and its scene.
     """
     if "<!DOCTYPE" in text or "<!ENTITY" in text:
         raise LevadeError("model_xml: declares a document type, which no model needs")
@@ -67,8 +67,15 @@ def check_text(text: str, assets: Collection[str]) -> None:
 def compile_text(text: str, assets: Mapping[str, bytes]) -> mujoco.MjModel:
     """Compile a model's text.
 
+    Args:
+        text: MJCF.
+        assets: Files that it uses, by name.
+
+    Returns:
+        The model.
+
     Raises:
-        LevadeError: If MuJoCo does not take it, or it has names with control characters or values that are no numbers.
+        LevadeError: If MuJoCo refuses it, a name has control characters, or a value is not finite.
     """
     try:
         model = mujoco.MjModel.from_xml_string(text, dict(assets))
@@ -88,7 +95,7 @@ def compile_text(text: str, assets: Mapping[str, bytes]) -> mujoco.MjModel:
 
 
 def _is_there(name: str, assets: Collection[str]) -> bool:
-    """Whether MuJoCo finds a file among the assets: by its path or by its name alone, and in either case of letters."""
+    """Tell whether MuJoCo finds a file among the assets: by its path or by its name, in upper or lower case."""
     path = name.replace("\\", "/").lower()
     return not name or path in assets or path.rpartition("/")[2] in assets
 
@@ -105,6 +112,6 @@ def _check_size(element: ET.Element) -> None:
 
 
 def _number(text: str) -> float:
-    """The size of a whole number, such as ``-1``, ``128`` or ``16M``; 0 for anything else."""
+    """Return the value of a whole number such as ``-1``, ``128`` or ``16M``; 0 for anything else."""
     match = re.fullmatch(r"\s*[-+]?(\d{1,30})([KMGTPE]?)\s*", text.upper())
     return float(match[1]) * _SUFFIXES.get(match[2], 1) if match else 0.0

@@ -57,18 +57,17 @@ class UnknownArray(LevadeError, KeyError):
 
 @dataclass(frozen=True)
 class Result:
-    """How well a motion does, and what it took to find it.
+    """Reports how well a motion does, and what the search took.
 
     Attributes:
-        success: Whether it meets its task's criteria: on the model, and for a robust task on enough perturbed models.
+        success: Whether it meets its task's criteria on the model, and for a robust task on enough perturbed models.
         diverged: Whether its simulation broke down.
-        errors: Criterion -> error [SI], as `levade.costs.Criterion.error` has it.
+        errors: Criterion -> error [SI], as in `levade.costs.Criterion.error`.
         cost: Weighted sum of the terms.
         cost_terms: Cost -> value of its term.
-        cost_weights: Cost -> weight that ``cost`` was taken with: the task's, unless they were changed on the way.
+        cost_weights: Cost -> its weight in ``cost``: the task's, unless it changed during the search.
         trials: Trials of the search.
-        trials_to_success: Trials until the first success; None if there was none.
-        stopped: What ended the search.
+        trials_to_success: Trials until the first success. None if there was none.
     """
 
     success: bool
@@ -103,14 +102,14 @@ class Provenance:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Motion:
-    """What was sent to the actuators, what the robot then did, and the model that says so. Never changed.
+    """Holds the commands to the actuators, the robot's motion, and the model. It never changes.
 
     Attributes:
-        meta: The file's JSON, for those who want all of it; the attributes and properties below are what to use.
-        model_xml: The model's MJCF, robot and scene.
-        arrays: Name -> array, see `levade.motions.ARRAYS`; rows as in `levade.trajectory`.
+        meta: The file's JSON. The attributes and properties below offer its content.
+        model_xml: MJCF of the model, robot and scene.
+        arrays: Name -> array: see `levade.motions.ARRAYS`, with rows as in `levade.trajectory`.
         assets: Files that the model needs, by name.
-        source_task: The task that the search had, if it holds Python code, which no file does. None otherwise.
+        source_task: The search's task, if it holds Python code, which no file does. None otherwise.
     """
 
     meta: Mapping[str, Any]
@@ -123,6 +122,12 @@ class Motion:
     def load(cls, path: str | Path) -> Motion:
         """Load a motion file.
 
+        Args:
+            path: The file.
+
+        Returns:
+            The motion.
+
         Raises:
             LevadeError: If it is missing, damaged, or something else.
         """
@@ -130,10 +135,13 @@ class Motion:
         return cls(content.meta, content.model_xml, content.arrays, content.assets)
 
     def save(self, path: str | Path) -> None:
-        """Write the motion to a file, all of it or nothing.
+        """Write the motion to a file, completely or not at all.
+
+        Args:
+            path: The file.
 
         Raises:
-            OSError: If it cannot be done.
+            OSError: If it cannot be written.
         """
         file.write(path, file.Content(self.meta, self.model_xml, self.arrays, self.assets))
 
@@ -146,9 +154,9 @@ class Motion:
 
     @cached_property
     def checksum(self) -> str:
-        """What tells this motion from others: SHA-256, in hexadecimal, the same in every file of it.
+        """Identify this motion by a SHA-256 in hexadecimal, which is the same in every file of it.
 
-        Its model, its arrays, its limits and its stabiliser count. What else is said about it, such as its task, does not.
+        It covers the model, the arrays, the limits and the stabiliser, but not other information such as the task.
         """
         told = {name: self.meta.get(name) for name in ("limits", "feedback", "timestep", "horizon_steps")}
         parts = [json.dumps(told, sort_keys=True).encode(), self.model_xml.encode()]
@@ -174,12 +182,12 @@ class Motion:
 
     @cached_property
     def task(self) -> Task:
-        """The task, with every default filled in: `source_task`, or what the file says.
+        """The task, with every default filled in: `source_task`, or that of the file.
 
         In a task from a file, a cost that was Python code is a `levade.tasks.code.MissingCode`.
 
         Raises:
-            LevadeError: If this version of levade does not take it.
+            LevadeError: If this version of levade does not accept it.
         """
         if self.source_task is not None:
             return self.source_task
@@ -192,9 +200,9 @@ class Motion:
 
     @cached_property
     def policy(self) -> Policy | None:
-        """The policy whose weights are ``motion["weights"]``; None if the file does not hold it, as those of layout 1.
+        """The policy whose weights are ``motion["weights"]``. None if the file lacks it, as files of layout 1 do.
 
-        `levade.motions.ReferenceCurve` finds it for these, too.
+        `levade.motions.ReferenceCurve` also finds it for these.
         """
         content = self.meta.get("policy")
         return None if content is None else policy_from_dict(content)
@@ -213,34 +221,37 @@ class Motion:
 
     @cached_property
     def joint_names(self) -> tuple[str, ...]:
-        """The joints, in the order of every array."""
+        """Names of the joints, in the order of every array."""
         return tuple(str(name) for name in self["joint_names"])
 
     @cached_property
     def legs(self) -> tuple[Leg, ...]:
-        """The legs: names of joints and feet, and where they are."""
+        """The legs: names of joints and feet, and their geometry."""
         return legs_of(self.meta)
 
     @property
     def held(self) -> Mapping[str, float]:
-        """Joints that the model holds fixed -> their position [rad], of slides [m]; empty in files of early versions."""
+        """Joints that the model holds fixed -> their position [rad], for slides [m]. Empty in files of early versions."""
         return self.meta.get("held", {})
 
     @property
     def model_joints(self) -> tuple[str, ...]:
-        """All joints of the robot's own file in its order, held ones too; empty in files of early versions."""
+        """All joints of the robot's file in its order, including held ones. Empty in files of early versions."""
         return tuple(self.meta.get("model_joints", ()))
 
     @cached_property
     def embodiment(self) -> Embodiment:
-        """The robot as simulations and costs know it. Its ``legs`` are empty in files of early versions."""
+        """The robot as simulations and costs describe it. Its ``legs`` are empty in files of early versions."""
         return embodiment_of(self.meta, self.joint_names, lambda: actuator_lines(self.compiled(), self.joint_names))
 
     def compiled(self) -> mujoco.MjModel:
-        """Compile the model, each time a new one.
+        """Compile the model. Each call makes a new one.
+
+        Returns:
+            The model.
 
         Raises:
-            LevadeError: If MuJoCo does not take it, or the arrays are not of it.
+            LevadeError: If MuJoCo refuses it, or it does not fit the arrays.
         """
         model = compile_text(self.model_xml, self.assets)
         for name, size in (("qpos0", model.nq), ("qvel0", model.nv), ("act0", model.na), ("ctrl", model.nu)):
@@ -256,7 +267,7 @@ class Motion:
         return model
 
     def _check_names(self, model: mujoco.MjModel) -> None:
-        """Raise LevadeError unless the model has the motion's trunk, joints and actuators of one number each, and feet."""
+        """Raise LevadeError unless the model has the motion's trunk, joints, feet, and actuators with one control each."""
         kind = mujoco.mjtObj
         for what, of, names in (
             ("body", kind.mjOBJ_BODY, [self.trunk]),
@@ -286,12 +297,12 @@ class Motion:
 
     @property
     def timestep(self) -> float:
-        """[s]."""
+        """Time step [s]."""
         return float(self.meta["timestep"])
 
     @property
     def horizon(self) -> float:
-        """T [s]."""
+        """Horizon T [s]."""
         return float(self.meta["horizon"])
 
     @property
@@ -301,24 +312,24 @@ class Motion:
 
     @property
     def steps(self) -> int:
-        """Rows of every array over time."""
+        """Number of rows of every array over time."""
         return len(self["time"])
 
     @property
     def duration(self) -> float:
-        """[s], with the hold."""
+        """Duration with the hold [s]."""
         return float(self["time"][-1])
 
     @property
     def hold(self) -> float:
-        """[s], after the horizon."""
+        """Duration of the hold after the horizon [s]."""
         return max(0.0, self.duration - self.horizon)
 
     @cached_property
     def start(self) -> State:
         """The state at the start, one row.
 
-        Files of early versions do not say what the joints were commanded last. For them it is where the joints are.
+        Files of early versions lack the last commands of the joints. The joint positions stand in for them.
         """
         joint_position = self["qpos0"][self.addresses(self.compiled()).joint_qpos]
         commanded = self.arrays.get("joint_position_reference0", joint_position)
@@ -327,7 +338,7 @@ class Motion:
 
     @cached_property
     def reference(self) -> JointReference:
-        """What was asked of the joints, as a reference of one trial."""
+        """The joint references, as a reference of one trial."""
         return JointReference(
             self["joint_position_reference"][None],
             self["joint_velocity_reference"][None],
@@ -338,7 +349,7 @@ class Motion:
 
     @cached_property
     def result(self) -> Result:
-        """How well it does."""
+        """How well it does, and what the search took."""
         meta = self.meta
         weights = meta.get("cost_weights") or {name: cost["weight"] for name, cost in meta["task"]["costs"].items()}
         return Result(
@@ -372,32 +383,38 @@ class Motion:
 
     @property
     def met_on_the_model_only(self) -> bool:
-        """Whether it meets every criterion on the model and still is no success: a motion of a robust search."""
+        """Whether it meets every criterion on the model, but is not a success: a motion of a robust search."""
         return self.met and not self.result.success
 
     # the stabiliser
 
     @cached_property
     def feedback(self) -> Feedback | None:
-        """The stabiliser, if the motion has one; what is recorded is the motion without disturbance, where it does nothing."""
+        """The stabiliser, if the motion has one.
+
+        The recorded motion has no disturbance, so there the stabiliser does nothing.
+        """
         return None if self.stabiliser is None else Feedback.of(self.stabiliser, self.arrays)
 
     @property
     def stabiliser(self) -> Mapping[str, Any] | None:
-        """What the file says about the stabiliser, as JSON; None if there is none."""
+        """The file's description of the stabiliser, as JSON. None if there is none."""
         return self.meta.get("feedback")
 
     def with_task(self, task: Task) -> Motion:
-        """The same motion, of which its file says that another task asked for it: one of the same robot, scene and costs."""
+        """Return the same motion with another task of the same robot, scene and costs in its file."""
         meta = {**self.meta, "task": task_to_dict(task, code=True)}
         return Motion(meta, self.model_xml, self.arrays, self.assets, None if self.source_task is None else task)
 
     def stabilised(self, feedback: Feedback | None, **about: Any) -> Motion:
-        """The same motion with a stabiliser, or without.
+        """Return the same motion with a stabiliser, or without.
 
         Args:
-            feedback: The stabiliser.
-            about: What its meta says next to what it is.
+            feedback: The stabiliser. None removes it.
+            about: Further keys of its description.
+
+        Returns:
+            The motion.
         """
         arrays = {
             name: self.arrays[name] for name in (*file.ARRAYS, *file.LATER_ARRAYS) if name in self.arrays

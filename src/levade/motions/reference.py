@@ -1,15 +1,14 @@
-"""A motion's joint reference as a function of time: what was asked of the joints at any instant, and at other time steps.
+"""Evaluate a motion's joint reference at any time, and at other time steps.
 
     curve = ReferenceCurve.of(motion)
     position, velocity = curve.at(np.array([0.1, 0.1005]))      # (2, joints) [rad], [rad/s]
     fine = curve.divided(4)                                     # a JointReference at a quarter of the time step
 
-The policy itself where it is known, ends and all: the file holds it. For a file of layout 1 it is made from the task and
-the robot's description, where that can still be found. Either is checked against the recorded rows. Where there is no such
-policy, cubics join the rows with the velocities that these have.
+The curve is the policy itself if it is known, including its ends. The file holds it. For a file of layout 1 it comes from the
+task and the robot's description, if these can be found. In both cases it is checked against the recorded rows. Without such a
+policy, cubics join the rows with their velocities.
 
-Instants are the policy's: at ``(k + 1) * timestep`` the curve is row k, which is in force during step k, as
-`levade.policies` has it.
+Instants are the policy's. At ``(k + 1) * timestep`` the curve equals row k, which holds during step k, as in `levade.policies`.
 """
 
 from __future__ import annotations
@@ -28,17 +27,17 @@ from levade.tasks.policy import make_policy
 from levade.trajectory import JointReference
 
 _SAME = 1e-9
-"""[rad]: a policy is the motion's if it gives the recorded references to this."""
+"""Largest difference between a policy's references and the recorded ones [rad]."""
 
 
 @dataclass(frozen=True, eq=False)
 class ReferenceCurve:
-    """The reference of one trial between its rows.
+    """Describes the reference of one trial at any time.
 
     Attributes:
-        rows: The reference as recorded.
+        rows: The recorded reference.
         weights: Policy weights [rad], shape (d,).
-        policy: The policy that gives the rows from the weights; None if it is not known.
+        policy: The policy that gives the rows from the weights. None if it is not known.
     """
 
     rows: JointReference
@@ -47,24 +46,24 @@ class ReferenceCurve:
 
     @classmethod
     def of(cls, motion: Motion) -> ReferenceCurve:
-        """The curve of a motion, with its policy if that is known and gives what was recorded."""
+        """Return the curve of a motion, with its policy if that is known and gives the recorded rows."""
         policy = motion.policy or _policy_of_task(motion)
         curve = cls(motion.reference, motion["weights"], policy)
         return curve if curve._fits() else replace(curve, policy=None)
 
     @property
     def source(self) -> str:
-        """Where values between the rows come from: "policy" or "interpolation"."""
+        """Source of the values between the rows: "policy" or "interpolation"."""
         return "interpolation" if self.policy is None else "policy"
 
     def at(self, time: Array) -> tuple[Array, Array]:
         """Evaluate the curve.
 
         Args:
-            time: Instants [s], shape (rows,), from 0 to the horizon; the cubics go on backwards before the first row.
+            time: Instants [s], shape (rows,), from 0 to the horizon. Before the first row the cubics are extrapolated.
 
         Returns:
-            Position [rad] and velocity [rad/s], shape (rows, joints).
+            Position [rad] and velocity [rad/s], shape (rows, joints) each.
         """
         if self.policy is not None:
             position, velocity = self.policy.at(self.weights[None], time)
@@ -79,7 +78,7 @@ class ReferenceCurve:
         return hermite(*cubic), hermite_rate(*cubic)
 
     def divided(self, parts: int) -> JointReference:
-        """The reference at steps shorter by a whole factor. Its every ``parts``-th row is a row of the motion."""
+        """Return the reference at steps that are shorter by a whole factor. Every ``parts``-th row is a row of the motion."""
         recorded = self.rows
         if parts == 1:
             return recorded
@@ -103,16 +102,16 @@ class ReferenceCurve:
         )
 
     def in_force(self, time: Array) -> tuple[Array, Array]:
-        """What was sent to the joints at each instant of the motion, when the curve is one step ahead.
+        """Evaluate the commands to the joints at each instant of the motion. The curve is one step ahead of them.
 
-        Where a step begins it is what was recorded for that step. After the horizon the position stays, and the velocity
-        is zero.
+        At the beginning of a step they equal the recorded row of that step. After the horizon the position stays, and the
+        velocity is zero.
 
         Args:
             time: Instants [s], shape (rows,), from 0 to the end of the motion.
 
         Returns:
-            Position [rad] and velocity [rad/s], shape (rows, joints).
+            Position [rad] and velocity [rad/s], shape (rows, joints) each.
         """
         recorded = self.rows
         rows, step = recorded.horizon_steps, recorded.timestep
@@ -129,7 +128,7 @@ class ReferenceCurve:
         return x, v
 
     def _fits(self) -> bool:
-        """Whether the policy takes the weights and gives the rows, hold and all."""
+        """Tell whether the policy takes the weights and gives the rows, including the hold."""
         policy, rows = self.policy, self.rows
         if policy is None or (policy.size, policy.joints) != (len(self.weights), rows.position.shape[2]):
             return False
@@ -144,7 +143,7 @@ class ReferenceCurve:
 
 
 def _policy_of_task(motion: Motion) -> Policy | None:
-    """The policy of a motion whose file does not hold it; None where the task or the robot cannot be read."""
+    """Make the policy of a motion whose file lacks it. None if the task or the robot cannot be read."""
     try:
         robot = described_robot(motion)
         policy = None if robot is None else make_policy(motion.task, robot, start=motion.reference.before)
@@ -154,7 +153,7 @@ def _policy_of_task(motion: Motion) -> Policy | None:
 
 
 def described_robot(motion: Motion) -> Robot | None:
-    """The robot's description, if it is there and its joints are those of the motion."""
+    """Return the robot's description, if it exists and has the motion's joints."""
     choice = asdict(motion.task.robot)
     try:
         robot = load_robot(choice.pop("name"), **choice)

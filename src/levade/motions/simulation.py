@@ -1,9 +1,9 @@
-"""A recorded motion as a simulation: by its file alone, as it was recorded, on models that differ, and in other engines.
+"""Simulate a recorded motion from its file: as recorded, on perturbed models, and in other engines.
 
 simulation = RecordedSimulation(Motion.load("motion.npz"))
 sample = Perturbation().draw(simulation.model, simulation.joints, n=64, seed=0)
-trajectories = simulation.rollout(sample)                    # of 64 perturbed models
-replay_in("ode", motion).errors["pitch"]                     # the same references, another physics
+trajectories = simulation.rollout(sample)                    # on 64 perturbed models
+replay_in("ode", motion).errors["pitch"]                     # the same references, other physics
 """
 
 from __future__ import annotations
@@ -43,18 +43,18 @@ from levade.trajectory import JointReference, Trajectories
 
 
 class RecordedSimulation:
-    """A motion, ready to be simulated: in MuJoCo, whichever engine made it, unless another engine is given.
+    """Simulates a motion, in MuJoCo unless another engine is given, independent of the engine that made it.
 
     Args:
         motion: The motion.
-        criteria: What success means. Defaults to the criteria of the motion's task.
+        criteria: Success criteria. Defaults to those of the motion's task.
         threads: Number of threads (0: one per core). Results do not depend on it.
-        engine: What simulates it, with the motion's model or a version of it whose time step is a whole fraction of the
-            motion's. Defaults to MuJoCo with its own model.
+        engine: Engine with the motion's model, or a version of it whose time step is a whole fraction of the motion's. Defaults
+            to MuJoCo with its own model.
 
     Attributes:
         model: MuJoCo's model.
-        layout: Where the robot is in the model.
+        layout: Addresses of the robot in the model.
 
     Raises:
         LevadeError: If the file's model or task is damaged.
@@ -78,7 +78,7 @@ class RecordedSimulation:
 
     @property
     def _clearance(self) -> float | None:
-        """Distance [m] up to which the criteria look at the robot's parts; None if none does."""
+        """Distance up to which the criteria measure between the robot's parts [m]. None if no criterion does."""
         return clearance_of(self.criteria.values())
 
     @property
@@ -88,7 +88,7 @@ class RecordedSimulation:
 
     @cached_property
     def start(self) -> State:
-        """Where the motion starts, one row."""
+        """The start of the motion, one row."""
         return _start(self.motion, self.layout)
 
     @cached_property
@@ -98,19 +98,25 @@ class RecordedSimulation:
 
     @cached_property
     def reference(self) -> JointReference:
-        """What is asked of the joints, of one trial, at the time steps of `model`."""
+        """The joint references of one trial, at the time steps of `model`."""
         parts = round(self.timestep / self.model.opt.timestep)
         return self.curve.divided(parts) if parts > 1 else self.motion.reference
 
     def model_copy(self) -> mujoco.MjModel:
-        """A copy of the model, to be changed and given to `with_model`."""
+        """Copy the model, to change it and give it to `with_model`."""
         return copy.deepcopy(self.model)
 
     def with_model(self, model: mujoco.MjModel) -> RecordedSimulation:
-        """The same motion with another version of its model. A shorter time step goes with the reference at these steps.
+        """Return the same motion with another version of its model. A shorter time step gives a finer reference.
+
+        Args:
+            model: The version.
+
+        Returns:
+            A simulation.
 
         Raises:
-            LevadeError: If it is simulated in another engine than MuJoCo, which takes no changed model.
+            LevadeError: If another engine than MuJoCo simulates it, which takes no changed model.
         """
         if not isinstance(self.engine, MujocoEngine):
             raise LevadeError(f"simulation: the engine {self.engine.name} takes no changed model; only mujoco does")
@@ -121,7 +127,7 @@ class RecordedSimulation:
         return other
 
     def divided(self, parts: int) -> RecordedSimulation:
-        """The same motion at time steps shorter by a whole factor."""
+        """Return the same motion at time steps that are shorter by a whole factor."""
         if parts == 1:
             return self
         model = self.model_copy()
@@ -139,10 +145,13 @@ class RecordedSimulation:
         """Simulate the motion.
 
         Args:
-            sample: Perturbed models, a run of each. Defaults to one run of the model as it is.
+            sample: Perturbed models, one run on each. Defaults to one run of the nominal model.
             feedback: Corrects the reference in every run.
-            sensor_errors: What is added to what the feedback senses, shape (n, ticks, sensed).
-            record: What to record besides what the criteria need; see `levade.engines.Engine.rollout`.
+            sensor_errors: Errors that are added to the sensed values, shape (n, ticks, sensed).
+            record: What to record besides the quantities of the criteria: see `levade.engines.Engine.rollout`.
+
+        Returns:
+            The trajectories.
         """
         starts, models = self._models(self.nominal if sample is None else sample)
         record = (*record, *(() if self._clearance is None else (SELF_DISTANCE,)))
@@ -151,10 +160,17 @@ class RecordedSimulation:
         )
 
     def states(self, sample: Sample, fields: Sequence[str]) -> dict[str, Array]:
-        """Simulate the motion on perturbed models, and record arrays of `mujoco.MjData`: name -> (n, steps, ...).
+        """Simulate the motion on perturbed models, and record arrays of `mujoco.MjData`.
+
+        Args:
+            sample: Perturbed models.
+            fields: Names of the arrays.
+
+        Returns:
+            Name -> array, shape (n, steps, ...).
 
         Raises:
-            LevadeError: If it is simulated in another engine than MuJoCo, which has no such arrays.
+            LevadeError: If another engine than MuJoCo simulates it, which has no such arrays.
         """
         if not isinstance(self.engine, MujocoEngine):
             raise LevadeError(f"simulation: the engine {self.engine.name} has no arrays of MuJoCo's; only mujoco has")
@@ -162,12 +178,12 @@ class RecordedSimulation:
         return self.engine.states(starts, self.reference, fields, models=models)[0]
 
     def starts(self, sample: Sample) -> State:
-        """Where the runs on perturbed models start."""
+        """Return the starts of the runs on perturbed models."""
         return self._models(sample)[0]
 
     @property
     def nominal(self) -> Sample:
-        """A sample of one model, the one that is not perturbed."""
+        """Return a sample of one model, the nominal one."""
         return Perturbation().nominal(self.model, self.joints)
 
     def _models(self, sample: Sample) -> tuple[State, Models]:
@@ -181,7 +197,7 @@ def _mujoco(motion: Motion, threads: int, clearance: float | None) -> MujocoEngi
 
 
 def _measuring(motion: Motion, clearance: float | None) -> mujoco.MjModel:
-    """The motion's model, which measures distances up to a clearance [m] at least, unless that is None."""
+    """Return the motion's model, measuring distances at least up to a clearance [m], unless that is None."""
     model = motion.compiled()
     measured = clearance_in(model)
     if clearance is None or (measured is not None and measured >= clearance):
@@ -196,13 +212,13 @@ def _start(motion: Motion, layout: Layout) -> State:
 
 @dataclass(frozen=True, eq=False)
 class Replay:
-    """What came of a replay.
+    """Reports a replay.
 
     Attributes:
-        engine: Its engine.
-        trajectories: Those of one trial, with foot forces.
+        engine: Name of the engine.
+        trajectories: Trajectories of one trial, with foot forces.
         errors: Criterion -> error [SI].
-        success: Whether all of them are met.
+        success: Whether all criteria are met.
     """
 
     engine: str
@@ -216,17 +232,20 @@ def replay_in(
 ) -> Replay:
     """Simulate a motion's references from its start in an engine.
 
-    The replay begins in the file's own state, wherever the engine itself would have the robot settle. In the engine that made
-    the motion, with the same versions, it is the motion itself, to the bit.
+    The replay begins in the file's own state, not in one that the engine settles. In the engine that made the motion, with the
+    same versions, it is the motion itself, to the bit.
 
     Args:
         engine: A name in `levade.engines.ENGINES`.
         motion: The motion.
         ode: Settings of the engine ode. Defaults to those of the motion's task.
-        criteria: What success means. Defaults to the criteria of the motion's task.
+        criteria: Success criteria. Defaults to those of the motion's task.
+
+    Returns:
+        The replay.
 
     Raises:
-        LevadeError: If the engine is not there, or cannot simulate the motion's model.
+        LevadeError: If the engine is missing, or cannot simulate the motion's model.
     """
     kind = engine_kind(engine)
     criteria = motion.task.success if criteria is None else criteria
@@ -248,7 +267,7 @@ def replay_in(
 
 
 def configurations(motion: Motion, model: mujoco.MjModel) -> Array:
-    """The robot's poses as recorded, shape (steps + 1, nq): the start, and the end of each step."""
+    """Return the robot's recorded poses, shape (steps + 1, nq): the start, and the end of each step."""
     at = motion.addresses(model)
     qpos = np.tile(motion["qpos0"], (motion.steps + 1, 1))
     qpos[1:, at.trunk_position] = motion["trunk_position"]

@@ -1,4 +1,4 @@
-"""Trials of a recorded motion on perturbed models, and what comes of each.
+"""Try a recorded motion on perturbed models.
 
 sample = Perturbation().draw(simulation.model, simulation.joints, n=500, seed=0)
 trials = run_trials(simulation, sample, feedback=motion.feedback, seed=0)
@@ -21,21 +21,21 @@ from levade.motions.simulation import RecordedSimulation
 from levade.trajectory import Trajectories
 
 _AT_ONCE = 64
-"""Runs simulated together: what they record has to fit into memory."""
+"""Number of runs that are simulated together. Their records must fit into memory."""
 
 _SENSING = 7933
-"""Keeps the sensors' errors apart from what is drawn with the same seed."""
+"""Keeps the random numbers of the sensors' errors apart from others of the same seed."""
 
 
 @dataclass(frozen=True, eq=False)
 class Trials:
-    """What came of n trials.
+    """Holds the results of n trials.
 
     Attributes:
         errors: Criterion -> error [SI], shape (n,).
         success: Whether every criterion is met, shape (n,).
-        diverged: Trials whose simulation broke down, shape (n,).
-        miss: The largest error, in tolerances; for a criterion with a bound, as a share of the bound. Shape (n,).
+        diverged: Whether the simulation broke down, shape (n,).
+        miss: The largest error in tolerances; for a criterion with a bound, as a share of the bound. Shape (n,).
     """
 
     errors: Mapping[str, Array]
@@ -47,13 +47,13 @@ class Trials:
         return len(self.success)
 
     def part(self, first: int, last: int) -> Trials:
-        """Those from ``first`` to before ``last``."""
+        """Return the trials from ``first`` to before ``last``."""
         at = slice(first, last)
         off = {name: values[at] for name, values in self.errors.items()}
         return Trials(off, self.success[at], self.diverged[at], self.miss[at])
 
     def joined(self, others: Trials) -> Trials:
-        """These, and others after them."""
+        """Return these trials, followed by others."""
         return Trials(
             {name: np.concatenate([values, others.errors[name]]) for name, values in self.errors.items()},
             np.concatenate([self.success, others.success]),
@@ -75,9 +75,12 @@ def run_trials(
     Args:
         simulation: The motion, and the criteria.
         sample: The perturbed models.
-        feedback: The stabiliser, whose sensors err (`levade.feedback.SensorErrors`).
-        seed: Seed of the sensors' errors.
-        ending: Asked on the way, with the trials made so far; once it says so, these are the result.
+        feedback: The stabiliser, with sensor errors (`levade.feedback.SensorErrors`).
+        seed: Seed of the sensor errors.
+        ending: Called with the trials so far. If it returns True, these are the result.
+
+    Returns:
+        The results.
     """
     found: Trials | None = None
     for first in range(0, len(sample), _AT_ONCE):
@@ -112,15 +115,18 @@ def run_again(
     seed: int = 0,
     record: Sequence[str] = (),
 ) -> Trajectories:
-    """Simulate some of the runs of `run_trials` once more, for what they did on the way.
+    """Simulate some of the runs of `run_trials` again, to see their trajectories.
 
     Args:
-        simulation: As there.
-        sample: As there: of all the runs.
-        runs: Numbers of those to simulate.
-        feedback: As there.
-        seed: As there.
-        record: What to record besides what the criteria need; see `levade.engines.Engine.rollout`.
+        simulation: As in `run_trials`.
+        sample: As in `run_trials`, with all the runs.
+        runs: Numbers of the runs to simulate.
+        feedback: As in `run_trials`.
+        seed: As in `run_trials`.
+        record: What to record besides the quantities of the criteria: see `levade.engines.Engine.rollout`.
+
+    Returns:
+        The trajectories.
     """
     wrong = None
     if feedback is not None:
@@ -130,12 +136,12 @@ def run_again(
 
 
 def _first(run: int) -> int:
-    """The first of the runs that a run is simulated together with."""
+    """Return the first of the runs that are simulated together with a run."""
     return run - run % _AT_ONCE
 
 
 def _sensor_errors(simulation: RecordedSimulation, first: int, feedback: Feedback, seed: int) -> Array:
-    """Of the runs that are simulated together from one on."""
+    """Draw the sensor errors of the runs that are simulated together, from a run on."""
     reference = simulation.reference
     ticks = -(-reference.steps // feedback.steps(reference.timestep))
     return SensorErrors().draw(_AT_ONCE, ticks, simulation.joints, seed=(seed, first, _SENSING))

@@ -9,9 +9,9 @@ from levade.optimizers.blas import kernels
 
 
 def versions(engine: str = "mujoco") -> dict[str, str]:
-    """Name -> version; MuJoCo's with every engine, as each reads the model from it.
+    """Return name -> version. MuJoCo is always among them, because every engine reads the model from it.
 
-    "blas" is the library with the kind of processor that it computes for, which decides bits, too.
+    "blas" is the linear algebra library with the kind of processor for which it computes, which also decides bits.
     """
     return dict(_versions(engine))
 

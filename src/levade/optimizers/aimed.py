@@ -135,7 +135,7 @@ class AimedCMAES:
         self._cma.scale_step(factor)
 
     def forget_costs(self, changed: NDArray[np.bool_]) -> None:
-        """From now on costs, and the ``changed`` (k,) of the errors, have another meaning."""
+        """Forget costs, and the ``changed`` errors, shape (k,), because they have another meaning from now on."""
         best = self._regression.best
         self._carried = None if best is None else best[0]
         self._regression.forget_costs(changed)

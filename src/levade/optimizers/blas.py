@@ -1,4 +1,4 @@
-"""One BLAS thread: faster at these sizes, and the same bits whatever the machine's number of cores."""
+"""Run numpy's linear algebra on one thread: faster at these sizes, and the same bits for any number of cores."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ def _libraries() -> ThreadpoolController:
 
 
 _NUMPY = Path(np.__file__).resolve().parent.with_name("numpy.libs")
-"""Where a wheel of numpy has its own linear algebra. scipy has one of its own, which numpy does not use."""
+"""Directory of the linear algebra in a wheel of numpy. scipy has its own, which numpy does not use."""
 
 _within = ContextVar("within", default=False)
 
 
 def kernels() -> str:
-    """The libraries behind numpy's linear algebra, each with the kind of processor that its kernels are made for.
+    """Name the libraries behind numpy's linear algebra, each with the processor for which its kernels are made.
 
-    Such as "openblas 0.3.31 Haswell". They decide how products are rounded. Empty where they do not say.
+    An example is "openblas 0.3.31 Haswell". They decide how products are rounded. Empty if not known.
     """
     found = [one for one in _libraries().info() if one["user_api"] == "blas"]
     own = [one for one in found if _NUMPY in Path(one["filepath"]).resolve().parents]

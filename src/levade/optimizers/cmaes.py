@@ -82,7 +82,7 @@ class CMAES:
 
     @cached_property
     def _inverse(self) -> Array:
-        """From candidates less the first mean to the coordinates of the search, shape (m, d)."""
+        """Return the matrix from candidates less the first mean to the coordinates of the search, shape (m, d)."""
         return np.asarray(np.linalg.pinv(self._space.factor, rcond=1e-8))
 
     @property

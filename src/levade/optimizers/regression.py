@@ -59,7 +59,7 @@ class ErrorRegression:
 
     @cached_property
     def _inverse(self) -> Array:
-        """From candidates to the factor's coordinates, shape (m, d)."""
+        """Return the matrix from candidates to the factor's coordinates, shape (m, d)."""
         return np.asarray(np.linalg.pinv(self._factor, rcond=1e-8))
 
     def tell(self, candidates: Array, errors: Array, cost: Array) -> None:

@@ -1,10 +1,10 @@
-"""Regulators: gains from what the robot senses to corrections of the joint references, along one motion.
+"""Regulators: gains from sensor readings to corrections of the joint references, along one motion.
 
     along = linearised(engine, start, reference, perturbed=(starts, models), rate=250.0)
     feedback = along.feedback(Design())
 
-`levade.stabilisers` chooses among such designs for a recorded motion; a search with ``feedback`` makes them along its best
-motion as it goes on.
+`levade.stabilisers` chooses among such designs for a recorded motion. A search with ``feedback`` makes them along its best
+motion.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The regulators along one motion: its linear model and what is expected of what is not sensed, once; gains for each design."""
+"""Make the regulators along one motion: its linear model and the estimates of unsensed values once, then gains per design."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from levade.regulators.quadratic import expectation, project, steady, sweep
 from levade.trajectory import JointReference
 
 WEIGHED = Scales(attitude=0.03, height=0.03, speed=0.3, rate=1.0, joint=0.3, joint_speed=10.0, drive=math.inf)
-"""Deviations that cost 1 each at the end, and a tenth on the way: scales that make different quantities comparable."""
+"""Deviations that cost 1 each at the end, and a tenth on the way. They make different quantities comparable."""
 
 _CAP = Scales(attitude=1 / 6, height=math.inf, speed=math.inf, rate=2.0, joint=1 / 4, joint_speed=20 / 3)
 """Gains are limited to 1 rad per this deviation: near a contact that opens or closes, the linear model holds for less."""
@@ -26,22 +26,22 @@ _LAST = 0.5
 """Largest gain of the correction in force."""
 
 FADING = 0.1
-"""[s] in which corrections fade to 1 / e of themselves, in a hold without feedback."""
+"""Time constant with which corrections fade in a hold without feedback [s]."""
 
 _NEAR = 0.2
-"""[rad], in attitude: runs that are further off are not learned from."""
+"""Largest deviation of attitude in runs that are used for learning [rad]."""
 
 
 @dataclass(frozen=True, eq=False)
 class Along:
-    """What all regulators along one motion share.
+    """Holds what all regulators along one motion share.
 
     Attributes:
         linear: The motion's linear model.
-        expected: What is not sensed, per unit of what is, shape (ticks of the linear model, states - sensed, sensed).
-        period: From tick to tick [s].
-        holds: Whether the motion goes on after its horizon.
-        size: How high the robot stands, about [m].
+        expected: Unsensed values per unit of sensed ones, shape (ticks of the linear model, states - sensed, sensed).
+        period: Time between ticks [s].
+        holds: Whether the motion has a hold after its horizon.
+        size: Approximate standing height of the robot [m].
     """
 
     linear: Linear
@@ -51,11 +51,11 @@ class Along:
     size: float
 
     def feedback(self, design: Design) -> Feedback:
-        """The regulator of a design, which holds the robot to the motion."""
+        """Compute the regulator of a design."""
         return Feedback(self._gains(design), self.linear.reference, self.period, design.bound)
 
     def _gains(self, design: Design) -> Array:
-        """(gains, joints, sensed + joints)."""
+        """Compute the gains, shape (gains, joints, sensed + joints)."""
         linear = self.linear
         a, b, last = linear.a, linear.b, []
         states, joints = b.shape[1:]
@@ -92,15 +92,18 @@ def linearised(
     rate: float,
     threads: int = 0,
 ) -> Along:
-    """Linearise a motion, and learn from perturbed runs of it what is to be expected of what is not sensed.
+    """Linearise a motion, and learn estimates of unsensed values from perturbed runs of it.
 
     Args:
         engine: Simulates the motion.
-        start: Where it starts, one row.
-        reference: What is asked of the joints, of one trial.
+        start: Start of the motion, one row.
+        reference: Joint references of one trial.
         perturbed: Starts and models of the perturbed runs.
-        rate: Measurements a second [Hz]; the nearest that steps allow.
-        threads: Number of threads; 0 for one per core. Results do not depend on it.
+        rate: Measurements per second [Hz]; the nearest rate that steps allow.
+        threads: Number of threads (0: one per core). Results do not depend on it.
+
+    Returns:
+        The linear model with its estimates.
     """
     timestep, size = reference.timestep, size_of(engine.embodiment)
     period = period_steps(rate, timestep)
@@ -111,7 +114,7 @@ def linearised(
 
 
 def size_of(embodiment: Embodiment) -> float:
-    """How high a robot stands, about [m]: 0.7 of its longest leg."""
+    """Estimate how high a robot stands [m]: 0.7 of its longest leg."""
     lengths = [
         float(np.linalg.norm(np.diff(np.concatenate([leg.anchors, leg.foot[None]]), axis=0), axis=1).sum())
         for leg in embodiment.legs
@@ -122,7 +125,7 @@ def size_of(embodiment: Embodiment) -> float:
 def _expectations(
     engine: MujocoEngine, reference: JointReference, linear: Linear, perturbed: tuple[State, Models], period: int
 ) -> Array:
-    """(ticks of the linear model, states - sensed, sensed), from perturbed runs without feedback."""
+    """Learn the estimates from perturbed runs without feedback, shape (ticks of the linear model, states - sensed, sensed)."""
     joints = engine.embodiment.joints
     ticks = len(linear.a)
     fields = ["qpos", "qvel", *(["act"] if engine.model.na else [])]

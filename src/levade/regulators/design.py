@@ -1,4 +1,4 @@
-"""What may be chosen of a regulator."""
+"""The choices of a regulator."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""The motion's linear model: how a small deviation at one tick goes on to the next, by differences of whole steps.
+"""The motion's linear model from tick to tick, by finite differences over whole ticks.
 
-Central differences over a tick, with changes as large as a robot's deviations are (2 cm, 0.02 rad), not the derivatives at a
-point: a contact that opens or closes within them counts in proportion.
+Differences are central, and as large as a robot's deviations (2 cm, 0.02 rad). So a contact that opens or closes within them
+counts in proportion, unlike in derivatives at a point.
 """
 
 from __future__ import annotations
@@ -20,20 +20,20 @@ from levade.rotations import conjugate, rotate
 from levade.trajectory import JointReference
 
 UNSENSED = 4
-"""Height and velocity of the trunk; after them come the states of the actuators."""
+"""Number of unsensed values of the trunk: height and velocity. The states of the actuators follow them."""
 
 
 @dataclass(frozen=True, eq=False)
 class Scales:
-    """How large a deviation is, by kind of quantity; of a robot of 0.6 m.
+    """Sizes of deviations by kind of quantity, for a robot of 0.6 m.
 
     Attributes:
-        attitude: [rad].
-        joint: [rad].
-        height: [m].
-        speed: [m/s].
-        rate: [rad/s].
-        joint_speed: [rad/s].
+        attitude: Attitude [rad].
+        joint: Joint angles [rad].
+        height: Height [m].
+        speed: Velocity of the trunk [m/s].
+        rate: Angular velocity [rad/s].
+        joint_speed: Joint velocities [rad/s].
         drive: Share of an actuator's largest state.
     """
 
@@ -46,7 +46,7 @@ class Scales:
     drive: float = 0.05
 
     def sized(self, size: float) -> Scales:
-        """For a robot of a size [m]: lengths as it, times as a pendulum's."""
+        """Scale to a robot of a size [m]: lengths in proportion, times like a pendulum's."""
         f = size / 0.6
         return Scales(
             self.attitude,
@@ -59,7 +59,7 @@ class Scales:
         )
 
     def column(self, joints: int, drives: Array) -> Array:
-        """Of everything in a state, (sensed + 4 + drives,)."""
+        """Return the scale of each value of a state, shape (sensed + 4 + drives,)."""
         return np.concatenate(
             [
                 np.repeat([self.attitude, self.rate], 3),
@@ -72,20 +72,24 @@ class Scales:
 
 
 STEPS = Scales(attitude=0.02, height=0.01, speed=0.05, rate=0.2, joint=0.02, joint_speed=0.3)
-"""Of the differences."""
+"""Sizes of the differences."""
 
 
 @dataclass(frozen=True, eq=False)
 class Linear:
-    """``x[k+1] = a[k] x[k] + b[k] c[k]`` from tick to tick of the motion; the last one is that of its end, standing.
+    """A linear model ``x[k+1] = a[k] x[k] + b[k] c[k]`` from tick to tick.
+
+    The last one is that of the motion's end, standing.
+
+    x is the deviation of the sensed values, then of the trunk's height [m], its velocity in trunk axes [m/s], and the
+    actuators' states. c are the corrections in force [rad].
 
     Attributes:
-        a: (ticks, states, states).
-        b: (ticks, states, joints). x: deviation of what is sensed, then of the trunk's height [m], its velocity in
-            trunk axes [m/s], and the actuators' states. c: corrections [rad] in force.
-        reference: (ticks of the whole motion, sensed).
-        state: The whole state, (ticks, states).
-        drives: (na,), largest state of each.
+        a: Shape (ticks, states, states).
+        b: Shape (ticks, states, joints).
+        reference: Sensed values along the whole motion, shape (ticks of the motion, sensed).
+        state: The whole state, shape (ticks, states).
+        drives: Largest state of each actuator, shape (na,).
     """
 
     a: Array
@@ -109,12 +113,15 @@ def linearise(
 
     Args:
         model: The compiled model.
-        layout: Where the robot is in it.
+        layout: Addresses of the robot in it.
         start: Start of the motion, one row.
         reference: Reference of one trial.
         period: Physics steps from tick to tick.
-        size: Size of the robot [m], which deviations of its trunk are scaled by.
-        threads: Number of engine threads; 0 for one per core.
+        size: Size of the robot [m], which scales deviations of its trunk.
+        threads: Number of engine threads (0: one per core).
+
+    Returns:
+        The linear model.
     """
     model = copy.deepcopy(model)
     model.opt.disableflags |= RESET_OFF | SENSORS_OFF
@@ -145,7 +152,7 @@ def linearise(
 
 
 def _rows(model: mujoco.MjModel, start: State, ctrl: Array, period: int) -> Array:
-    """MuJoCo's states at the ticks of a motion, (ticks, size of a state)."""
+    """Return MuJoCo's states at the ticks of a motion, shape (ticks, size of a state)."""
     data = mujoco.MjData(model)
     data.qpos[:], data.qvel[:], data.act[:] = start.qpos[0], start.qvel[0], start.act[0]
     first = np.empty(mujoco.mj_stateSize(model, STATE))
@@ -158,7 +165,7 @@ def _rows(model: mujoco.MjModel, start: State, ctrl: Array, period: int) -> Arra
 
 
 def state_of(layout: Layout, qpos: Array, qvel: Array, act: Array | None = None) -> Array:
-    """(..., states) of MuJoCo's (..., nq), (..., nv) and (..., na)."""
+    """Return states, shape (..., states), from MuJoCo's (..., nq), (..., nv) and (..., na)."""
     root, rate = layout.root_qpos, layout.root_qvel
     quaternion = qpos[..., root + 3 : root + 7]
     inverse = conjugate(quaternion)
@@ -167,7 +174,7 @@ def state_of(layout: Layout, qpos: Array, qvel: Array, act: Array | None = None)
 
 
 def _state(batch: Batch, layout: Layout) -> Array:
-    """(n, states) of the simulations as they are."""
+    """Return the current states of the simulations, shape (n, states)."""
     fields = ["qpos", "qvel", *(["act"] if batch.model.na else [])]
     return state_of(layout, *(batch.bind(name) for name in fields))
 
@@ -185,7 +192,10 @@ class _Sides:
         self._sign = np.tile([1.0, -1.0], self._count)
 
     def differences(self, row: Array, told: Array) -> tuple[Array, Array]:
-        """Between the two of each, (quantities, states + joints) before a tick, and (quantities, states) after it."""
+        """Return the differences of each pair before a tick and after it.
+
+        Their shapes are (quantities, states + joints) and (quantities, states).
+        """
         batch, layout, joints, s = self._batch, self._layout, self._joints, self._steps
         batch.state[:] = row
         qpos, qvel = batch.bind("qpos"), batch.bind("qvel")

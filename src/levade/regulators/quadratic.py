@@ -1,10 +1,10 @@
-"""The linear-quadratic regulator whose corrections come one tick late, and what of it is left to a robot that senses less.
+"""The linear-quadratic regulator with corrections one tick late, projected onto what a robot senses.
 
 With z = (x, c), the deviation and the correction in force, and v the correction from the next tick on:
 
     z[k+1] = (a x + b c, v)      least sum of x' Q x + v' R v      v = gain z
 
-Not all of x is sensed. By certainty equivalence the rest is what it is expected to be, given what is sensed: `project`.
+Not all of x is sensed. By certainty equivalence, the rest is replaced by its estimate from the sensed values: `project`.
 """
 
 from __future__ import annotations
@@ -15,14 +15,17 @@ from levade.arrays import Array
 
 
 def sweep(a: Array, b: Array, state: Array, correction: Array, value: Array) -> tuple[Array, Array]:
-    """Backwards from the end: gains (ticks, joints, states + joints), and the value matrix at the start.
+    """Sweep backwards from the end.
 
     Args:
         a: As in `levade.regulators.linear.Linear`.
         b: As in `levade.regulators.linear.Linear`.
-        state: (states,), diagonal of Q.
-        correction: (joints,), of R.
-        value: (states + joints,) squared, of what comes after.
+        state: Diagonal of Q, shape (states,).
+        correction: Diagonal of R, shape (joints,).
+        value: Value matrix at the end, shape (states + joints, states + joints).
+
+    Returns:
+        Gains, shape (ticks, joints, states + joints), and the value matrix at the start.
     """
     gains = np.zeros((len(a), len(correction), a.shape[1] + len(correction)))
     for k in range(len(a) - 1, -1, -1):
@@ -31,14 +34,17 @@ def sweep(a: Array, b: Array, state: Array, correction: Array, value: Array) -> 
 
 
 def steady(a: Array, b: Array, state: Array, correction: Array, *, most: int = 5000) -> tuple[Array, Array]:
-    """The gain (joints, states + joints) that does not change any more, and its value matrix.
+    """Compute the stationary gain, shape (joints, states + joints), and its value matrix.
 
     Args:
-        a: Of one tick.
-        b: Of one tick.
-        state: Weight of the state, shape (states, states).
-        correction: Weight of the correction, shape (joints, joints).
-        most: Most iterations.
+        a: Matrix of one tick.
+        b: Matrix of one tick.
+        state: Diagonal of Q, shape (states,).
+        correction: Diagonal of R, shape (joints,).
+        most: Largest number of iterations.
+
+    Returns:
+        The gain and the value matrix.
     """
     size = len(a) + len(correction)
     value, gain = np.zeros((size, size)), np.zeros((len(correction), size))
@@ -51,12 +57,15 @@ def steady(a: Array, b: Array, state: Array, correction: Array, *, most: int = 5
 
 
 def project(gain: Array, expected: Array, sensed: int) -> Array:
-    """A gain (joints, states + joints) on what is sensed and the correction in force alone.
+    """Reduce a gain, shape (joints, states + joints), to the sensed values and the correction in force.
 
     Args:
         gain: Gain on the whole state, shape (..., joints, states).
-        expected: (states - sensed, sensed), of the rest of the state, per unit of what is sensed.
-        sensed: Number of states that are sensed; the first ones.
+        expected: Rest of the state per unit of the sensed values, shape (states - sensed, sensed).
+        sensed: Number of sensed states, which come first.
+
+    Returns:
+        The reduced gain.
     """
     states = sensed + len(expected)
     own, rest, last = np.split(gain, [sensed, states], axis=1)
@@ -64,12 +73,15 @@ def project(gain: Array, expected: Array, sensed: int) -> Array:
 
 
 def expectation(seen: Array, hidden: Array, noise: Array) -> Array:
-    """Least-squares estimate of hidden (runs, h) from seen (runs, s), deviations both: (h, s).
+    """Estimate hidden deviations from seen ones by least squares.
 
     Args:
-        seen: What is sensed, shape (runs, seen).
-        hidden: What is not sensed, shape (runs, hidden).
-        noise: (s,), of sensing.
+        seen: Sensed deviations, shape (runs, seen).
+        hidden: Unsensed deviations, shape (runs, hidden).
+        noise: Noise of sensing, shape (seen,).
+
+    Returns:
+        Matrix from seen to hidden, shape (hidden, seen).
     """
     covariance = seen.T @ seen / len(seen) + np.diag(noise**2)
     return np.linalg.solve(covariance, seen.T @ hidden / len(seen)).T

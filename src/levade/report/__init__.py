@@ -1,1 +1,1 @@
-"""What people look at: figures, videos and pages, made from motion files."""
+"""Figures, videos and pages from motion files."""

@@ -1,4 +1,4 @@
-"""A motion's figures for a paper: one file each, at column width, legible in grey as well.
+"""Draw a motion's figures for a paper: one file each, at column width, also legible in grey.
 
     figures(motion, "figures", format="pdf", progress_csv="rearing/progress.csv")
     compare({"seed 0": first, "seed 1": second}, "figures")
@@ -6,12 +6,12 @@
 trunk        position and orientation of the trunk over time, with the goals (the paper's Fig. 3a and 6a)
 cost         best cost, and the spread of each generation, over the trials (Fig. 3b and 6b); needs progress.csv
 joints       reference and measured angle of each joint, with its range (Fig. 4 and 7)
-torques      of each joint, with its limit
-speeds       of each joint, with its limit
+torques      torque of each joint, with its limit
+speeds       speed of each joint, with its limit
 foot-forces  contact force on each foot
 kernels      the normalised kernels, and each policy with its weights (Fig. 1)
 
-Needs matplotlib (`pip install levade[figures]`). The same motion gives the same bytes.
+The figures need matplotlib (`pip install levade[figures]`). The same motion gives the same bytes.
 """
 
 from __future__ import annotations
@@ -44,10 +44,10 @@ from levade.report.style import LIGHT, leg_colours
 FORMATS = ("pdf", "svg", "png")
 
 COLUMN, PAGE = 3.5, 7.16
-"""[in], width of one column and of two, as IEEE has them."""
+"""Width of one column and of two [in], as IEEE has them."""
 
 _STYLES: tuple[Any, ...] = ("-", (0, (4, 1.6)), (0, (5, 1.5, 1, 1.5)), (0, (1.2, 1.2)))
-"""Lines that grey print tells apart: solid, dashed, dash-dotted, dotted."""
+"""Line styles that differ in grey print: solid, dashed, dash-dotted, dotted."""
 
 _RC: dict[str, Any] = {
     "font.family": ["DejaVu Sans"],  # comes with matplotlib: the same everywhere
@@ -94,16 +94,16 @@ _RC: dict[str, Any] = {
 def figures(
     motion: Motion, directory: str | Path, *, format: str = "pdf", progress_csv: str | Path | None = None
 ) -> list[Path]:
-    """Write all figures of a motion to a directory, which is made if need be.
+    """Write all figures of a motion to a directory.
 
     Args:
         motion: A motion.
-        directory: Directory to write; it is made if need be.
+        directory: Directory to write. It is created if it does not exist.
         format: "pdf", "svg" or "png".
         progress_csv: The progress.csv of the search. Without it there is no figure of the cost.
 
     Returns:
-        What was written.
+        The files that were written.
 
     Raises:
         LevadeError: If the format is unknown, the directory cannot be written, or matplotlib is missing.
@@ -130,17 +130,16 @@ def compare(
     format: str = "pdf",
     progress_csv: Mapping[str, str | Path] | None = None,
 ) -> list[Path]:
-    """Write figures that lay motions over one another: their trunks, and what their searches cost.
+    """Write figures that compare motions: their trunks, and the costs of their searches.
 
     Args:
-        motions: Motions by their names in the legend.
-        directory: Directory to write; it is made if need be.
+        motions: Name in the legend -> motion.
+        directory: Directory to write. It is created if it does not exist.
         format: "pdf", "svg" or "png".
-        progress_csv: The progress.csv of searches, by the motions' names. A motion without one is left out of the
-            figure of the cost.
+        progress_csv: Name -> progress.csv of the search. The figure of the cost leaves out motions without one.
 
     Returns:
-        What was written.
+        The files that were written.
     """
     drawings: dict[str, Callable[[], Any]] = {"trunk": lambda: _trunks(motions)}
     if progress_csv:
@@ -150,7 +149,7 @@ def compare(
 
 
 def write_figures(drawings: Mapping[str, Callable[[], Any]], directory: Path, format: str) -> list[Path]:
-    """Draw figures by name, in the look of all of them, into files in a directory; see `figures`."""
+    """Draw figures by name, in the common style, into files in a directory: see `figures`."""
     if format not in FORMATS:
         raise LevadeError(f"format {format}: unknown; {did_you_mean(format, FORMATS)}")
     try:
@@ -174,7 +173,7 @@ def write_figures(drawings: Mapping[str, Callable[[], Any]], directory: Path, fo
 
 
 def _figure(width: float, height: float, rows: int = 1, columns: int = 1, **options: Any) -> tuple[Any, Any]:
-    """Figure and its axes (rows, columns)."""
+    """Make a figure, and its axes (rows, columns)."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(width, height), layout="constrained")
@@ -193,7 +192,7 @@ def _line(label: str, **look: Any) -> Any:
 
 
 def _time_axis(axes: Any, motion: Motion, *, label: bool = True) -> None:
-    """Time along x: the hold is shaded, and where it is long drawn to a shorter scale."""
+    """Make time the x axis. The hold is shaded, and a long hold has a shorter scale."""
     horizon, end = motion.horizon, motion.duration
     axes.set_xlim(0.0, end)
     held = end - horizon > 1e-9
@@ -227,7 +226,7 @@ def _time_label(motion: Motion) -> str:
 
 
 def _step(span: float, parts: int) -> float:
-    """A round number near span / parts."""
+    """Return a round number near span / parts."""
     raw = span / parts
     power = 10.0 ** math.floor(math.log10(raw))
     return min((factor * power for factor in (1, 2, 5, 10)), key=lambda step: abs(math.log(step / raw)))
@@ -286,7 +285,7 @@ def _trunk(motions: Mapping[str, Motion]) -> Any:
 
 
 def _at_least(axes: Any, span: float, wanted: Sequence[float] = ()) -> None:
-    """Limits of y that show all lines and all that is wanted, and do not blow up noise."""
+    """Choose limits of y that show all lines and all required values, without magnifying noise."""
     lines = [np.asarray(line.get_ydata(), dtype=float) for line in axes.get_lines() if len(line.get_ydata()) > 2]
     values = np.concatenate([*lines, np.asarray(wanted, dtype=float)])
     values = values[np.isfinite(values)]
@@ -374,7 +373,7 @@ def _cost(progress: Progress, first_success: int | None) -> Any:
 
 
 def _stages(axes: Any, progress: Progress) -> None:
-    """A line where a stage begins, and the stage's name above it."""
+    """Draw a line where a stage begins, with the stage's name above it."""
     stages, trials, last = progress.stage, progress["trials"], float(progress["trials"][-1])
     changes = [i for i in range(len(stages)) if i == 0 or stages[i] != stages[i - 1]]
     taken = -math.inf
@@ -427,7 +426,7 @@ def _costs(progress: Mapping[str, Progress]) -> Any:
 
 
 def _joint_grid(motion: Motion) -> tuple[Any, list[tuple[Any, int, str]]]:
-    """A column per leg, a row per joint of a leg. Returns the figure and its axes, joint indices and legs."""
+    """Make a column per leg and a row per joint. Returns the figure and its axes, joint indices and legs."""
     legs, names = motion.legs, motion.joint_names
     depth = max(len(leg.joints) for leg in legs)
     figure, grid = _figure(PAGE, 0.75 + 1.3 * depth, depth, len(legs), sharex=True)
@@ -447,7 +446,7 @@ def _joint_grid(motion: Motion) -> tuple[Any, list[tuple[Any, int, str]]]:
 
 
 def _beyond(axes: Any, low: float | None, high: float | None) -> None:
-    """Shade what lies beyond the limits, and show them."""
+    """Shade the region beyond the limits, and show them."""
     bottom, top = axes.get_ylim()
     if low is not None and high is not None:
         room = 0.07 * (high - low)

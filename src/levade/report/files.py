@@ -1,4 +1,4 @@
-"""Files that are written whole or not at all."""
+"""Write files completely or not at all."""
 
 from __future__ import annotations
 
@@ -12,9 +12,16 @@ from levade.writing import check_replaceable, replacing
 
 @contextmanager
 def writing(path: Path, *, instead: str = "give a file that can") -> Iterator[Path]:
-    """A place next to a file to write it at; put in the file's place at the end, removed if something goes wrong.
+    """Give a place next to a file to write it. At the end it replaces the file; after an error it is removed.
 
-    The file's directory is made if need be.  instead: what the reader of the error can do.
+    The file's directory is created if it does not exist.
+
+    Args:
+        path: The file.
+        instead: What the reader of an error can do.
+
+    Yields:
+        The file to write.
 
     Raises:
         LevadeError: If it cannot be written, before any work is done.

@@ -1,4 +1,4 @@
-"""Arrays as text, for a page: base64 of little-endian numbers, so that a motion stays small and exact.
+"""Pack arrays as text for a page: base64 of little-endian numbers, which keeps a motion small and exact.
 
     pack(points)                    # {"dtype": "f4", "shape": [75, 3], "data": "AACAPw..."}
     unpack(pack(points))            # the same, as float32
@@ -17,13 +17,13 @@ import numpy as np
 from levade.arrays import Array
 
 UNIT = 32767
-"""An int16 of this size stands for 1, in what `pack_unit` writes."""
+"""The int16 that stands for 1 in `pack_unit`."""
 
 _DTYPES = ("f4", "i2", "u2", "u4")
 
 
 def pack(values: Any, dtype: str = "f4") -> dict[str, Any]:
-    """Pack numbers for a page. Nothing is clipped: numbers have to fit into the type.
+    """Pack numbers for a page. Nothing is clipped, so numbers must fit the type.
 
     Args:
         values: Numbers of any shape.
@@ -39,10 +39,16 @@ def pack(values: Any, dtype: str = "f4") -> dict[str, Any]:
 
 
 def pack_unit(values: Array) -> dict[str, Any]:
-    """Numbers between -1 and 1, to 1.6e-5: quaternions, for one.
+    """Pack numbers between -1 and 1, such as quaternions, to 1.6e-5.
+
+    Args:
+        values: Numbers of any shape.
+
+    Returns:
+        As `pack`.
 
     Raises:
-        ValueError: For others.
+        ValueError: If a number is outside.
     """
     if not (np.abs(values) <= 1.0 + 1e-9).all():
         raise ValueError("pack_unit takes numbers between -1 and 1")
@@ -50,6 +56,6 @@ def pack_unit(values: Array) -> dict[str, Any]:
 
 
 def unpack(packed: Mapping[str, Any]) -> Array:
-    """What was packed, in the type it was packed in; of `pack_unit`, multiples of 1 / `UNIT`, still as int16."""
+    """Unpack numbers in their packed type. Those of `pack_unit` are multiples of 1 / `UNIT`, still as int16."""
     data = base64.b64decode(packed["data"])
     return np.frombuffer(data, dtype=f"<{packed['dtype']}").reshape(packed["shape"])

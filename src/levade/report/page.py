@@ -1,9 +1,9 @@
-"""report.html: a motion on one page that needs no network, with a 3D player, plots that follow it, and where it is from.
+"""Write report.html: a motion on one offline page, with a 3D player, plots that follow it, and its provenance.
 
     path = write_page(motion, "rearing/report.html", progress_csv="rearing/progress.csv", source="motion.npz")
 
-The page's script and look are `web/` of the repository, bundled into `src/levade/report/web/`; its colours are
-`levade.report.style`'s. The same motion gives the same bytes.
+The page's script and style are `web/` of the repository, bundled into `src/levade/report/web/`. Its colours are those of
+`levade.report.style`. The same motion gives the same bytes.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from levade.version import __version__
 from levade.writing import check_replaceable
 
 _MARK = '<meta name="generator" content="levade'
-"""What tells a page of ours from other files."""
+"""Identifies a page of levade."""
 
 _PAGE = """<!doctype html>
 <html lang="en">
@@ -61,17 +61,17 @@ def write_page(
 
     Args:
         motion: The motion.
-        path: Where to write.
-        progress_csv: Progress of the motion's search; without it there is no plot of the cost.
-        source: The motion's file, as the page should call it.
-        certificate: Page of the motion's certificate, relative to this one, and what it says, as `page` and `says`.
-        instead: What else could be done, for the message of an error.
+        path: File to write.
+        progress_csv: Progress of the motion's search. Without it there is no plot of the cost.
+        source: Name of the motion's file on the page.
+        certificate: The motion's certificate: `page`, relative to this one, and `says`, its verdict.
+        instead: What else the user could do, for the message of an error.
 
     Returns:
-        The page's path.
+        The file.
 
     Raises:
-        LevadeError: If the file cannot be written, or is there and is no page of levade.
+        LevadeError: If the file cannot be written, or exists and is not a page of levade.
     """
     check_page(Path(path), instead=instead)
     text = page(motion, progress_csv=progress_csv, source=source, certificate=certificate)
@@ -79,15 +79,18 @@ def write_page(
 
 
 def save_page(text: str, path: str | Path, *, instead: str) -> Path:
-    """Write a page, or leave the file that is there.
+    """Write a page, or leave the existing file unchanged.
 
     Args:
         text: The page.
         path: File to write.
-        instead: What else could be done, for the message. Raises LevadeError as `write_page` does.
+        instead: What else the user could do, for the message of an error.
 
     Returns:
-        Its path.
+        The file.
+
+    Raises:
+        LevadeError: As `write_page`.
     """
     path = Path(path)
     check_page(path, instead=instead)
@@ -103,7 +106,7 @@ def page(
     source: str | None = None,
     certificate: Mapping[str, str] | None = None,
 ) -> str:
-    """The page as text; see `write_page`."""
+    """Return the page as text: see `write_page`."""
     progress = None if progress_csv is None else read_progress(progress_csv)
     provenance = provenance_data(motion) | {
         "written_by": f"levade {__version__}",
@@ -120,12 +123,12 @@ def page(
 
 
 def assembled(title: str, data: Any, entry: Literal["report", "certificate", "live"]) -> str:
-    """Build a page that needs nothing else.
+    """Build a self-contained page.
 
     Args:
         title: The page's title.
-        data: What the script reads, JSON.
-        entry: The function of web/src/levade.js that the page calls. Served pages ("live") have a style sheet more.
+        data: Input of the script, JSON.
+        entry: The function of web/src/levade.js that the page calls. Served pages ("live") have one more style sheet.
 
     Returns:
         The page as HTML.
@@ -143,12 +146,12 @@ def assembled(title: str, data: Any, entry: Literal["report", "certificate", "li
 
 
 def _json(data: Any) -> str:
-    """JSON that can stand in a script element: nothing in it ends the element or begins a comment."""
+    """Return JSON for a script element: nothing in it ends the element or begins a comment."""
     return json.dumps(_sound(data), ensure_ascii=False, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
 
 
 def _sound(data: Any) -> Any:
-    """JSON has no infinity and no NaN: null instead."""
+    """Replace infinity and NaN, which JSON lacks, by null."""
     if isinstance(data, dict):
         return {key: _sound(value) for key, value in data.items()}
     if isinstance(data, list | tuple):
@@ -161,10 +164,14 @@ def _bundled(name: str) -> str:
 
 
 def check_page(path: Path, *, instead: str) -> None:
-    """Nothing may be there but a page of levade's; what cannot be read is left to the writing to complain of.
+    """Check that a path is free or holds a page of levade. Errors of reading are left to the writing.
+
+    Args:
+        path: The path.
+        instead: What else the user could do, for the message.
 
     Raises:
-        LevadeError: For anything else, whose message says ``instead``.
+        LevadeError: If it holds anything else.
     """
     try:
         check_replaceable(path)  # opening a pipe would wait for its other end

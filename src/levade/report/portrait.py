@@ -1,8 +1,8 @@
-"""A robot's portrait: it stands in its neutral posture, with the names of its joints and feet.
+"""Draw a robot in its neutral posture, with the names of its joints and feet.
 
     portrait(load_robot("hyq2max"), Path("hyq2max.png"))
 
-Needs pillow (`pip install levade[video]`) and OpenGL off screen (`levade.report.rendering`).
+It needs pillow (`pip install levade[video]`) and OpenGL off screen (`levade.report.rendering`).
 """
 
 from __future__ import annotations
@@ -28,17 +28,17 @@ from levade.scenes import Scene, compose
 
 _SIZE = (1600, 1000)
 _EDGE = 24.0
-"""[px], from the edge of the picture to the names."""
+"""Distance of the names from the edge of the picture [px]."""
 _NAME, _SMALL = 17, 14
-"""[px], heights of letters."""
+"""Heights of letters [px]."""
 _FINE = 2
-"""Times finer that names and lines are drawn than the picture is."""
+"""Factor by which names and lines are drawn finer than the picture."""
 _AXES = (("x", "x forward"), ("y", "y left"), ("z", "z up"))
 
 
 @dataclass
 class Label:
-    """A name, where it points to in the picture [px], on which side and at which height [px] it is written."""
+    """A name, the point in the picture to which it refers [px], and the side and height at which it is written [px]."""
 
     name: str
     what: str
@@ -51,6 +51,13 @@ class Label:
 
 def portrait(robot: Robot, path: Path) -> Path:
     """Draw the robot to a .png file.
+
+    Args:
+        robot: The robot.
+        path: File to write.
+
+    Returns:
+        The file.
 
     Raises:
         LevadeError: If it cannot be written or drawn.
@@ -82,14 +89,14 @@ def _draw(pillow: Any, robot: Robot) -> Any:
 
 
 def _column(pillow: Any, robot: Robot) -> float:
-    """[px], what the names take of the width on each side."""
+    """Return the width of the names on each side [px]."""
     font = pillow.ImageFont.load_default(_NAME)
     longest = max(font.getlength(name) for name in (*robot.joint_names, *robot.feet, "hip abduction"))
     return min(_EDGE + longest + 70.0, 0.3 * _SIZE[0])
 
 
 def _standing(robot: Robot, model: Any) -> Any:
-    """Kinematics on the ground, level."""
+    """Compute the kinematics of the robot on level ground."""
     data = mujoco.MjData(model)
     at = Addresses.of(model, robot.trunk, robot.joint_names)
     data.qpos[at.trunk_pose] = [0.0, 0.0, robot.neutral_height, 1.0, 0.0, 0.0, 0.0]
@@ -99,7 +106,7 @@ def _standing(robot: Robot, model: Any) -> Any:
 
 
 def _azimuth(robot: Robot, data: Any) -> float:
-    """[deg], from the right front, so that the four legs are equally far apart in the picture: tan = length / 2 width."""
+    """Return the azimuth [deg]: from the right front, so that the four legs are equally far apart (tan = length / 2 width)."""
     feet = np.array([data.geom(leg.foot).xpos for leg in robot.standing])
     length, width = np.ptp(feet[:, 0]), np.ptp(feet[:, 1])
     aside = math.degrees(math.atan2(max(length, 1e-6), 2.0 * max(width, 1e-6)))
@@ -108,16 +115,16 @@ def _azimuth(robot: Robot, data: Any) -> float:
 
 @dataclass(frozen=True)
 class _Eye:
-    """From places to pixels."""
+    """Maps points to pixels."""
 
     camera: Camera
     view: View
 
     def see(self, point: Array) -> tuple[float, float]:
-        """(x, y) [px], from the left and the top.
+        """Return (x, y) from the left and the top [px].
 
         Args:
-            point: (3,) [m].
+            point: Point [m], shape (3,).
         """
         right, up, forward = self.camera.axes() @ (np.asarray(point) - self.view.lookat)
         scale = _SIZE[1] / 2 / math.tan(math.radians(FIELD_OF_VIEW / 2)) / (self.view.distance + forward)
@@ -138,7 +145,7 @@ def _labels(robot: Robot, data: Any, eye: _Eye) -> list[Label]:
 
 
 def _places(robot: Robot, data: Any, leg: Leg) -> list[tuple[Array, str, str]]:
-    """Where each joint and the foot of a leg is [m], its name, and what it is."""
+    """Return the position of each joint and of the foot of a leg [m], with its name and kind."""
     roles = ["joint" if role == "other" else role for role in robot.role_words(leg)]
     places = zip(leg.joints, roles, strict=True)
     joints = [(data.joint(joint).xanchor.copy(), joint, role) for joint, role in places]
@@ -146,7 +153,7 @@ def _places(robot: Robot, data: Any, leg: Leg) -> list[tuple[Array, str, str]]:
 
 
 def _frame(robot: Robot, data: Any, eye: _Eye) -> list[tuple[str, str, tuple[float, float], tuple[float, float]]]:
-    """The trunk's axes: what to write, colour, both ends [px]."""
+    """Return the trunk's axes: text, colour, both ends [px]."""
     body = data.body(robot.trunk)
     length = 0.45 * dimensions(robot).height
     ends = body.xpos + length * body.xmat.reshape(3, 3).T
@@ -219,9 +226,9 @@ def _arrow(draw: Any, start: tuple[float, float], end: tuple[float, float], colo
 
 
 def spread_out(labels: list[Label], least: float, top: float, bottom: float) -> None:
-    """Rows for labels in the order of their y: as near to it as can be with a least distance, between top and bottom.
+    """Choose rows for labels in the order of their y, with a least distance, between top and bottom.
 
-    Neighbours that are too near form a block around their mean; blocks that touch are merged.
+    Rows are as near to y as possible. Neighbours that are too near form a block around their mean; touching blocks merge.
     """
     blocks: list[tuple[list[Label], float]] = []  # labels, row of the first
 

@@ -1,11 +1,11 @@
-"""A motion in pictures: replayed from its file, and rendered off screen without a window or a display.
+"""Render a motion off screen from its file, without a window or a display.
 
     poses = replay(motion)
     with Renderer(motion, (960, 720)) as renderer:
         view = Camera().frame(outline(poses.model, poses.qpos[::10]), aspect=960 / 720)
         image = renderer.image(poses.at(0.3), view)           # (720, 960, 3) uint8
 
-OpenGL comes from EGL or, failing that, from OSMesa (software); the environment variable MUJOCO_GL decides if set.
+OpenGL comes from EGL or, if that is missing, from OSMesa (software). The environment variable MUJOCO_GL overrides this.
 """
 
 from __future__ import annotations
@@ -32,25 +32,25 @@ from levade.scenes.scene import GROUND
 Image = NDArray[np.uint8]
 
 FIELD_OF_VIEW = 30.0
-"""[deg], vertical: narrow, so that near legs do not look larger than far ones."""
+"""Vertical field of view [deg]. It is narrow, so that near legs do not look larger than far ones."""
 
 _MARGIN = 1.10
-"""Room around the motion, as a factor on what it needs."""
+"""Room around the motion, as a factor on its size."""
 
 _LARGE = 1.5
-"""[m], half edge: larger obstacles are part of the ground, and need not be seen whole."""
+"""Half edge from which obstacles count as ground, which need not be in the picture [m]."""
 
 
 @dataclass(frozen=True)
 class Poses:
-    """A motion's configurations: time (rows,) [s] from 0, qpos (rows, nq)."""
+    """A motion's configurations: time [s] from 0, shape (rows,), and qpos, shape (rows, nq)."""
 
     model: Any
     time: Array
     qpos: Array
 
     def at(self, time: float) -> Array:
-        """(nq,) at a time [s], between rows on the straight way from one to the other."""
+        """Return the configuration at a time [s], shape (nq,), interpolated linearly between rows."""
         time = min(max(time, 0.0), float(self.time[-1]))
         row = min(int(np.searchsorted(self.time, time, side="right")) - 1, len(self.time) - 2)
         share = (time - self.time[row]) / (self.time[row + 1] - self.time[row])
@@ -63,7 +63,7 @@ class Poses:
 
 @dataclass(frozen=True)
 class View:
-    """Where the camera is: what it looks at (3,) [m], from how far [m], azimuth and elevation [deg] as in MuJoCo."""
+    """A view: its centre [m], shape (3,), distance [m], azimuth and elevation [deg] as in MuJoCo."""
 
     lookat: Array
     distance: float
@@ -73,13 +73,13 @@ class View:
 
 @dataclass(frozen=True)
 class Camera:
-    """From where to look.
+    """Chooses a view.
 
     Attributes:
-        azimuth: [deg], direction of the view in the ground plane: 90 from the robot's right side, 180 from the front.
-        elevation: [deg], -90 to 90, negative from above.
-        distance: [m]; None for the nearest that shows the whole motion.
-        track: Follow the trunk, instead of standing still.
+        azimuth: Direction of the view in the ground plane [deg]: 90 from the robot's right side, 180 from the front.
+        elevation: Elevation from -90 to 90 [deg], negative from above.
+        distance: Distance [m]. None for the nearest that shows the whole motion.
+        track: Whether to follow the trunk.
     """
 
     azimuth: float = 118.0
@@ -97,7 +97,7 @@ class Camera:
             raise LevadeError(f"camera distance {self.distance:g} m: should be positive; 3 to 5 is usual")
 
     def axes(self) -> Array:
-        """(3, 3) right, up and forward of the picture, as rows."""
+        """Return the picture's right, up and forward directions as rows, shape (3, 3)."""
         azimuth, elevation = math.radians(self.azimuth), math.radians(self.elevation)
         forward = [
             math.cos(elevation) * math.cos(azimuth),
@@ -108,11 +108,14 @@ class Camera:
         return np.array([right, np.cross(right, forward), forward])
 
     def frame(self, points: Array, *, aspect: float) -> View:
-        """The nearest view that has all points in the picture.
+        """Return the nearest view with all points in the picture.
 
         Args:
-            points: (n, 3) [m].
-            aspect: Width by height.
+            points: Points [m], shape (n, 3).
+            aspect: Width divided by height.
+
+        Returns:
+            The view.
         """
         right, up, forward = self.axes() @ points.T
         vertical = math.tan(math.radians(FIELD_OF_VIEW / 2)) / _MARGIN
@@ -128,15 +131,15 @@ class Camera:
 
 
 class Renderer:
-    """Draws configurations of a model: what of the robot is for looking at, the scene, soft shadows.
+    """Draws configurations of a model: the robot's visible shapes, the scene, and soft shadows. It is a context manager.
 
     Args:
-        what: A motion, whose model is taken; or a model, which is changed.
+        what: A motion, whose model is used; or a model, which is changed.
         size: Width and height [pixels].
-        shadows: Lights that the sun is made of; more are softer, and slower. A context manager.
+        shadows: Number of lights that form the sun. More are softer and slower.
 
     Raises:
-        LevadeError: Where there is no OpenGL.
+        LevadeError: If there is no OpenGL.
     """
 
     def __init__(self, what: Motion | Any, size: tuple[int, int], *, shadows: int = 6) -> None:
@@ -165,7 +168,7 @@ class Renderer:
         self._gl.free()
 
     def image(self, qpos: Array, view: View) -> Image:
-        """(height, width, 3) RGB."""
+        """Draw a configuration. Returns RGB, shape (height, width, 3)."""
         self._data.qpos[:] = qpos
         mujoco.mj_kinematics(self.model, self._data)
         mujoco.mj_comPos(self.model, self._data)
@@ -183,7 +186,7 @@ class Renderer:
         return np.ascontiguousarray(image[::-1])
 
     def _light(self, subject: Array) -> None:
-        """Keep the sun over the robot, and make it a disc of several lights: its shadows get soft edges."""
+        """Keep the sun above the robot, as a disc of several lights whose shadows have soft edges."""
         scene = self._scene
         suns = [i for i in range(scene.nlight) if scene.lights[i].castshadow and not scene.lights[i].headlight]
         if not suns:
@@ -211,13 +214,13 @@ class Renderer:
 
 
 def replay(motion: Motion) -> Poses:
-    """The robot's poses in a motion, as recorded: the start, then every row."""
+    """Return the robot's recorded poses in a motion: the start, then every row."""
     model = motion.compiled()
     return Poses(model, np.concatenate([[0.0], motion["time"]]), configurations(motion, model))
 
 
 def outline(model: Any, qpos: Array) -> Array:
-    """(n, 3) [m] corners of what is drawn of the robot, in each configuration (rows, nq), and of small obstacles."""
+    """Return corners of the robot's drawn shapes in each configuration (rows, nq), and of small obstacles [m], shape (n, 3)."""
     seen = drawn_geoms(model) & (model.geom_type != mujoco.mjtGeom.mjGEOM_PLANE)
     seen &= model.geom_type != mujoco.mjtGeom.mjGEOM_HFIELD
     fixed = model.geom_bodyid == 0
@@ -235,14 +238,15 @@ def outline(model: Any, qpos: Array) -> Array:
 
 
 def drawn_geoms(model: Any) -> NDArray[np.bool_]:
-    """Which geoms are drawn: groups 0 to 2, where models keep what is for looking at.
+    """Tell which geoms are drawn: groups 0 to 2, in which models keep their visible shapes.
+
+    Group 3 also counts for parts of the robot that have nothing else; bodies that are fixed to each other form one part.
 
     Args:
         model: `mujoco.MjModel`.
 
     Returns:
-        Shape (ngeom,). Group 3 counts, too, on parts of the robot that have nothing else, bodies that are fixed to each
-        other taken together.
+        Shape (ngeom,).
     """
     drawn = model.geom_group <= 2
     part = model.body_weldid[model.geom_bodyid]
@@ -251,7 +255,7 @@ def drawn_geoms(model: Any) -> NDArray[np.bool_]:
 
 
 def _furnish(model: Any, size: tuple[int, int]) -> None:
-    """Picture size, quality, and the colours of the page for sky and ground."""
+    """Set picture size and quality, and the page's colours for sky and ground."""
     visual = model.vis
     visual.global_.offwidth, visual.global_.offheight = size
     visual.global_.fovy = FIELD_OF_VIEW
@@ -275,7 +279,7 @@ def _furnish(model: Any, size: tuple[int, int]) -> None:
 
 
 def _texture(model: Any, texture: int) -> Array:
-    """(pixels, channels) uint8, the model's own memory."""
+    """Return a texture of the model, shape (pixels, channels), uint8, in the model's own memory."""
     start, channels = model.tex_adr[texture], model.tex_nchannel[texture]
     pixels = model.tex_width[texture] * model.tex_height[texture]
     return model.tex_data[start : start + pixels * channels].reshape(pixels, channels)[:, :3]
@@ -292,7 +296,7 @@ _NO_GL = (
 
 
 def _open_gl(size: tuple[int, int]) -> Any:
-    """An OpenGL context of MuJoCo's, current nowhere yet."""
+    """Make an OpenGL context of MuJoCo's that is not current yet."""
     name = os.environ.get("MUJOCO_GL", "").lower().strip()
     if name in ("disable", "disabled", "off", "false", "0"):
         raise LevadeError(f"drawing needs OpenGL, but MUJOCO_GL={name} turns it off; unset it")
@@ -309,7 +313,7 @@ def _open_gl(size: tuple[int, int]) -> Any:
 
 
 def opengl() -> str:
-    """Make an OpenGL context off screen, and name what draws in it.
+    """Make an OpenGL context off screen, and name its renderer.
 
     Returns:
         The renderer, such as "llvmpipe (LLVM 15.0.6, 256 bits)".
@@ -339,7 +343,7 @@ def _context_class(name: str) -> Callable[[int, int], Any]:
 
 
 def _find_gl() -> str:
-    """The name of what is there. PyOpenGL is bound to one per process, so this looks before it is imported."""
+    """Find the available OpenGL before PyOpenGL is imported, which binds to one per process."""
     if bound := os.environ.get("PYOPENGL_PLATFORM", "").lower():
         return bound
     if _egl_devices() > 0:

@@ -1,12 +1,12 @@
-"""A motion as the page's 3D player takes it: one JSON object, small enough to put into the page.
+"""Describe a motion for the page's 3D player, as one JSON object that is small enough for the page.
 
     scene = scene_data(motion)
     json.dumps(scene)                       # about 0.1 MB for a motion of 0.3 s
-    scene["layers"]                         # what can be shown: [{"name": "path", "label": ..., "shown": True}, ...]
+    scene["layers"]                         # [{"name": "path", "label": ..., "shown": True}, ...]
 
-``model``: shapes (`levade.report.shapes`). ``motion``: poses of the bodies at ``time``, and what is drawn over them.
-``palette``: colours of both themes. Arrays as in `levade.report.packing`; SI units, quaternions x-y-z-w. Poses are those of
-recorded rows, never of a time between: the first is the start, the horizon's and the last are always among them.
+``model``: shapes (`levade.report.shapes`). ``motion``: poses of the bodies at ``time``, and overlays. ``palette``: colours of
+both themes. Arrays are those of `levade.report.packing`, units SI, quaternions x-y-z-w. Poses are recorded rows, never
+interpolated. The first is the start, and the horizon's and the last are always included.
 """
 
 from __future__ import annotations
@@ -32,28 +32,31 @@ from levade.rotations import roll_pitch_yaw
 Rows = NDArray[np.int64]
 
 RATE = 250.0
-"""[Hz], at most this many poses a second: what is between them is interpolated."""
+"""Largest number of poses per second [Hz]. The page interpolates between them."""
 
 FRAMES = 3000
-"""At most this many poses."""
+"""Largest number of poses."""
 
 _ARROW = 0.22
-"""Length of an arrow as large as the robot's weight, by the reach of its legs."""
+"""Length of an arrow for the robot's weight, relative to the reach of its legs."""
 
 _LONGEST = 0.8
-"""Where arrows end, by that reach: impacts of a step or two are larger, and get a second tip instead."""
+"""Largest length of an arrow, relative to that reach. Larger forces, as in impacts of a step or two, get a second tip."""
 
 
 def scene_data(
     motion: Motion, *, like: Mapping[str, Any] | None = None, model: Any = None, rate: float = RATE
 ) -> dict[str, Any]:
-    """The page's scene of a motion.
+    """Describe a motion for the page.
 
     Args:
         motion: A motion.
-        like: A scene of another motion of the same model; shapes and colours are taken from it.
-        model: The motion's, if it is compiled already.
-        rate: [Hz], at most this many poses a second.
+        like: Description of another motion of the same model, whose shapes and colours are reused.
+        model: The motion's compiled model, if it exists already.
+        rate: Largest number of poses per second [Hz].
+
+    Returns:
+        The scene, as JSON.
 
     Raises:
         LevadeError: If the motion's model is damaged.
@@ -86,7 +89,7 @@ def put_together(
     moving: Mapping[str, Any],
     layers: list[dict[str, Any]],
 ) -> dict[str, Any]:
-    """A scene of its parts."""
+    """Assemble a scene from its parts."""
     camera = Camera()
     return {
         "version": 1,
@@ -100,13 +103,21 @@ def put_together(
 
 
 def frame_rows(steps: int, horizon_steps: int, timestep: float, rate: float = RATE) -> Rows:
-    """(frames,) rows that are kept of steps + 1, of which row 0 is the start: evenly spaced, horizon and end added."""
+    """Choose rows out of steps + 1, where row 0 is the start: evenly spaced, with horizon and end. Shape (frames,)."""
     stride = max(1, math.ceil(1.0 / (rate * timestep) - 1e-9), math.ceil(steps / FRAMES))
     return np.unique(np.concatenate([np.arange(0, steps + 1, stride), [min(horizon_steps, steps), steps]]))
 
 
 def body_poses(model: Any, qpos: Array) -> tuple[Array, Array]:
-    """(rows, bodies, 3) [m] and (rows, bodies, 4) x-y-z-w, continuous, of the bodies that move, at (rows, nq)."""
+    """Compute poses of moving bodies from qpos, shape (rows, nq).
+
+    Args:
+        model: The model.
+        qpos: Configurations, shape (rows, nq).
+
+    Returns:
+        Positions [m], shape (rows, bodies, 3), and continuous quaternions x-y-z-w, shape (rows, bodies, 4).
+    """
     bodies = moving_bodies(model)
     data = mujoco.MjData(model)
     position, quaternion = np.empty((len(qpos), len(bodies), 3)), np.empty((len(qpos), len(bodies), 4))
@@ -121,12 +132,12 @@ def body_poses(model: Any, qpos: Array) -> tuple[Array, Array]:
 
 
 def _recorded(values: Array, rows: Rows) -> Array:
-    """Rows of something recorded at the end of each step; the start is like the first step. Never NaN."""
+    """Return rows of a quantity that is recorded at the end of each step. The start is like the first step. Never NaN."""
     return np.nan_to_num(values[np.maximum(rows - 1, 0)], posinf=0.0, neginf=0.0)
 
 
 def _reference(motion: Motion, model: Any, rows: Rows, qpos: Array) -> dict[str, Any]:
-    """Poses of the legs at the reference angles, on the measured trunk: bodies (places), position, quaternion."""
+    """Compute poses of the legs at the reference angles on the measured trunk: bodies (places), position, quaternion."""
     wanted = qpos.copy()
     wanted[:, motion.addresses(model).joint_qpos] = _recorded(motion["joint_position_reference"], rows)
     bodies, trunk = moving_bodies(model), model.body(motion.trunk).id
@@ -136,7 +147,7 @@ def _reference(motion: Motion, model: Any, rows: Rows, qpos: Array) -> dict[str,
 
 
 def _forces(motion: Motion, model: Any, rows: Rows) -> dict[str, Any]:
-    """Contact force on each foot [N], and where: the foot's body (place), centre in it and radius [m], and leg."""
+    """Return the contact force on each foot [N], and its place: the foot's body, centre in it and radius [m], and leg."""
     places = {body: place for place, body in enumerate(moving_bodies(model))}
     feet = []
     for leg in motion.legs:
@@ -159,14 +170,14 @@ def _forces(motion: Motion, model: Any, rows: Rows) -> dict[str, Any]:
 
 
 def force_scale(force: float, length: float) -> float:
-    """[N/m], how many newtons a metre of arrow stands for: a round number, that force no longer than that length [m]."""
+    """Return the scale of arrows [N/m]: a round number, with which this force is no longer than this length [m]."""
     least = max(force, 1.0) / length
     decade = 10.0 ** math.floor(math.log10(least))
     return next(step * decade for step in (1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0) if step * decade >= least * (1 - 1e-9))
 
 
 def _reach(model: Any, motion: Motion) -> float:
-    """[m], from the trunk along its longest leg."""
+    """Return the distance from the trunk along its longest leg [m]."""
     trunk, reaches = model.body(motion.trunk).id, [0.1]
     for leg in motion.legs:
         geom = model.geom(leg.foot)
@@ -179,7 +190,7 @@ def _reach(model: Any, motion: Motion) -> float:
 
 
 def _goal(motion: Motion, model: Any) -> dict[str, Any] | None:
-    """What is required of the trunk at the horizon."""
+    """Describe the trunk's goal at the horizon."""
     row = min(motion.horizon_steps, motion.steps) - 1
     return goal_box(
         model,
@@ -194,9 +205,18 @@ def _goal(motion: Motion, model: Any) -> dict[str, Any] | None:
 def goal_box(
     model: Any, trunk: str, com_offset: Array, criteria: Mapping[str, Criterion], centre: Array, attitude: Array
 ) -> dict[str, Any] | None:
-    """A box around the trunk where criteria want it at the horizon; None if they do not say.
+    """Return a box around the trunk where criteria require it at the horizon. None if they do not.
 
-    centre (3,) [m], of mass, and attitude (4,) w-x-y-z of the trunk: for angles and coordinates that nothing is required of.
+    Args:
+        model: The model.
+        trunk: Name of the trunk's body.
+        com_offset: The trunk's centre of mass in its frame [m], shape (3,).
+        criteria: Success criteria.
+        centre: Centre of mass for free coordinates [m], shape (3,).
+        attitude: Attitude of the trunk for free angles, w-x-y-z, shape (4,).
+
+    Returns:
+        The box, as JSON.
     """
     wanted = {}
     for criterion in criteria.values():
@@ -224,7 +244,7 @@ def goal_box(
 
 
 def _trunk_box(model: Any, trunk: str) -> tuple[Array, Array]:
-    """Two corners, in the trunk's frame [m], of a box round the trunk's geoms."""
+    """Return two corners, in the trunk's frame [m], of a box around the trunk's geoms."""
     geoms = np.flatnonzero(model.geom_bodyid == model.body(trunk).id)
     if not len(geoms):
         return np.full(3, -0.1), np.full(3, 0.1)
@@ -238,7 +258,7 @@ def _trunk_box(model: Any, trunk: str) -> tuple[Array, Array]:
 
 
 def _layers(shapes: Mapping[str, Any], moving: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """What a reader can show or hide: name, label, and whether it is shown at first."""
+    """List what a reader can show or hide: name, label, and whether it is shown at first."""
     layers = [
         ("robot", "robot", True),
         ("reference", "reference", False),
@@ -258,7 +278,7 @@ def _forces_text(forces: Mapping[str, Any]) -> str:
 
 
 def goal_text(wanted: Mapping[str, float]) -> str:
-    """Such as "pitch -60°, height 0.9 m"."""
+    """Return a text such as "pitch -60°, height 0.9 m"."""
     texts = []
     for name, value in wanted.items():
         angle = name in ("roll", "pitch", "yaw", "tilt")

@@ -1,4 +1,4 @@
-"""What a motion's figures and page draw, as numbers: curves over time, goals, limits, the search, the policies.
+"""Return the numbers in a motion's figures and page: curves over time, goals, limits, the search, the policies.
 
 series_data(motion, progress)      # JSON for the page; web/src/plots.js draws it
 trunk_values(motion), goals(motion), read_progress(path), policy_names(motion, count)
@@ -25,15 +25,16 @@ from levade.report.style import leg_places
 from levade.rotations import roll_pitch_yaw
 
 _TOUCHES = 1.0
-"""[N], contact force from which a foot counts as on the ground."""
+"""Contact force from which a foot counts as on the ground [N]."""
 
 
 @dataclass(frozen=True)
 class Progress:
-    """progress.csv: a row per generation.
+    """Holds a progress.csv: a row per generation.
 
     Attributes:
-        stage: (generations,) names; others: column -> (generations,).
+        stage: Names of the stages, shape (generations,).
+        columns: Column -> values, shape (generations,).
     """
 
     stage: tuple[str, ...]
@@ -46,8 +47,14 @@ class Progress:
 def read_progress(path: str | Path) -> Progress:
     """Read a progress.csv.
 
+    Args:
+        path: The file.
+
+    Returns:
+        Its columns.
+
     Raises:
-        LevadeError: If the file is not there, or is no progress.csv of a search.
+        LevadeError: If the file is missing, or is not the progress.csv of a search.
     """
     path = Path(path)
     try:
@@ -73,11 +80,16 @@ def read_progress(path: str | Path) -> Progress:
 
 
 def series_data(motion: Motion, progress: Progress | None = None) -> dict[str, Any]:
-    """All curves of a motion, for web/src/plots.js: SI units; arrays over time as in `levade.report.packing`.
+    """Return all curves of a motion for web/src/plots.js, in SI units.
+
+    Arrays over time are those of `levade.report.packing`.
 
     Args:
         motion: A motion.
-        progress: Of the motion's search; None for no curve of the cost.
+        progress: Progress of the motion's search. None for no curve of the cost.
+
+    Returns:
+        JSON.
     """
     names, limits = motion.joint_names, motion.embodiment.limits
     bounds = {key: finite(getattr(limits, key)) for key in ("lower", "upper", "velocity", "torque")}
@@ -122,7 +134,7 @@ def series_data(motion: Motion, progress: Progress | None = None) -> dict[str, A
 
 
 def cost_data(progress: Progress, trials_to_success: int | None) -> dict[str, Any]:
-    """The search: a row per generation; null where a cost is not finite. stages: where each begins."""
+    """Describe the search: a row per generation, null for a cost that is not finite, and where each stage begins."""
     stages = [
         {"name": name, "start": float(progress["trials"][i - 1]) if i else 0.0}
         for i, name in enumerate(progress.stage)
@@ -144,7 +156,7 @@ def _numbers(values: Array) -> list[float | None]:
 
 
 def _policy_data(motion: Motion) -> dict[str, Any]:
-    """The kernels over the horizon and, per policy, its weights at the kernels' means and what they add up to."""
+    """Return the kernels over the horizon and, per policy, its weights at the kernels' means and their blend."""
     kernels, horizon = kernels_of(motion), motion.horizon
     weights = weights_of(motion, kernels)
     time = np.linspace(0.0, horizon, 201)
@@ -161,7 +173,7 @@ def _policy_data(motion: Motion) -> dict[str, Any]:
 
 
 def kernels_of(motion: Motion) -> GaussianKernels:
-    """The kernels of the motion's policy, or those that its task has."""
+    """Return the kernels of the motion's policy, or those of its task."""
     if motion.policy is not None:
         return motion.policy.kernels
     choice = motion.task.policy
@@ -169,25 +181,31 @@ def kernels_of(motion: Motion) -> GaussianKernels:
 
 
 def weights_of(motion: Motion, kernels: GaussianKernels) -> Array:
-    """Weights by policy, shape (policies, kernels) [rad]; no rows for a policy in Python, which has other weights."""
+    """Return the weights by policy [rad], shape (policies, kernels).
+
+    A policy in Python has no rows, because its weights differ.
+    """
     weights = motion["weights"]
     whole = len(weights) % kernels.kernels == 0
     return weights.reshape(-1, kernels.kernels) if whole else np.empty((0, kernels.kernels))
 
 
 QUANTITIES = (("x", "y", "height"), ("roll", "pitch", "yaw"))
-"""What success criteria call the columns of `trunk_values`."""
+"""Names of the columns of `trunk_values` in success criteria."""
 
 
 def trunk_values(motion: Motion) -> tuple[Array, Array]:
-    """(steps, 3) [m], of its centre of mass, and (steps, 3) [rad], not a number where an angle jumps by a turn."""
+    """Return the trunk's centre of mass [m] and its angles [rad], shape (steps, 3) each.
+
+    An angle that jumps by a turn is NaN.
+    """
     angles = roll_pitch_yaw(motion["trunk_quaternion"])
     angles[1:][np.abs(np.diff(angles, axis=0)) > math.pi] = np.nan
     return motion["trunk_com_position"], angles
 
 
 def goals(motion: Motion) -> dict[str, list[tuple[float, float, float]]]:
-    """Quantity -> goals: time [s], target, tolerance."""
+    """Map each quantity to its goals: time [s], target, tolerance."""
     found: dict[str, list[tuple[float, float, float]]] = {}
     for criterion in motion.task.success.values():
         if criterion.target is not None and criterion.at in ("horizon", "end", "hold"):
@@ -207,7 +225,7 @@ def _goal_rows(motion: Motion) -> list[dict[str, Any]]:
 
 
 def short(joint: str, leg: str) -> str:
-    """lf_haa of leg lf -> HAA."""
+    """Shorten a joint's name: lf_haa of leg lf becomes HAA."""
     rest = joint[len(leg) :].strip("_-") if joint.lower().startswith(leg.lower()) else joint
     rest = rest.removesuffix("_joint") or joint
     return rest.upper() if len(rest) <= 4 else rest
@@ -219,6 +237,9 @@ def policy_names(motion: Motion, count: int) -> list[str]:
     Args:
         motion: A motion.
         count: Number of policies.
+
+    Returns:
+        The names.
     """
     policy = ReferenceCurve.of(motion).policy
     if policy is None or policy.independent_joints != count:

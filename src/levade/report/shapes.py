@@ -1,10 +1,10 @@
-"""What a model looks like, for the page: shapes, colours and triangles, once; only poses change later.
+"""Describe the looks of a model for the page: shapes, colours and triangles. Only poses change later.
 
     shapes = shapes_of(model)
     shapes["geoms"][0]      # {"type": "capsule", "size": [0.022, 0.44], "body": 0, "pos", "quat", "material", "layer"}
 
-body: index into ``bodies``, or -1 for what stands still, which is given in world axes; pos [m], quat x-y-z-w in the frame of
-its body. size: as in MuJoCo, half lengths and radii [m]. layer: "robot", "collision" or "scene".
+body: index into ``bodies``, or -1 for what stands still, in world axes. pos [m] and quat x-y-z-w are in the frame of the body.
+size: as in MuJoCo, half lengths and radii [m]. layer: "robot", "collision" or "scene".
 """
 
 from __future__ import annotations
@@ -24,10 +24,10 @@ from levade.report.rendering import drawn_geoms
 from levade.scenes.scene import GROUND
 
 TRIANGLES = 60_000
-"""At most about this many for all meshes together: more make a page slow to open, and no prettier."""
+"""Approximate largest number of triangles in all meshes. More make a page slow to open without looking better."""
 
 Triangles = tuple[Array, NDArray[np.int64]]
-"""A mesh: (vertices, 3) [m], and (triangles, 3) numbers of vertices."""
+"""A mesh: vertices [m], shape (n, 3), and numbers of vertices, shape (triangles, 3)."""
 
 _TYPES = {
     mujoco.mjtGeom.mjGEOM_PLANE: "plane",
@@ -43,16 +43,16 @@ _TYPES = {
 _SIZES = {"plane": 2, "sphere": 1, "capsule": 2, "ellipsoid": 3, "cylinder": 2, "box": 3, "mesh": 0}
 
 _GREY = (0.5, 0.5, 0.5, 1.0)
-"""MuJoCo's colour of what has none."""
+"""MuJoCo's default colour."""
 
 _PLAIN = ("#c9ced4", "#3c434b")
-"""Two colours in turn, from a robot's trunk outward, for robots that have none."""
+"""Two alternating colours, from the trunk outward, for robots without colours."""
 
 
 def shapes_of(model: Any) -> dict[str, Any]:
-    """The drawn geoms of a model, by the rule of `levade.report.rendering.drawn_geoms`, and its collision shapes.
+    """Describe the drawn geoms of a model (`levade.report.rendering.drawn_geoms`), and its collision shapes.
 
-    Has ``bodies``, ``geoms``, ``materials``, ``meshes`` and ``key``, which is the same for the same shapes only.
+    The result has ``bodies``, ``geoms``, ``materials``, ``meshes`` and ``key``, which identifies the shapes.
     """
     bodies = moving_bodies(model)
     places = {body: place for place, body in enumerate(bodies)}
@@ -100,7 +100,7 @@ def shapes_of(model: Any) -> dict[str, Any]:
 
 
 def moving_bodies(model: Any) -> list[int]:
-    """Numbers of the bodies that can move and have a shape, in the model's order."""
+    """List the bodies that can move and have a shape, in the model's order."""
     bodies = np.unique(model.geom_bodyid)
     return [int(body) for body in bodies if model.body_weldid[body] != 0]
 
@@ -110,7 +110,7 @@ def _numbers(values: Array) -> list[float]:
 
 
 def _material(model: Any, geom: int) -> tuple[str, float, float, float]:
-    """(colour, opacity, roughness, metalness) of a geom: MuJoCo's material, in the terms of the page's."""
+    """Return colour, opacity, roughness and metalness of a geom: MuJoCo's material in the page's terms."""
     material = int(model.geom_matid[geom])
     rgba, roughness, metalness = model.geom_rgba[geom], 0.6, 0.05
     if material >= 0:
@@ -132,7 +132,7 @@ def _material(model: Any, geom: int) -> tuple[str, float, float, float]:
 
 
 def _depth(model: Any, body: int) -> int:
-    """How many joints are between a body and its trunk."""
+    """Count the joints between a body and its trunk."""
     depth = -1
     while body:
         depth += model.body_jntnum[body] > 0
@@ -151,7 +151,7 @@ def _hex(rgba: Array) -> str:
 
 
 def _meshes(model: Any, used: list[tuple[str, int]]) -> list[dict[str, Any]]:
-    """Vertices, as int16 of a box, and triangles of each mesh that is used."""
+    """Return vertices, as int16 within a box, and triangles of each used mesh."""
     triangles = [_height_field(model, number) if kind == "hfield" else _mesh(model, number) for kind, number in used]
     return [_packed(vertices, faces) for vertices, faces in simplify(triangles, TRIANGLES)]
 
@@ -175,7 +175,7 @@ def _height_field(model: Any, number: int) -> Triangles:
 
 
 def simplify(meshes: list[Triangles], triangles: int) -> list[Triangles]:
-    """Meshes of at most this many triangles in all: vertices in one cell of a grid become one, their mean."""
+    """Simplify meshes to this many triangles in all: the vertices in one cell of a grid become one, their mean."""
     reduced = [_welded(vertices, faces, 1e-7) for vertices, faces in meshes]
     if sum(len(faces) for _, faces in reduced) <= triangles:
         return reduced

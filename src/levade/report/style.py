@@ -1,12 +1,12 @@
-"""The look, once for page, figures and video: one palette (Okabe and Ito, safe for colour-blind readers), one font.
+"""The look of pages, figures and videos: one palette (Okabe and Ito, safe for colour-blind readers), one font.
 
     theme = LIGHT                                   # or DARK
     theme.goal, theme.limit                         # "#rrggbb"
     leg_colours(motion.legs, theme)         # {"lf": "#0072b2", ...}
 
-Hues keep one meaning: front legs are blue, hind legs orange; left is darker than right, so the four also differ in grey.
-x and roll are vermilion, y and pitch green, z and yaw blue. A reference is dashed, a measurement solid, a goal a thin
-dashed line in the colour of its quantity, a limit a shaded band.
+Each hue has one meaning. Front legs are blue, hind legs orange; left is darker than right, so the four also differ in grey. x
+and roll are vermilion, y and pitch green, z and yaw blue. A reference is dashed, a measurement solid. A goal is a thin dashed
+line in the colour of its quantity, a limit a shaded band.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ SANS = ("Inter", "Segoe UI", "Roboto", "Helvetica Neue", "Arial", "DejaVu Sans",
 MONO = ("ui-monospace", "SFMono-Regular", "Menlo", "Consolas", "DejaVu Sans Mono", "monospace")
 
 DASHES = {"measured": (), "reference": (5, 3), "goal": (2, 3), "horizon": (1, 2)}
-"""What a line means -> its dashes, in points; empty for solid."""
+"""Meaning of a line -> its dashes in points; empty for solid."""
 
 
 @dataclass(frozen=True)
@@ -30,28 +30,31 @@ class Theme:
     """Colours, each "#rrggbb".
 
     Attributes:
-        page: Behind everything, behind a plot.
-        panel: Behind everything, behind a plot.
-        ink: Text and axes, secondary text, grid lines.
-        muted: Text and axes, secondary text, grid lines.
-        grid: Text and axes, secondary text, grid lines.
+        page: Background of the page.
+        panel: Background of a plot.
+        ink: Text and axes.
+        muted: Secondary text.
+        grid: Grid lines.
         accent: Controls and the time cursor.
-        good: Success and failure (always next to a word).
-        bad: Success and failure (always next to a word).
-        measured: Lines that belong to no leg. limit is also the shade beyond a limit.
-        reference: Lines that belong to no leg. limit is also the shade beyond a limit.
-        goal: Lines that belong to no leg. limit is also the shade beyond a limit.
-        limit: Lines that belong to no leg. limit is also the shade beyond a limit.
-        best: Lines that belong to no leg. limit is also the shade beyond a limit.
-        x: Also roll, pitch, yaw. front_left ...
-        y: Also roll, pitch, yaw. front_left ...
-        z: Also roll, pitch, yaw. front_left ...
-        hind_right: Legs.
-        others: Legs beyond those, and anything counted.
-        sky: The 3D scene.
-        ground: The 3D scene.
-        ground_line: The 3D scene.
-        ghost: The 3D scene.
+        good: Success, always next to a word.
+        bad: Failure, always next to a word.
+        measured: Lines of measured values that belong to no leg.
+        reference: Lines of references that belong to no leg.
+        goal: Lines of goals that belong to no quantity.
+        limit: Limits, and the shade beyond them.
+        best: Lines of the best cost.
+        x: x and roll.
+        y: y and pitch.
+        z: z and yaw.
+        front_left: The left front leg.
+        front_right: The right front leg.
+        hind_left: The left hind leg.
+        hind_right: The right hind leg.
+        others: Further legs, and other series.
+        sky: Sky of the 3D scene.
+        ground: Ground of the 3D scene.
+        ground_line: Lines on the ground of the 3D scene.
+        ghost: The ghost in the 3D scene.
     """
 
     page: str
@@ -82,7 +85,7 @@ class Theme:
 
     @property
     def axes(self) -> tuple[str, str, str]:
-        """x, y, z, or roll, pitch, yaw."""
+        """Colours of x, y, z, which are also those of roll, pitch, yaw."""
         return self.x, self.y, self.z
 
 
@@ -144,7 +147,7 @@ DARK = Theme(
 
 
 def leg_colours(legs: Iterable[Leg], theme: Theme) -> dict[str, str]:
-    """Colour of each leg: leg name -> "#rrggbb"."""
+    """Map each leg's name to its colour "#rrggbb"."""
     places = leg_places(legs)
     return {
         name: theme.others[int(place[5:])] if place.startswith("other") else getattr(theme, place.replace("-", "_"))
@@ -153,7 +156,7 @@ def leg_colours(legs: Iterable[Leg], theme: Theme) -> dict[str, str]:
 
 
 def leg_places(legs: Iterable[Leg]) -> dict[str, str]:
-    """What each leg's colour is called in the stylesheet: leg name -> "front-left" and so on, or "other0"."""
+    """Map each leg's name to the name of its colour in the stylesheet: "front-left" and so on, or "other0"."""
     free = {f"{end}-{side}" for end in ("front", "hind") for side in ("left", "right")}
     places = {}
     for number, leg in enumerate(legs):
@@ -164,7 +167,10 @@ def leg_places(legs: Iterable[Leg]) -> dict[str, str]:
 
 
 def stylesheet() -> str:
-    """The palette as CSS variables, ``--ink`` and so on: light, and dark where the reader's system or the page asks."""
+    """Return the palette as CSS variables, ``--ink`` and so on.
+
+    It is light, or dark if the reader's system or the page asks for it.
+    """
 
     def variables(theme: Theme) -> str:
         colours = {name: value for name, value in asdict(theme).items() if isinstance(value, str)}

@@ -1,4 +1,4 @@
-"""What a motion came to, as the page says it: verdict, criteria, peaks against limits, cost terms, and where it is from.
+"""Summarise a motion for the page: verdict, criteria, peaks against limits, cost terms, and provenance.
 
 summary_data(motion)        # JSON; web/src/summary.js draws it
 provenance_data(motion)     # JSON; with the command that gives the same motion again
@@ -28,7 +28,7 @@ WHEN = {
 
 
 def summary_data(motion: Motion) -> dict[str, Any]:
-    """Goal against result, peaks against limits, cost terms; SI units, null where there is no number."""
+    """Describe goal and result, peaks against limits, and cost terms, in SI units; null if there is no number."""
     result = motion.result
     criteria = [_criterion(name, one, result.errors[name]) for name, one in motion.task.success.items()]
     terms = [
@@ -85,7 +85,7 @@ def _verdict(motion: Motion, criteria: list[dict[str, Any]]) -> str:
 
 
 def _peaks(motion: Motion) -> Iterator[dict[str, Any]]:
-    """The joint that comes nearest to its limit, or goes furthest beyond, in torque and speed; and in its range."""
+    """Yield the joint with the least slack, or the largest excess, in torque, speed and range."""
     limits, names = motion.embodiment.limits, motion.joint_names
     for what, unit, array, bounds in (
         ("torque", "Nm", "joint_torque", limits.torque),
@@ -119,10 +119,10 @@ def _peaks(motion: Motion) -> Iterator[dict[str, Any]]:
 
 
 def provenance_data(motion: Motion) -> dict[str, Any]:
-    """Where a motion comes from: task, robot, seed, versions, and the command that gives it again.
+    """Describe where a motion comes from: task, robot, seed, versions, and the command that gives it again.
 
-    task_yaml: the task with every default filled in. command: as typed in a shell; where the task differs from the
-    built-in one of its name, it speaks of a task.yaml, which is ``task_yaml``.
+    ``task_yaml`` is the task with every default filled in. ``command`` is as typed in a shell. If the task differs from the
+    built-in one of its name, it names a task.yaml, which is ``task_yaml``.
     """
     task, result, origin = motion.task, motion.result, motion.provenance
     name = task.name

@@ -1,4 +1,4 @@
-"""Scenes: the ground and the obstacles, and the one model that they make with a robot.
+"""Scenes: the ground and the obstacles, and their model with a robot.
 
 scene = Scene(boxes=(Box(position=(0.0, 0.4, 0.1), size=(0.9, 0.3, 0.2)),))
 spec = compose(load_robot("hyq2max"), scene)

@@ -1,4 +1,4 @@
-"""The ground and the obstacles, composed with the robot into one model."""
+"""Compose the ground and the obstacles with a robot into one model."""
 
 from __future__ import annotations
 
@@ -17,23 +17,26 @@ from levade.robots.contact import stiffen
 from levade.scenes.terrain import Gap, Terrain
 
 GROUND, PLATFORM = "ground", "platform"
-"""Name of the ground's geom; obstacles are named ``box0``, ``box1``, ..., ``terrain``, ground between gaps ``platform0``."""
+"""Names of the ground's geom, and of ground between gaps (``platform0``).
+
+Obstacles are ``box0``, ``box1``, ..., ``terrain``.
+"""
 TERRAIN = "terrain"
 _OBSTACLE, _SKY = "obstacle", "sky"
 _FAR = 50.0
-"""[m]: how far ground with gaps in it reaches, instead of to infinity."""
+"""Extent of ground with gaps [m], which cannot be infinite."""
 
 
 @dataclass(frozen=True)
 class Box:
-    """A box fixed in the world.
+    """A box that is fixed in the world.
 
     Attributes:
-        position: (3,) [m], its centre.
-        size: (3,) [m], full edge lengths.
-        roll: [rad], intrinsic z-y-x.
-        pitch: [rad], intrinsic z-y-x.
-        yaw: [rad], intrinsic z-y-x.
+        position: Centre [m], shape (3,).
+        size: Full edge lengths [m], shape (3,).
+        roll: Roll [rad], intrinsic z-y-x.
+        pitch: Pitch [rad], intrinsic z-y-x.
+        yaw: Yaw [rad], intrinsic z-y-x.
     """
 
     position: tuple[float, float, float]
@@ -51,16 +54,16 @@ class Box:
 
 @dataclass(frozen=True)
 class Scene:
-    """What the robot stands on and may touch.
+    """The ground and the obstacles that a robot may touch.
 
     Attributes:
-        friction: Coulomb friction coefficient of every contact with the ground and the obstacles; where left out, the
-            robot's own parts decide (feet and shell may differ), or 1 if they are below and do not take priority.
-        contact: How hard everything is that touches. None leaves it to the robot's file; "stiff" is
-            `levade.robots.contact.STIFF_SOLREF`, in which feet sink in by less than a millimetre. Of no effect in ODE.
-        slope: [rad], of the ground along x, uphill positive.
+        friction: Coulomb friction coefficient of every contact with the ground and the obstacles. By default the robot's parts
+            decide (feet and shell may differ), or 1 if they are below 1 and have no priority.
+        contact: How hard contacts are. None leaves it to the robot's file. With "stiff", feet sink in by less than a millimetre
+            (`levade.robots.contact.STIFF_SOLREF`). ODE ignores it.
+        slope: Slope of the ground along x [rad], uphill positive.
         boxes: Obstacles.
-        gaps: Ditches across the ground, which slopes with them; they may not overlap.
+        gaps: Ditches across the ground, along its slope. They must not overlap.
         terrain: A height field on the ground.
     """
 
@@ -84,21 +87,22 @@ class Scene:
                 raise LevadeError(f"scene.gaps: the ones at x = {one.x} and {other.x} m overlap; make them one")
 
     def ground_height(self, x: Array, y: Array) -> Array:
-        """[m], the height of slope and terrain over z = 0 at each x, y; boxes and gaps are left aside."""
+        """Compute the height of slope and terrain over z = 0 [m] at each x, y, without boxes and gaps."""
         height = x * math.tan(self.slope)
         return height if self.terrain is None else np.maximum(height, self.terrain.height(x, y))
 
 
 def compose(robot: Robot, scene: Scene, *, gain_scale: float = 1.0, damping_scale: float = 1.0) -> mujoco.MjSpec:
-    """The robot with its actuators, put into the scene.
+    """Put a robot with its actuators into a scene.
 
     Args:
         robot: The robot.
         scene: The scene.
-        gain_scale: See `levade.robots.Robot.spec`. Simulate what is compiled from the spec's ``to_xml()``, which is
-            what a motion file keeps.
-        damping_scale: See `levade.robots.Robot.spec`. Simulate what is compiled from the spec's ``to_xml()``, which is
-            what a motion file keeps.
+        gain_scale: See `levade.robots.Robot.spec`.
+        damping_scale: See `levade.robots.Robot.spec`.
+
+    Returns:
+        The spec. A motion file keeps its ``to_xml()``, so simulate the model that is compiled from that text.
     """
     spec = robot.spec(gain_scale=gain_scale, damping_scale=damping_scale)
     world = spec.worldbody
@@ -141,7 +145,7 @@ def compose(robot: Robot, scene: Scene, *, gain_scale: float = 1.0, damping_scal
 
 
 def remove_scene(spec: mujoco.MjSpec) -> None:
-    """Take away what `compose` put around the robot, which itself has nothing in the world but its trunk."""
+    """Remove what `compose` put around the robot. The robot itself has only its trunk in the world."""
     world = spec.worldbody
     for element in (*world.geoms, *world.lights):
         spec.delete(element)
@@ -151,7 +155,7 @@ def remove_scene(spec: mujoco.MjSpec) -> None:
 
 
 def _platforms(spec: mujoco.MjSpec, scene: Scene) -> list[mujoco.MjsGeom]:
-    """Ground with gaps in it: boxes with their tops where the ground would be; the bottoms of gaps less deep, too."""
+    """Make ground with gaps: boxes with their tops where the ground would be, and the bottoms of the gaps deeper."""
     if not scene.gaps:
         return []
     gaps = sorted(scene.gaps, key=lambda gap: gap.x)
@@ -173,13 +177,13 @@ def _platforms(spec: mujoco.MjSpec, scene: Scene) -> list[mujoco.MjsGeom]:
 
 
 def _down_the_slope(scene: Scene, along: float, below: float) -> list[float]:
-    """The point so far along the ground and so far below its surface."""
+    """Return the point at a distance along the ground and a depth below its surface."""
     sine, cosine = math.sin(scene.slope), math.cos(scene.slope)
     return [along * cosine + below * sine, 0.0, along * sine - below * cosine]
 
 
 def _furnish(spec: mujoco.MjSpec) -> None:
-    """Light and surfaces: what pictures need, and the physics does not see."""
+    """Add light and surfaces for pictures, which do not affect the physics."""
     spec.add_texture(
         name=_SKY,
         type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,

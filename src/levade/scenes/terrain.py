@@ -1,4 +1,4 @@
-"""Ground that is not flat: gaps across it, and height fields from numbers or an image."""
+"""Ground that is not flat: gaps, and height fields from numbers or an image."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from levade.arrays import Array
 from levade.errors import LevadeError
 
 MOST_HEIGHTS = 40_000
-"""In one height field: they are all written to task files and motions."""
+"""Largest number of heights in one field, because task files and motions contain all of them."""
 
 
 @dataclass(frozen=True)
@@ -23,9 +23,9 @@ class Gap:
     """A ditch across the ground, from side to side.
 
     Attributes:
-        x: [m], where it begins.
-        width: [m], along x.
-        depth: [m].
+        x: Where it begins [m].
+        width: Width along x [m].
+        depth: Depth [m].
     """
 
     x: float
@@ -42,14 +42,14 @@ class Gap:
 
 @dataclass(frozen=True)
 class Terrain:
-    """A height field that lies on the ground.
+    """A height field on the ground.
 
     Attributes:
-        heights: Rows of heights [m] over z = 0, seen from above with x to the right and y up: the first row is the
-            farthest left of a robot that looks along x. At least 2 x 2, all rows of one length, 0 or more. The field is
-            the surface through these points.
-        size: (2,) [m], along x and y.
-        position: (2,) [m], x and y of its centre.
+        heights: Rows of heights over z = 0 [m], 0 or more, seen from above with x to the right and y up. So the first row is
+            farthest left for a robot that looks along x. At least 2 x 2, with rows of one length. The field is the surface
+            through these points.
+        size: Size along x and y [m], shape (2,).
+        position: x and y of its centre [m], shape (2,).
     """
 
     heights: tuple[tuple[float, ...], ...]
@@ -76,7 +76,7 @@ class Terrain:
             raise LevadeError(f"terrain.position: {list(self.position)} should be finite numbers")
 
     def height(self, x: Array, y: Array) -> Array:
-        """[m], the highest point of the field's cell below each x, y; 0 outside the field."""
+        """Compute the highest point of the field's cell at each x, y [m]; 0 outside the field."""
         heights = np.array(self.heights)[::-1]  # now from the least y
         rows, columns = heights.shape
         column = (x - self.position[0] + self.size[0] / 2) / self.size[0] * (columns - 1)
@@ -88,7 +88,7 @@ class Terrain:
         return np.where(inside, corners.max(axis=0), 0.0)
 
     def add_to(self, spec: mujoco.MjSpec, name: str, material: str) -> mujoco.MjsGeom:
-        """The field as a geom of the world; its heights are part of the model's text."""
+        """Add the field to the world as a geom. Its heights are part of the model's text."""
         heights = np.array(self.heights)
         low, high = float(heights.min()), float(heights.max())
         spec.add_hfield(
@@ -104,9 +104,16 @@ class Terrain:
 
 
 def read_heights(path: Path, height: float | None = None) -> tuple[tuple[float, ...], ...]:
-    """Heights from a file: a 2-D array of metres in .npy, or a grey image, black 0 and white ``height`` [m].
+    """Read heights from a file: a 2-D array of metres in .npy, or a grey image, black 0 and white ``height`` [m].
 
-    Colours count as their brightness, and what is transparent as it is.
+    Colours count by their brightness; transparency is ignored.
+
+    Args:
+        path: The file.
+        height: Height of white in an image [m].
+
+    Returns:
+        Rows of heights [m].
 
     Raises:
         LevadeError: If the file cannot be read.
@@ -140,7 +147,7 @@ def _check_number(path: Path, shape: tuple[int, ...]) -> None:
 
 
 def _brightness(path: Path) -> Array:
-    """(rows, columns) of an image, 0 to 1."""
+    """Return the brightness of an image, 0 to 1, shape (rows, columns)."""
     try:
         from PIL import Image, UnidentifiedImageError
     except ImportError:

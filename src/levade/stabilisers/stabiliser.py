@@ -1,4 +1,4 @@
-"""The search for a stabiliser: regulators of a few weights, of which the one that holds the most perturbed runs is taken."""
+"""Search for a stabiliser: try regulators with a few weights, and keep the one that succeeds on most perturbed runs."""
 
 from __future__ import annotations
 
@@ -16,22 +16,23 @@ from levade.motions import Motion, RecordedSimulation, Trials, run_trials
 from levade.regulators import Design, linearised
 
 _TRAINING, _JUDGING = 7919, 7927
-"""Beside the seed: the runs that choose are none of those of a check with the same seed, and those that judge what was chosen,
-none of either: of several designs that do nothing, the best looks better than none on the runs that it was chosen by.
+"""Numbers that keep these runs apart from others of the same seed.
+
+The runs that choose differ from those of a check with the same seed. The runs that judge the choice differ from both, because
+the best of several useless designs looks better than none on the runs that chose it.
 """
 
 
 @dataclass(frozen=True, eq=False)
 class Stabilised:
-    """What was found.
+    """Reports the search for a stabiliser.
 
     Attributes:
-        motion: With the stabiliser; the motion as it was if none is surely better than none.
-        open_loop: Successes of runs that it was not chosen by, as a share, without and with. Where none was chosen,
-            both of those that choose, without; nan where it was interrupted before these.
-        share: Successes of runs that it was not chosen by, as a share, without and with. Where none was chosen, both of
-            those that choose, without; nan where it was interrupted before these.
-        tried: Design -> share.
+        motion: The motion with the stabiliser; the original motion if no stabiliser is significantly better.
+        open_loop: Share of successes without the stabiliser, in runs that did not choose it. If none was chosen, in the runs
+            that choose. NaN if the search was interrupted before.
+        share: Share of successes with the stabiliser, in the same runs.
+        tried: Design -> share of successes.
         interrupted: Whether designs were left untried.
     """
 
@@ -60,21 +61,21 @@ def stabilise(
 
     Args:
         motion: A motion, recorded in MuJoCo.
-        rate: Measurements a second [Hz]; the nearest rate that the time step allows is taken.
+        rate: Measurements per second [Hz]; the nearest rate that the time step allows is used.
         bound: Largest correction of a joint's reference [rad].
-        runs: Perturbed runs that choose between designs, drawn from ``perturbation`` with ``seed``, apart from those of
-            a check. As many others judge what is chosen.
+        runs: Number of perturbed runs that choose between designs, drawn from ``perturbation`` with ``seed``, apart from those
+            of a check. The same number of other runs judges the choice.
         seed: Seed of these runs.
         perturbation: Ranges in which robots differ. Defaults to `levade.engines.Perturbation`.
-        threads: Number of engine threads; 0 for one per core.
+        threads: Number of engine threads (0: one per core).
         tell: Called with one line about each design that was tried.
-        stopping: Asked before each design. Once it returns True, the best design so far is the outcome.
+        stopping: Called before each design. If it returns True, the best design so far is the result.
 
     Returns:
         The motion with its stabiliser, and how often it succeeds with and without.
 
     Raises:
-        LevadeError: If the motion is not MuJoCo's, broke down, has no criteria, or a number makes no sense.
+        LevadeError: If another engine than MuJoCo made the motion, it broke down or has no criteria, or a number is not valid.
     """
     simulation = RecordedSimulation(motion, criteria=motion.task.good_enough, threads=threads)
     _check(simulation, rate, bound, runs)
@@ -158,7 +159,7 @@ def _check(simulation: RecordedSimulation, rate: float, bound: float, runs: int)
 
 
 def _designs(bound: float, *, hold: bool) -> Iterator[dict[str, float | None]]:
-    """Changes of the best so far, one after another."""
+    """Yield changes of the best design so far, one after another."""
     for motion in (0.15, 0.6, 1.2):
         yield {"motion": motion}
     if bound > Design.bound:
@@ -171,7 +172,7 @@ def _designs(bound: float, *, hold: bool) -> Iterator[dict[str, float | None]]:
 
 
 def _surely_more(before: NDArray[np.bool_], after: NDArray[np.bool_]) -> bool:
-    """Whether more runs gain success than lose it, by more than chance: two standard deviations (McNemar's test)."""
+    """Tell whether significantly more runs gain success than lose it: two standard deviations (McNemar's test)."""
     gained, lost = int((after & ~before).sum()), int((before & ~after).sum())
     return gained > lost and (gained - lost) ** 2 >= 4 * (gained + lost)
 
@@ -182,5 +183,5 @@ def _text(design: Design) -> str:
 
 
 def _score(found: Trials) -> tuple[float, float]:
-    """Share of successes; then how near the others are, which decides where the share does not."""
+    """Return the share of successes, and how near the other runs are, which decides between equal shares."""
     return float(found.success.mean()), -float(np.minimum(found.miss, 10.0).mean())

@@ -1,1 +1,1 @@
-"""Pages that levade serves: a solve as it goes on, a robot, a task or a motion to look at."""
+"""Pages that levade serves: a running solve, a robot, a task or a motion."""

@@ -1,4 +1,4 @@
-"""The pages that are served, as text: each is whole, its script and look in it."""
+"""The served pages as text. Each contains its script and style."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from levade.viewer.server import TOKEN
 
 
 def watch_page(task: str) -> str:
-    """The page of a solve; the rest comes over the server's events."""
+    """Return the page of a solve. Its data comes over the server's events."""
     return assembled(f"{task}, solving", {"kind": "watch", "token": TOKEN}, "live")
 
 
 def view_page(title: str, data: dict[str, Any]) -> str:
-    """The page of a robot or a task: `levade.viewer.subjects`."""
+    """Return the page of a robot or a task: `levade.viewer.subjects`."""
     return assembled(title, {"kind": "view", **data}, "live")

@@ -1,4 +1,4 @@
-"""What the 3D player of a served page draws."""
+"""Scenes for the 3D player of a served page."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from levade.report.scene import scene_data
 from levade.search import Objective
 
 _RATE = 100.0
-"""[Hz], poses a second of motions that a better one will soon replace."""
+"""Poses per second of motions that a better one will soon replace [Hz]."""
 
 
 class LiveScenes:
-    """Scenes of motions of one objective: shapes and colours are made once."""
+    """Makes scenes of motions of one objective, with shapes and colours that are made once."""
 
     def __init__(self, objective: Objective) -> None:
         self._model = objective.engine.model
         self._like: dict[str, Any] | None = None
 
     def __call__(self, motion: Motion) -> dict[str, Any]:
-        """As `levade.report.scene.scene_data`."""
+        """Return the scene of a motion, like `levade.report.scene.scene_data`."""
         scene = scene_data(motion, like=self._like, model=self._model, rate=_RATE)
         self._like = self._like or scene
         return scene

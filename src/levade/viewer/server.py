@@ -1,12 +1,12 @@
-"""A page on this machine, served to this machine: the standard library's HTTP server, and nothing that it need not do.
+"""Serve a page on this machine to this machine, by the standard library's HTTP server.
 
     with Server(page, events=events, command=command) as server:
         print(server.url)
 
-``GET /`` gives the page, ``GET /events`` a stream of JSON messages (server-sent events), ``POST /command`` takes one. Against
-other sites that are open in the same browser: the name by which the server is asked for has to be one of this machine's
-(no DNS rebinding), and events and commands need a random token that only the page carries (no cross-site requests). Where
-the server listens to other machines, the page needs the token too: it is part of `Server.url`.
+``GET /`` gives the page, ``GET /events`` a stream of JSON messages (server-sent events), ``POST /command`` takes one. Two rules
+protect against other sites in the same browser. The host name in a request must be one of this machine's (no DNS rebinding).
+Events and commands need a random token that only the page has (no cross-site requests). If the server listens to other
+machines, the page needs the token, too: it is part of `Server.url`.
 """
 
 from __future__ import annotations
@@ -31,10 +31,10 @@ TOKEN = "@@token@@"
 """Stands for the token in the text of the page."""
 
 _LARGEST = 65536
-"""[bytes], of a command."""
+"""Largest size of a command [bytes]."""
 
 _PATIENCE = 10.0
-"""[s], for a client that neither reads nor writes."""
+"""Time limit for a client that neither reads nor writes [s]."""
 
 _HEADERS = {
     "Content-Security-Policy": "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline';"
@@ -47,15 +47,14 @@ _HEADERS = {
 
 
 class Server:
-    """Serves a page from threads of its own; a context manager.
+    """Serves a page from its own threads. It is a context manager.
 
     Args:
-        page: Its HTML, called for each request; `TOKEN` in it becomes the token.
-        events: A fresh iterator of messages for each listener; None instead of a message says that there is nothing
-            new.
-        command: Takes a message; LevadeError refuses it.
-        host: The address to listen at.
-        port: 0 for one that is free.
+        page: Returns the HTML, for each request. `TOKEN` in it becomes the token.
+        events: Returns a new iterator of messages for each listener. None instead of a message means that there is nothing new.
+        command: Takes a message. LevadeError refuses it.
+        host: Address at which to listen.
+        port: Port; 0 for a free one.
 
     Raises:
         LevadeError: If it cannot listen there.
@@ -87,12 +86,12 @@ class Server:
 
     @property
     def port(self) -> int:
-        """The port that it listens on."""
+        """The port on which it listens."""
         return int(self._http.server_address[1])
 
     @property
     def url(self) -> str:
-        """Where the page is; with the token in it, if other machines can ask for it."""
+        """The page's address, with the token in it if other machines can reach it."""
         address = self._address
         name = (
             socket.gethostname() if address.is_unspecified else f"[{address}]" if address.version == 6 else f"{address}"
@@ -100,9 +99,10 @@ class Server:
         return f"http://{name}:{self.port}/" + (f"?token={self.token}" if self.public else "")
 
     def knows(self, host: str | None) -> bool:
-        """Whether a Host header names this machine as itself, or the page is for other machines and guarded by its token.
+        """Tell whether a Host header is valid.
 
-        Names that anyone can make resolve to the loopback address do not count.
+        It must name this machine, unless the page is for other machines and protected by its token. Other names that resolve to
+        the loopback address do not count, since anyone can make such a name.
         """
         if self.public:
             return True
@@ -136,7 +136,7 @@ class _Listener(ThreadingHTTPServer):
         self.server_name, self.server_port = str(self.server_address[0]), int(self.server_address[1])
 
     def handle_error(self, request: Any, client_address: Any) -> None:
-        """Clients that go away in the middle are none of the solve's business."""
+        """Ignore clients that disconnect early."""
 
 
 class _Handler(BaseHTTPRequestHandler):

@@ -45,11 +45,11 @@ _GROUPS = {
 }
 
 _ROOM = 1.4
-"""Around a robot, as a factor: its legs can reach further than they do standing."""
+"""Room around a robot, as a factor, because its legs can reach further than when it stands."""
 
 
 def robot_data(robot: Robot) -> dict[str, Any]:
-    """The page of a robot, standing in its neutral posture on level ground."""
+    """Describe a robot for its page, in its neutral posture on level ground."""
     model = mujoco.MjModel.from_xml_string(compose(robot, Scene()).to_xml(), dict(robot.assets))
     qpos = _configuration(
         model, robot, [0.0, 0.0, robot.neutral_height], [1.0, 0.0, 0.0, 0.0], robot.postures["neutral"]
@@ -82,7 +82,7 @@ def robot_data(robot: Robot) -> dict[str, Any]:
 
 
 def task_data(objective: Objective) -> dict[str, Any]:
-    """The page of a task: the start, the scene, and what the goal says about robot and trunk."""
+    """Describe a task for its page: the start, the scene, and the goal of robot and trunk."""
     task, robot, model = objective.task, objective.robot, objective.engine.model
     qpos = objective.state.qpos[0]
     shapes = shapes_of(model)
@@ -128,7 +128,7 @@ def task_data(objective: Objective) -> dict[str, Any]:
 
 
 def _configuration(model: Any, robot: Robot, position: Any, quaternion: Any, angles: Array) -> Array:
-    """(nq,): trunk frame at a position [m] and quaternion w-x-y-z, joints at (joints,) [rad]."""
+    """Return qpos, shape (nq,), of a trunk frame at a position [m] and quaternion w-x-y-z, with joint angles [rad]."""
     qpos = model.qpos0.copy()
     at = Addresses.of(model, robot.trunk, robot.joint_names)
     qpos[at.trunk_pose] = [*position, *quaternion]
@@ -172,7 +172,7 @@ def _joints(robot: Robot) -> list[dict[str, Any]]:
 
 
 def _together(robot: Robot) -> list[dict[str, Any]]:
-    """Ways to move several legs at a time, as mirror images: a label, and of each joint its group and sign in it."""
+    """List ways to move several legs together, as mirror images: a label, and the group and sign of each joint."""
     ways: list[dict[str, Any]] = []
     for label, key in (("left and right", lambda leg: leg.kind + leg.end), ("all legs", lambda leg: leg.kind)):
         leaders: dict[str, Leg] = {}
@@ -247,7 +247,7 @@ def _feet(model: Any, robot: Robot) -> list[dict[str, Any]]:
 def _ghost(
     objective: Objective, model: Any, goal: Mapping[str, Any] | None, qpos: Array
 ) -> tuple[dict[str, Any], str] | None:
-    """The robot, or only its trunk where nothing is said about the joints, as the goal has it; and what to call it."""
+    """Return the robot in its goal, or only its trunk if the goal leaves the joints free, and a name for it."""
     task, robot = objective.task, objective.robot
     at = objective.engine.layout
     position, quaternion = qpos[at.trunk_position], qpos[at.trunk_quaternion]

@@ -1,4 +1,4 @@
-"""What ``levade view`` looks at: from what a user types to a motion, a robot or a task.
+"""Find what ``levade view`` shows: a motion, a robot or a task, from the user's text.
 
 found = find("rearing")             # a Task, a Robot or the path of a motion
 """
@@ -15,15 +15,15 @@ from levade.search.run import MOTION, TASK
 from levade.tasks import Task, builtin_tasks, load_task
 
 _KINDS = {"task": ("costs", "success", "horizon", "policy", "extends"), "robot": ("legs", "model", "trunk", "postures")}
-"""Kind -> keys that only its YAML has."""
+"""Kind -> keys that occur only in its YAML."""
 
 
 @dataclass(frozen=True)
 class Found:
-    """Exactly one is not None.
+    """Exactly one attribute is not None.
 
     Attributes:
-        motion: Its file.
+        motion: File of a motion.
     """
 
     task: Task | None = None
@@ -32,12 +32,18 @@ class Found:
 
 
 def find(name: str) -> Found:
-    """A built-in robot or task by name, or a file: a motion.npz, a robot.yaml, a task, or the directory of one.
+    """Find a built-in robot or task by name, or a file: a motion.npz, a robot.yaml, a task, or the directory of one.
 
-    Names go first, as everywhere; ``./name`` is the directory.
+    Names come first; ``./name`` is the directory.
+
+    Args:
+        name: The user's text.
+
+    Returns:
+        What it names.
 
     Raises:
-        LevadeError: If it is nothing of that, or two things.
+        LevadeError: If it names nothing, or two things.
     """
     robots, tasks = [robot for robot, _ in builtin_robots()], builtin_tasks()
     if name in robots and name in tasks:
@@ -63,7 +69,7 @@ def find(name: str) -> Found:
 
 
 def _in_directory(directory: Path) -> Path:
-    """The one file in it that can be looked at; of a run, the motion."""
+    """Return the one file of a directory that can be shown; for a run, the motion."""
     robot, motion, task = (directory / name for name in ("robot.yaml", MOTION, TASK))
     if robot.is_file() and motion.is_file():
         raise LevadeError(f"{directory}: holds a robot and a motion; say {robot} or {motion}")

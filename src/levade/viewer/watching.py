@@ -1,13 +1,13 @@
-"""A solve that is watched: what its page is told, and what the page tells it.
+"""Watch a solve: messages to its page, and commands from the page.
 
     watch = Watch(objective, seed=0, directory=Path("rearing"), draw=LiveScene())
     with Server(page, events=watch.events, command=watch.command) as server:
         outcome = run(objective, directory=..., observe=watch.observe, steer=watch.steer)
         watch.finish(outcome)
 
-The solve's thread calls `observe` and `steer`; the server's threads call `events` and `command`. The solve never waits for a
-page, except when the page says pause. What a page costs: a few microseconds a generation without one; with one, at most
-`SHARE` of the time to simulate the best motion so far once more for the 3D view, and a few messages a second.
+The solve's thread calls `observe` and `steer`; the server's threads call `events` and `command`. The solve only waits for a
+page if the page pauses it. Without a page, watching takes a few microseconds a generation. With a page, it takes at most
+`SHARE` of the time to simulate the best motion so far for the 3D view, and sends a few messages a second.
 """
 
 from __future__ import annotations
@@ -34,26 +34,30 @@ _MOVING = ("motion", "layers")
 """Parts of a scene that differ between motions of one solve."""
 
 SHARE = 0.02
-"""Of the solve's time, that may go into showing the best motion."""
+"""Largest share of the solve's time for showing the best motion."""
 
 _REPLAY_EVERY = 1.0
-"""[s], between two motions that are shown, at least."""
+"""Least time between two motions that are shown [s]."""
 
 _TELL_EVERY = 0.2
-"""[s], between two messages to a page."""
+"""Least time between two messages to a page [s]."""
 
 _SIGN_OF_LIFE = 5.0
-"""[s], between two messages that say nothing, so that a page that is gone is noticed."""
+"""Time between two empty messages, which detect a closed page [s]."""
 
 _RANGE = 10.0
-"""How far the weights can be moved: from a tenth to ten times the task's."""
+"""Largest factor on weights, and its inverse the smallest."""
 
 
 class Watch:
-    """The state of a solve, for its page.
+    """Holds the state of a solve for its page.
 
-    seed, directory: of the run, to be shown. draw: a motion as the page's 3D player takes it.
-    interrupted: whether the keyboard asks for the end; asked while the solve is paused.
+    Args:
+        objective: The objective.
+        seed: Seed of the run, for display.
+        directory: Directory of the run, for display.
+        draw: Returns the scene of a motion for the page's 3D player.
+        interrupted: Tells whether the keyboard asks to end; called while the solve is paused.
     """
 
     def __init__(
@@ -92,7 +96,7 @@ class Watch:
     # the solve's thread
 
     def observe(self, generation: Generation) -> None:
-        """Take in a generation."""
+        """Record a generation."""
         cost, best = generation.cost, generation.best
         if self._best is None or not np.array_equal(best.weights, self._best):
             self._best, self._found = best.weights, generation.trials
@@ -111,13 +115,13 @@ class Watch:
 
     @property
     def note(self) -> str:
-        """What the terminal should say of it; empty while there is nothing."""
+        """Return what the terminal should print; empty for nothing."""
         return "paused on the page" if self._paused_at is not None and not self._stop else ""
 
     def steer(self, generation: int) -> Mapping[str, float] | Stopped | None:
-        """What the page's sliders say for this generation, None if they have not been moved; waits while it says pause.
+        """Return the sliders' factors for this generation, None if they have not moved. Waits while the page pauses.
 
-        Returns `Stopped.INTERRUPTED` when the page, or the keyboard, says stop.
+        Returns `Stopped.INTERRUPTED` if the page, or the keyboard, stops the solve.
         """
         while self._paused_at is not None and not self._stop:
             if self._interrupted():
@@ -137,7 +141,7 @@ class Watch:
         return moved or None
 
     def finish(self, outcome: Outcome | None) -> None:
-        """The solve has ended: with an outcome, or None if an error ended it. Every page is told before this returns.
+        """End with an outcome, or None after an error. Every page is informed before this returns.
 
         Only the first call counts.
         """
@@ -168,7 +172,7 @@ class Watch:
             time.sleep(0.01)
 
     def _show(self) -> None:
-        """Simulate the best motion once more for those who look, unless that was done just now."""
+        """Simulate the best motion again for viewers, unless that was done just now."""
         generation, now = self._latest, time.perf_counter()
         if generation is None or not self._listeners or now < self._next_replay:
             return
@@ -181,7 +185,7 @@ class Watch:
         self._next_replay = now + took + max(_REPLAY_EVERY, took / SHARE)
 
     def _drawn(self, motion: Callable[[], Motion]) -> dict[str, Any] | None:
-        """A motion's scene. What cannot be shown is no reason to end a solve."""
+        """Return a motion's scene. None if it cannot be shown, which does not end a solve."""
         try:
             return self._draw(motion())
         except Exception:
@@ -190,7 +194,10 @@ class Watch:
     # the server's threads
 
     def command(self, message: Mapping[str, Any]) -> None:
-        """Take what a page says: pause, continue, stop, or factors on the costs' weights. LevadeError for anything else."""
+        """Take a page's command: pause, continue, stop, or factors on the costs' weights.
+
+        Raises LevadeError for anything else.
+        """
         say = message.get("say")
         with self._lock:
             if say == "pause":
@@ -206,7 +213,7 @@ class Watch:
         self._told.set()
 
     def events(self) -> Iterator[dict[str, Any] | None]:
-        """Messages for one page, from the beginning: all there is, then what is new, then the verdict."""
+        """Yield messages for one page: the current state, then news, then the verdict."""
         with self._lock:
             self._listeners += 1
         try:
@@ -244,7 +251,7 @@ class Watch:
                 self._listeners -= 1
 
     def _about(self) -> dict[str, Any]:
-        """What does not change: the task, as the page shows it."""
+        """Return what does not change: the task, as the page shows it."""
         task, objective = self._objective.task, self._objective
         return {
             "name": task.name,
@@ -293,31 +300,31 @@ class Watch:
         return {name: float(factor) for name, factor in factors.items()}
 
     def _rest(self, since: float | None) -> None:
-        """Pause from now on, or go on; what was paused is no time of the solve."""
+        """Pause from now on, or continue. Pauses do not count as time of the solve."""
         if self._paused_at is not None and since is None:
             self._rested += time.perf_counter() - self._paused_at
         if self._paused_at is None or since is None:
             self._paused_at = since
 
     def _elapsed(self) -> float:
-        """[s], without pauses."""
+        """Return the time without pauses [s]."""
         now = time.perf_counter() if self._paused_at is None else self._paused_at
         return now - self._began - self._rested
 
 
 def _factors(changes: tuple[Change, ...], generation: int) -> dict[str, float]:
-    """What is in force in a generation; changes in the order of their generations."""
+    """Return the factors in force in a generation. Changes are in the order of their generations."""
     return {name: factor for c in changes if c.generation <= generation for name, factor in c.factors.items()}
 
 
 def _median(values: Any) -> float:
-    """As numpy's, which takes longer for a few numbers."""
+    """Compute a median. numpy's takes longer for a few numbers."""
     ordered = sorted(values.tolist())
     return (ordered[(len(ordered) - 1) // 2] + ordered[len(ordered) // 2]) / 2
 
 
 def _plain(value: Any) -> Any:
-    """Six digits, and None for what is no number: as JSON has it."""
+    """Round to six digits for JSON. None if the value is not finite."""
     if isinstance(value, list):
         return [_plain(item) for item in value]
     if isinstance(value, float):

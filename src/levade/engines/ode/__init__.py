@@ -1,1 +1,1 @@
-"""The engine ode. Nothing here is imported, and no library looked for, before an engine is made."""
+"""The engine ode. Nothing is imported here, and no library loaded, before an engine is made."""

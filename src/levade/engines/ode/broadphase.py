@@ -1,9 +1,8 @@
-"""The broad phase of collision: which shapes may touch.
+"""The broad phase of collision: find the pairs of shapes that may touch.
 
-It is a quick, safe answer for all pairs of all trials at once, so that ODE is asked about few.
-
-Every shape is enclosed in a box with rounded edges. A pair is passed on unless a plane, or a face of one of the boxes,
-keeps the two apart; no pair that touches is left out.
+It is a fast, conservative test of all pairs of all trials at once, so that ODE tests only few. Every shape is enclosed in a box
+with rounded edges. A pair is passed on unless a plane, or a face of one of the boxes, separates the two. No pair that touches
+is left out.
 """
 
 from __future__ import annotations
@@ -17,11 +16,11 @@ from levade.arrays import Array
 from levade.engines.ode.multibody import Index, Multibody
 
 _MARGIN = 0.04
-"""[m]: pairs this far apart are passed on as well, so that the answer holds until something has moved by half of it."""
+"""Pairs within this distance [m] are also passed on, so that the answer holds until something has moved by half of it."""
 
 
 class BroadPhase:
-    """The test for one multibody. It remembers its last answer: call it once a step, after `forget`."""
+    """Tests one multibody. It remembers its last answer: call it once per step, after `forget`."""
 
     def __init__(self, multibody: Multibody) -> None:
         shapes = multibody.shapes
@@ -51,16 +50,18 @@ class BroadPhase:
         self._found: list[list[int]] = []
 
     def forget(self) -> None:
-        """Links are put somewhere else."""
+        """Forget the last answer, because links were moved."""
         self._moved = None
 
     def __call__(self, state: Mapping[str, Array], timestep: float) -> list[list[int]]:
-        """For each trial the pairs that may touch, in ascending order.
+        """List for each trial the pairs that may touch, in ascending order.
 
         Args:
-            state: As `levade.engines.ode.worlds.Worlds.read` gives it, one ``timestep`` [s] after that of the call
-                before.
+            state: As `levade.engines.ode.worlds.Worlds.read` returns it, one ``timestep`` after that of the previous call.
             timestep: Duration of a step [s].
+
+        Returns:
+            Pairs of each trial.
         """
         if self._moved is not None:
             speed = np.sqrt(np.sum(state["linear"] ** 2, axis=2))
@@ -96,7 +97,7 @@ class BroadPhase:
         return [sorted(pairs) for pairs in found]
 
     def _apart(self, rotation: Array, between: Array, trial: Index, pair: Index) -> NDArray[np.bool_]:
-        """(k,) whether a face of one of the two boxes separates them."""
+        """Tell whether a face of one of the two boxes separates them, shape (k,)."""
         axes = []
         for shape in (self._first[pair], self._second[pair]):
             turned = np.einsum("kij,kaj->kai", rotation[trial, self._link[shape]], self._axes[shape])

@@ -2,8 +2,8 @@
 
 engine = make_engine(load_robot("hyq2max"), Scene(), Physics(engine="ode"))
 
-ODE's worlds are made from a compiled model. A version of it (`levade.engines.Models`) is that model with its fields changed,
-and has worlds of its own. Versions that come again, such as those that candidates are compared on, are kept.
+ODE's worlds are made from a compiled model. A version of it (`levade.engines.Models`) is that model with changed fields, and
+has its own worlds. Versions that occur again, such as those on which candidates are compared, are kept.
 """
 
 from __future__ import annotations
@@ -29,11 +29,11 @@ from levade.rotations import conjugate, rotate
 from levade.trajectory import Trajectories
 
 _KEPT = 64
-"""Versions whose worlds are kept."""
+"""Number of versions whose worlds are kept."""
 
 
 class OdeEngine(Engine):
-    """ODE. Trials on the nominal model are shared by ``threads`` processes; versions of it are simulated in this one."""
+    """The engine ODE. ``threads`` processes share trials on the nominal model; this process simulates versions of it."""
 
     name: ClassVar[str] = "ode"
 
@@ -46,7 +46,7 @@ class OdeEngine(Engine):
 
     @classmethod
     def versions(cls) -> dict[str, str]:
-        """MuJoCo's too, which reads the model from its text."""
+        """Return the versions, including MuJoCo's, which reads the model from its text."""
         return {**{name: version(name) for name in ("mujoco", "numpy")}, "ode": load().name}
 
     def hold(self, model: mujoco.MjModel, data: mujoco.MjData, posture: Array, time: float) -> State:
@@ -95,7 +95,7 @@ class OdeEngine(Engine):
     def _run_versions(
         self, models: Models, starts: State, position: Array, velocity: Array, forces: dict[str, Any]
     ) -> Record:
-        """Simulate trials on versions of the model, those on the same one together."""
+        """Simulate trials on versions of the model, those of one version together."""
         n = len(position)
         same: dict[bytes, list[int]] = {}
         for trial in range(n):
@@ -109,7 +109,7 @@ class OdeEngine(Engine):
         return Record.joined(parts)[np.argsort(order)]
 
     def _version(self, key: bytes, models: Models, row: int) -> Simulation:
-        """The worlds of a version."""
+        """Return the worlds of a version."""
         if key not in self._kept:
             model = with_free_frames(self.model, self.layout)
             for name, values in models.fields.items():
@@ -125,5 +125,5 @@ class OdeEngine(Engine):
 
 
 def _key(models: Models, row: int) -> bytes:
-    """What tells a version from the others."""
+    """Return bytes that identify a version."""
     return b"".join(name.encode() + values[row].tobytes() for name, values in models.fields.items())

@@ -1,6 +1,6 @@
-"""Joints, all trials at once: from the links' motion to angles, from what is asked of the joints to torques.
+"""Compute joint angles from the motion of links, and torques from commands, for all trials at once.
 
-Sums of three are written out, never left to a library's summation, whose order may depend on how many trials there are.
+Sums of three are written out instead of left to a library, whose order may depend on the number of trials.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from levade.engines.ode.multibody import Multibody
 from levade.rotations import rotation_matrix
 
 _STIFF = 0.2
-"""Share of its speed that damping may take off a hinge in one step and still be left to explicit integration."""
+"""Largest share of a hinge's speed that damping may take off in one explicit step."""
 
 _FREE = 1e-9
-"""[Nm s/rad], resistance of a motor that is to do nothing."""
+"""Resistance of a motor that should do nothing [Nm s/rad]."""
 
 
 class Angles:
-    """Angles and speeds of the hinges, measured on the links: the angle between two arms, one on either link."""
+    """Measures angles and speeds of the hinges on the links, as the angle between two arms, one on either link."""
 
     def __init__(self, multibody: Multibody) -> None:
         hinges = multibody.hinges
@@ -38,7 +38,7 @@ class Angles:
         self._joints = joints
 
     def __call__(self, state: Mapping[str, Array], near: Array) -> tuple[Array, Array]:
-        """(n, J) angles [rad], of the turns the one that is nearest to ``near``, and (n, J) speeds [rad/s]."""
+        """Return angles [rad], of all turns the one nearest to ``near``, and speeds [rad/s], shape (n, J) each."""
         rotation = state["rotation"][:, self._of]
         n, j, v = len(rotation), self._joints, self._vectors
         turned = [
@@ -57,13 +57,14 @@ class Angles:
 
 
 class Torques:
-    """The drives and the passive torques of the hinges.
+    """Computes drive torques and passive torques of the hinges.
 
-    Torques are explicit: those at the start of the step. Where that would be unstable, and for armature, the hinge has a
-    motor that resists: it makes ``hold * (speed before) - resistance * (speed after)``, in which armature / timestep is
-    in both and damping in the second. So does MuJoCo's implicit integration, to the same order.
+    Torques are explicit: those at the start of the step. If that would be unstable, and for armature, the hinge has a motor
+    that resists. It applies ``hold * (speed before) - resistance * (speed after)``. armature / timestep is in both, damping in
+    the second. MuJoCo's implicit integration does the same, to the same order.
 
-    resisted: (J,) bool, the hinges that have it.
+    Attributes:
+        resisted: Whether each hinge has such a motor, shape (J,).
     """
 
     def __init__(self, multibody: Multibody, timestep: float) -> None:
@@ -82,11 +83,11 @@ class Torques:
     def __call__(
         self, lag: Array, angle: Array, speed: Array, position: Array, velocity: Array
     ) -> tuple[Array, Array, Array, Array]:
-        """Compute what acts on each hinge in a step. ``lag``, (n, J) [Nm], is updated in place.
+        """Compute the torques on each hinge in a step. ``lag`` [Nm], shape (n, J), is updated in place.
 
         Returns:
-            Torque delivered by the drives [Nm], torque to put on the hinge [Nm], and resistance [Nm s/rad] and target
-            [rad/s] of its motor where it has one; (n, J) each.
+            Torque delivered by the drives [Nm], torque on the hinge [Nm], and resistance [Nm s/rad] and target [rad/s] of its
+            motor, if it has one; shape (n, J) each.
         """
         d, hinges = self._drives, self._hinges
         command = d.kp * (position - angle) + d.kd * (velocity - speed)
@@ -100,7 +101,7 @@ class Torques:
 
 
 def link_motion(multibody: Multibody, qpos: Array, qvel: Array) -> tuple[Array, Array, Array, Array]:
-    """(L, ...) of the links at a state of the model: centres of mass, quaternions, velocities, angular velocities."""
+    """Return centres of mass, quaternions, velocities and angular velocities of the links in a state, shape (L, ...) each."""
     model, com = multibody.model, multibody.com
     data = mujoco.MjData(model)
     data.qpos[:], data.qvel[:] = qpos, qvel
@@ -116,7 +117,7 @@ def link_motion(multibody: Multibody, qpos: Array, qvel: Array) -> tuple[Array, 
 
 
 def _mobility(multibody: Multibody) -> Array:
-    """(J,) [rad/s² per Nm], of each hinge between its two links alone: no less than what it has in the robot."""
+    """Compute the mobility of each hinge between its two links alone [rad/s² per Nm], shape (J,): no less than in the robot."""
     hinges = multibody.hinges
     at_rest = rotation_matrix(hinges.rest)
     total = []

@@ -102,8 +102,13 @@ _ALL_DATA = 0xFFFFFFFF
 class Library:
     """ODE's functions as attributes, and the types that depend on its precision.
 
-    real: the C type of ``dReal``; dtype: the same for numpy. contact, mass, feedback: structures ``dContact``,
-    ``dMass`` and ``dJointFeedback``. name: file, and precision, which decide the bits.
+    Attributes:
+        real: C type of ``dReal``.
+        dtype: The same type in numpy.
+        contact: Structure ``dContact``.
+        mass: Structure ``dMass``.
+        feedback: Structure ``dJointFeedback``.
+        name: File and precision, which decide the bits.
     """
 
     def __init__(self, path: str) -> None:
@@ -128,16 +133,19 @@ class Library:
         raise AttributeError(name)  # functions are set one by one; this tells the type checker
 
     def vector(self, *values: float) -> Any:
-        """A C array of ``dReal``."""
+        """Return a C array of ``dReal``."""
         return (self.real * len(values))(*values)
 
 
 @cache
 def load() -> Library:
-    """The library.
+    """Load the library.
+
+    Returns:
+        The library.
 
     Raises:
-        LevadeError: Which says what to install, if there is none.
+        LevadeError: If there is none. The message says what to install.
     """
     tried = [_SYSTEM]
     spec = importlib.util.find_spec("panda3d")
@@ -183,7 +191,7 @@ def _structures(real: Any) -> tuple[Any, Any, Any]:
 
 
 def _loaded_file(path: str) -> str:
-    """File name with the full version, such as libode.so.8.0.2, where the system tells which file was loaded."""
+    """Return the file's name with its full version, such as libode.so.8.0.2, if the system knows which file was loaded."""
     name = Path(path).name
     try:
         for line in Path("/proc/self/maps").read_text().splitlines():

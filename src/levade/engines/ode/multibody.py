@@ -1,8 +1,8 @@
-"""What ODE needs of a model, read from the compiled MuJoCo model: links, hinges, drives, shapes, pairs that may touch.
+"""Read what ODE needs from a compiled MuJoCo model: links, hinges, drives, shapes, pairs that may touch.
 
-A link is a body with all bodies welded to it; its frame is that of the body with the joint. Everything comes from the
-model that MuJoCo simulates too, so both engines see the same masses, axes, shapes and limits. What ODE cannot express is
-a LevadeError that names the part, never left out in silence; the exceptions are in docs/engines.md.
+A link is a body with all bodies welded to it; its frame is that of the body with the joint. Both engines use the same model, so
+masses, axes, shapes and limits are the same. A part that ODE cannot express is a LevadeError that names it; docs/engines.md
+lists the exceptions.
 """
 
 from __future__ import annotations
@@ -23,20 +23,23 @@ Index = NDArray[np.intp]
 
 @dataclass(frozen=True, eq=False)
 class Hinges:
-    """Hinges between links, one to every link but the trunk: hinge j moves link j + 1.
+    """Hinges between links, one for every link except the trunk: hinge j moves link j + 1.
 
     Attributes:
-        parent: (J,) link.
-        axis: (J, 3), unit, in the moving link's frame.
-        anchor: (J, 3) [m], likewise.
-        rest: (J, 4), quaternion of the moving link in its parent's frame at angle 0.
-        zero: (J,) [rad], the model's coordinate there.
-        lower: (J,) [rad], infinite for none. armature [kg m²], damping [Nm s/rad], friction [Nm], stiffness [Nm/rad],
-            spring [rad], its angle at rest: (J,).
-        upper: (J,) [rad], infinite for none. armature [kg m²], damping [Nm s/rad], friction [Nm], stiffness [Nm/rad],
-            spring [rad], its angle at rest: (J,).
-        qpos: (J,) addresses in the model's state.
-        qvel: (J,) addresses in the model's state.
+        parent: Parent links, shape (J,).
+        axis: Unit axes in the moving link's frame, shape (J, 3).
+        anchor: Points on the axes in the moving link's frame [m], shape (J, 3).
+        rest: Quaternion of the moving link in its parent's frame at angle 0, shape (J, 4).
+        zero: The model's coordinate at angle 0 [rad], shape (J,).
+        lower: Lower ends of the ranges [rad], infinite for none, shape (J,).
+        upper: Upper ends of the ranges [rad], infinite for none, shape (J,).
+        armature: Inertia of the rotors [kg m²], shape (J,).
+        damping: Viscous damping [Nm s/rad], shape (J,).
+        friction: Dry friction [Nm], shape (J,).
+        stiffness: Stiffness of springs [Nm/rad], shape (J,).
+        spring: Resting angles of springs [rad], shape (J,).
+        qpos: Addresses in the model's positions, shape (J,).
+        qvel: Addresses in the model's velocities, shape (J,).
     """
 
     names: tuple[str, ...]
@@ -58,16 +61,15 @@ class Hinges:
 
 @dataclass(frozen=True, eq=False)
 class Drives:
-    """Actuators as `levade.robots.actuation` has them, in the order of the hinges.
+    """Actuators as in `levade.robots.actuation`, in the order of the hinges.
 
-    Commanded is kp (position error) + kd (velocity error) [Nm]; it is kept within the line ``(no_load -+ speed) *
-    slope`` (no_load infinite for none), then follows with ``time_constant`` [s] (0 for at once), then is kept within
-    ``limit`` [Nm].
+    The command is kp (position error) + kd (velocity error) [Nm]. It is clamped to the line ``(no_load -+ speed) * slope``
+    (no_load infinite for none). Then it is followed with ``time_constant`` [s] (0 for at once), and clamped to ``limit`` [Nm].
 
     Attributes:
-        act: (J,) address of the lag's state in the model's, -1 for none.
-        gain: [Nm] per unit of it.
-        ctrl: (J,) address of the desired position among the model's controls; the velocity's is the next.
+        act: Address of the lag's state in the model's, -1 for none, shape (J,).
+        gain: Torque per unit of that state [Nm].
+        ctrl: Address of the desired position among the model's controls, shape (J,). The velocity's is the next.
     """
 
     kp: Array
@@ -83,16 +85,17 @@ class Drives:
 
 @dataclass(frozen=True, eq=False)
 class Multibody:
-    """A multibody system: links, and all that is on and between them; link 0 is the trunk.
+    """A multibody system: links, and everything on and between them. Link 0 is the trunk.
 
     Attributes:
-        mass: (L,) [kg].
-        com: (L, 3) [m] and inertia: (L, 3, 3) [kg m²] about it, in the link's frame.
-        body: (L,) the model's body with the joint.
-        shapes: Of the links and, with link -1, of the world.
-        pairs: (P, 2) shapes that may touch, the first one never of the world.
-        friction: (P,) Coulomb coefficients.
-        gravity: (3,) [m/s²].
+        mass: Masses [kg], shape (L,).
+        com: Centres of mass in the link's frame [m], shape (L, 3).
+        inertia: Inertias about them [kg m²], shape (L, 3, 3).
+        body: The model's body with the joint, shape (L,).
+        shapes: Shapes of the links and, with link -1, of the world.
+        pairs: Pairs of shapes that may touch, shape (P, 2). The first is never of the world.
+        friction: Coulomb coefficient of each pair, shape (P,).
+        gravity: Gravity [m/s²], shape (3,).
     """
 
     model: mujoco.MjModel
@@ -113,8 +116,14 @@ class Multibody:
 def multibody_of(model: mujoco.MjModel) -> Multibody:
     """Read a model with one free body and hinges.
 
+    Args:
+        model: The compiled model.
+
+    Returns:
+        The multibody.
+
     Raises:
-        LevadeError: For what ODE cannot simulate.
+        LevadeError: If ODE cannot simulate a part of it.
     """
     _refuse(model)
     data = mujoco.MjData(model)
@@ -152,7 +161,7 @@ def multibody_of(model: mujoco.MjModel) -> Multibody:
 
 
 def _refuse(model: mujoco.MjModel) -> None:
-    """Raise LevadeError for parts of a model that change its motion and have no counterpart here."""
+    """Raise LevadeError for parts of a model that affect its motion and have no counterpart here."""
     kinds = {"equality constraints": model.neq, "tendons": model.ntendon, "explicit contact pairs": model.npair}
     kinds |= {"flexes": model.nflex, "mocap bodies": model.nmocap, "plugins": model.nplugin}
     for kind, count in kinds.items():
@@ -186,7 +195,7 @@ def _refuse(model: mujoco.MjModel) -> None:
 
 
 def _inertia(model: mujoco.MjModel, data: mujoco.MjData, root: int) -> tuple[float, Array, Array]:
-    """Mass, centre of mass and inertia about it, of a body and what is welded to it, in the body's frame."""
+    """Return mass, centre of mass and inertia of a body with those welded to it, in the body's frame."""
     rotation, origin = data.xmat[root].reshape(3, 3), data.xpos[root]
     parts = np.flatnonzero(model.body_weldid == root)
     mass = model.body_mass[parts]
@@ -243,7 +252,7 @@ def _hinges(model: mujoco.MjModel, data: mujoco.MjData, roots: list[int], link_o
 
 
 def _drives(model: mujoco.MjModel, hinges: Hinges) -> Drives:
-    """The actuator of every hinge, from the model's parameters; see MuJoCo's ``pid`` and ``dcmotor``."""
+    """Read the actuator of every hinge from the model's parameters: see MuJoCo's ``pid`` and ``dcmotor``."""
     dcmotor, pid = int(mujoco.mjtGain.mjGAIN_DCMOTOR), int(mujoco.mjtGain.mjGAIN_PID)
     of_joint = {
         int(model.actuator_trnid[i, 0]): i
@@ -279,7 +288,7 @@ def _drives(model: mujoco.MjModel, hinges: Hinges) -> Drives:
 
 
 def _pairs(model: mujoco.MjModel, geoms: list[int], links: list[int]) -> tuple[Index, Array]:
-    """Pairs of shapes that may touch, by MuJoCo's rules, and the friction coefficient of each."""
+    """List pairs of shapes that may touch, by MuJoCo's rules, and the friction coefficient of each."""
     pairs, friction = [], []
     for i, one in enumerate(geoms):
         for j in range(i):

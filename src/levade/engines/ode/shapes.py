@@ -1,4 +1,4 @@
-"""Collision shapes: one of a MuJoCo model's geoms each, placed on a link, and what encloses it."""
+"""Collision shapes: each a geom of a MuJoCo model, placed on a link, with its enclosing box."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Hull:
     Attributes:
         points: Corners [m], shape (V, 3).
         planes: Planes with outward normals, shape (F, 4).
-        polygons: As ODE reads them: for each, the number of its corners and their indices.
+        polygons: The polygons as ODE reads them: for each, the number of its corners and their indices.
     """
 
     points: Array
@@ -64,10 +64,20 @@ class Shape:
 
 
 def shape_of(model: mujoco.MjModel, data: mujoco.MjData, geom: int, link: int, root: int) -> Shape:
-    """The shape of a geom on a link whose frame is that of the body ``root``, kinematics of ``data`` computed.
+    """Make the shape of a geom on a link whose frame is that of the body ``root``.
+
+    Args:
+        model: The compiled model.
+        data: Data with computed kinematics.
+        geom: The geom.
+        link: The link.
+        root: The body of the link's frame.
+
+    Returns:
+        The shape.
 
     Raises:
-        LevadeError: Which names the geom, for kinds that ODE does not have.
+        LevadeError: If ODE lacks its kind. The message names the geom.
     """
     kind = _PRIMITIVES.get(int(model.geom_type[geom]))
     if kind is None or (kind == "plane" and link >= 0):
@@ -100,7 +110,7 @@ def shape_of(model: mujoco.MjModel, data: mujoco.MjData, geom: int, link: int, r
 
 
 def _hull(model: mujoco.MjModel, geom: int) -> Hull:
-    """The polygons of the convex hull that MuJoCo computed when it compiled the mesh."""
+    """Return the polygons of the convex hull that MuJoCo computed when it compiled the mesh."""
     mesh = int(model.geom_dataid[geom])
     first, count = int(model.mesh_polyadr[mesh]), int(model.mesh_polynum[mesh])
     if not count:

@@ -1,10 +1,10 @@
-"""The loop over time: actuators, contacts and steps of n trials side by side.
+"""Simulate n trials side by side: actuators, contacts and steps.
 
 simulation = Simulation(multibody, Ode(), timestep=0.002)
 record = simulation.run(qpos, qvel, act, position, velocity)
 
-The trials share every numpy call, but no number: a trial gives the same bits alone, among others, and in another
-process. Time costs mostly ODE: about 0.1 ms a step and trial for a robot of 12 joints on its feet.
+The trials share every numpy call, but no number. So a trial gives the same bits alone, in a batch, and in another process. Most
+of the time is ODE's: about 0.1 ms a step and trial for a robot of 12 joints on its feet.
 """
 
 from __future__ import annotations
@@ -25,29 +25,31 @@ from levade.engines.physics import Ode
 from levade.rotations import conjugate, rotate
 
 _SPEED = 1e4
-"""[m/s], [rad/s]: a simulation in which something is faster has broken down."""
+"""Speed above which a simulation has broken down [m/s], [rad/s]."""
 
 _TORQUE = 1e9
-"""[Nm]: more breaks a simulation down in one step."""
+"""Torque above which a simulation breaks down in one step [Nm]."""
 
 _SEED = 2017
-"""Of the order in which QuickStep takes the constraints; each step has its own, the same in every trial."""
+"""Seed of the order in which QuickStep takes the constraints. Each step has its own, the same in every trial."""
 
 
 @dataclass(frozen=True, eq=False)
 class Record:
-    """What n trials did, in the multibody's order of links and hinges.
+    """Records of n trials, in the multibody's order of links and hinges.
 
     Attributes:
-        angle: (n, steps, J).
-        speed: (n, steps, J).
-        torque: (n, steps, J).
-        position: (n, steps, 3), quaternion: (n, steps, 4), linear, angular: (n, steps, 3), of the trunk's frame:
-            origin, orientation, velocity of the origin and angular velocity in world axes.
-        lag: (n, J), state of the drives at the end.
-        geom_force: (n, steps, soles asked for, 3) [N] on each sole, world axes.
-        body_force: (n, steps, bodies asked for, 3), by the world on each body.
-        diverged: (n,).
+        angle: Angles of the hinges [rad], shape (n, steps, J).
+        speed: Speeds of the hinges [rad/s], shape (n, steps, J).
+        torque: Delivered torques [Nm], shape (n, steps, J).
+        position: Origin of the trunk's frame [m], shape (n, steps, 3).
+        quaternion: Orientation of the trunk's frame, shape (n, steps, 4).
+        linear: Velocity of its origin in world axes [m/s], shape (n, steps, 3).
+        angular: Angular velocity in world axes [rad/s], shape (n, steps, 3).
+        lag: State of the drives at the end, shape (n, J).
+        geom_force: Force on each recorded sole in world axes [N], shape (n, steps, soles, 3).
+        body_force: Force of the world on each recorded body [N], shape (n, steps, bodies, 3).
+        diverged: Whether each trial broke down, shape (n,).
     """
 
     angle: Array
@@ -63,19 +65,19 @@ class Record:
     diverged: NDArray[np.bool_]
 
     def __getitem__(self, trials: NDArray[np.intp]) -> Record:
-        """Some of the trials, in the order given."""
+        """Select trials, in the order given."""
         return Record(**{name: values[trials] for name, values in vars(self).items()})
 
     @classmethod
     def joined(cls, records: Sequence[Record]) -> Record:
-        """The trials of several records, one after another."""
+        """Join the trials of several records, in sequence."""
         if len(records) == 1:
             return records[0]
         return cls(**{name: np.concatenate([getattr(one, name) for one in records]) for name in vars(records[0])})
 
 
 class Simulation:
-    """ODE's worlds of one multibody, kept for the next run."""
+    """Holds ODE's worlds of one multibody for successive runs."""
 
     def __init__(self, multibody: Multibody, settings: Ode, timestep: float) -> None:
         self.multibody = multibody
@@ -111,7 +113,7 @@ class Simulation:
             return self._run(qpos, qvel, act, position, velocity, list(soles), list(bodies))
 
     def state_after(self, record: Record, trial: int) -> tuple[Array, Array, Array]:
-        """qpos, qvel, act of the model at the end of a trial."""
+        """Return qpos, qvel and act of the model at the end of a trial."""
         s, model = self.multibody, self.multibody.model
         qpos, qvel, act = model.qpos0.copy(), np.zeros(model.nv), np.zeros(model.na)
         last = (trial, -1)
@@ -141,7 +143,7 @@ class Simulation:
         qpos, qvel, act = (np.broadcast_to(part, (n, part.shape[1])) for part in (qpos, qvel, act))
 
         def place(trials: Sequence[int]) -> None:
-            """Put trials where they start."""
+            """Put trials at their start."""
             if len(starts) == 1:
                 worlds.place(trials, *starts[0])
             else:
@@ -201,7 +203,7 @@ class Simulation:
         return out
 
     def _trunk(self, row: Array) -> tuple[Array, Array, Array, Array]:
-        """Position, quaternion, velocity and angular velocity of the trunk's frame from those of its centre of mass."""
+        """Return position, quaternion, velocity and angular velocity of the trunk's frame from those of its centre of mass."""
         quaternion, centre, linear, angular = np.split(row, [4, 7, 10], axis=-1)
         quaternion = quaternion / np.sqrt(np.sum(quaternion**2, axis=-1, keepdims=True))
         lever = rotate(quaternion, self.multibody.com[0])
@@ -231,12 +233,12 @@ class Simulation:
 
 
 def _sound(values: Array, limit: float, trials: list[int]) -> list[bool]:
-    """Of the trials: whether all values, (n, ...), are within the limit, and numbers."""
+    """Tell for each trial whether all values, shape (n, ...), are finite and within the limit."""
     return np.all(np.abs(values).reshape(len(values), -1) < limit, axis=1)[trials].tolist()
 
 
 def _repeat(out: Record, trial: int, row: int, multibody: Multibody, qpos: Array, qvel: Array) -> None:
-    """From a row on, repeat the row before it, or the start."""
+    """Repeat the row before a row, or the start, from that row on."""
     start = {
         "angle": qpos[multibody.hinges.qpos],
         "speed": qvel[multibody.hinges.qvel],

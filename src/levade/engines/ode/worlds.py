@@ -1,7 +1,7 @@
-"""ODE worlds: one for every trial, all of the same multibody, stepped one after the other.
+"""ODE worlds: one for every trial, all of the same multibody, stepped one after another.
 
-ODE hands out pointers to where a body keeps its pose and velocity. Those of all bodies of all worlds are gathered in
-one numpy call per step, so that Python calls ODE only to collide, to push and to step.
+ODE gives pointers to the pose and velocity of a body. One numpy call per step gathers those of all bodies of all worlds, so
+that Python calls ODE only to collide, to push and to step.
 """
 
 from __future__ import annotations
@@ -22,17 +22,17 @@ from levade.engines.ode.shapes import Shape
 from levade.engines.physics import Ode
 
 CONTACTS = 8
-"""At most, of one pair of shapes: a box on a plane has four."""
+"""Largest number of contacts of one pair of shapes. A box on a plane has four."""
 
 _PARTS = {"position": 3, "quaternion": 4, "rotation": 9, "linear": 3, "angular": 3}
 _ROTATION = [0, 1, 2, 4, 5, 6, 8, 9, 10]  # of a dMatrix3, whose rows have a fourth number
 
 
 class Worlds:
-    """Worlds of one multibody. Body l of a world is link l, its centre of mass the body's origin.
+    """Worlds of one multibody. Body l of a world is link l, with its centre of mass as the body's origin.
 
     Args:
-        resisted: (J,) bool, hinges with a motor that resists their motion (`resist`).
+        resisted: Hinges with a motor that resists their motion (`resist`), shape (J,).
     """
 
     def __init__(
@@ -71,7 +71,7 @@ class Worlds:
         return len(self._worlds)
 
     def grow(self, n: int) -> None:
-        """Have at least n worlds."""
+        """Make worlds until there are at least n."""
         if len(self) >= n:
             return
         data = mujoco.MjData(self._multibody.model)
@@ -90,7 +90,7 @@ class Worlds:
         self._where = np.concatenate(columns, axis=2)
 
     def place(self, which: Iterable[int], position: Array, quaternion: Array, linear: Array, angular: Array) -> None:
-        """Put the links (L, ...) of some worlds there: centres of mass, frames, velocities, in world axes."""
+        """Place the links of some worlds: centres of mass, frames, velocities, in world axes, shape (L, ...) each."""
         ode = self._ode
         ode.dJointGroupEmpty(self._group)  # what a run that was interrupted in the middle of a step left behind
         turned = [ode.vector(*values) for values in quaternion]
@@ -118,7 +118,10 @@ class Worlds:
         return parts
 
     def resist(self, world: int, target: Array, resistance: Array) -> None:
-        """Of every resisted hinge: a torque ``resistance * (target - speed)`` at the speed after the step; (J,) each."""
+        """Set the resisting torques of a world's hinges, shape (J,) each.
+
+        A hinge gets ``resistance * (target - speed)`` at the speed after the step.
+        """
         set_param, vel, cfm = self._ode.dJointSetAMotorParam, library.VELOCITY, library.CFM
         for motor, j in zip(self._motors[world], self._resisted, strict=True):
             set_param(motor, vel, target[j])
@@ -163,14 +166,14 @@ class Worlds:
         ode.dJointGroupEmpty(group)
 
     def forces(self, count: int) -> Array:
-        """(count, 3) [N], world axes, on the first shape of each contact that was reported."""
+        """Return the forces on the first shape of each reported contact in world axes [N], shape (count, 3)."""
         return self._feedback[:count, :3].astype(float)
 
     def _feedback_at(self, row: int) -> int:
         return self._feedback.ctypes.data + row * self._feedback.strides[0]
 
     def make_room(self, contacts: int) -> None:
-        """Have room for the forces of this many contacts: before the step, since joints keep the addresses."""
+        """Allocate memory for the forces of this many contacts. Call it before the step, because joints keep the addresses."""
         if len(self._feedback) < contacts:
             self._feedback = np.zeros((contacts, 16), self._ode.dtype)
 
@@ -229,7 +232,7 @@ class Worlds:
         return hinge
 
     def _motor(self, world: int, bodies: list[int], j: int, data: mujoco.MjData, torque: float) -> int:
-        """A motor about a hinge's axis that wants it at rest, with at most so much torque."""
+        """Make a motor about a hinge's axis that brings it to rest, with at most this torque."""
         ode, hinges = self._ode, self._multibody.hinges
         motor = ode.dJointCreateAMotor(world, None)
         ode.dJointAttach(motor, bodies[j + 1], bodies[hinges.parent[j]])
@@ -285,7 +288,7 @@ def _free(ode: Library, worlds: list[int], geoms: list[int], group: int) -> None
 
 
 def _memory(address: int, count: int, dtype: np.dtype) -> NDArray:
-    """``count`` numbers from an address on, as an array; only what is known to be there may be looked at."""
+    """Return ``count`` numbers from an address on as an array. Only valid memory may be read."""
 
     class View:
         __array_interface__ = {  # noqa: RUF012
