@@ -12,7 +12,7 @@ import pytest
 from levade.engines import FOOT_CONTACT_FORCE, Fall, Physics, Settled, make_engine, start_state
 from levade.engines.ode.library import load as load_ode
 from levade.errors import LevadeError
-from levade.policies import Policy
+from levade.policies import FreePolicy, Policy
 from levade.robots import Robot, dimensions, load_robot
 from levade.robots.limbs import read_limbs
 from levade.robots.settling import settle
@@ -311,8 +311,16 @@ def test_sketches_of_an_upright_robot_bend_it_forward_and_back(walker: Robot) ->
     space, names = objective.space, walker.joint_names
     assert isinstance(objective.policy, Policy)
     assert space.span is not None
-    spans = space.span.reshape(-1, objective.policy.kernels.kernels, 2)
-    steps = np.linalg.norm(space.factor, axis=1).reshape(spans.shape[:2])
+    assert space.spread is not None
+    joints, kernels = objective.policy.independent_joints, objective.policy.kernels.kernels
+    spans = space.span.reshape(joints, 3, 2)
+    steps = np.linalg.norm(space.factor, axis=1).reshape(joints, kernels)
+    sketch = space.sketches(1, np.random.default_rng(0)).reshape(joints, kernels)
+    drawn = np.random.default_rng(0).uniform(space.span[:, 0], space.span[:, 1]).reshape(joints, 3)
+    between = [
+        np.interp(np.linspace(0, 2, kernels), [0, 1, 2], angles) for angles in drawn
+    ]  # three postures on the way
+    np.testing.assert_allclose(sketch, between, atol=1e-12)
     leaders = [joint for group in objective.policy.groups for joint in group.leader]
     for joint, span, step in zip(leaders, spans, steps, strict=True):
         bends = names[joint].partition("_")[2] in ("pitch", "knee", "foot_pitch", "reach", "elbow")
@@ -339,3 +347,14 @@ def test_the_force_on_a_sole_is_that_on_all_of_its_shapes(walker: Robot, name: s
     carried = out.foot_contact_force[0, -100:, :, 2].sum(axis=1).mean()
     weight = 9.81 * float(walker.model.body_mass.sum())
     assert carried == pytest.approx(weight, rel=0.1)
+
+
+def test_sketches_have_any_duration_that_the_task_allows(walker: Robot) -> None:
+    free = load_task("self-righting", robot=walker, changes=["horizon={minimum: 2.0, maximum: 4.0}"])
+    objective = make_objective(free, robot=walker, threads=1)
+    assert isinstance(objective.policy, FreePolicy)
+    horizons = objective.policy.lengths(objective.space.sketches(200, np.random.default_rng(1))) * 0.002
+    assert horizons.min() < 2.1
+    assert horizons.max() > 3.9
+    assert horizons.min() >= 2.0 - 1e-9
+    assert horizons.max() <= 4.0 + 1e-9

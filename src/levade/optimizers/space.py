@@ -37,8 +37,8 @@ class SearchSpace:
             nothing about small changes. None if there are none.
         one_sided: Which of the k errors that an optimizer gets belong to a bound, shape (k,): 1 at the bound, less inside.
             None if none do.
-        span: Least and largest value of each number of a candidate, shape (d, 2), from which sketches are drawn. None if the
-            space has no bounds.
+        span: Least and largest value of each number that a sketch draws, shape (s, 2). None if the space has no bounds.
+        spread: Candidate of a sketch: ``spread @ numbers``, shape (d, s). Defaults to the identity.
 
     Raises:
         LevadeError: If a shape does not fit, a number is not finite, the step is not positive or the population too small.
@@ -53,6 +53,7 @@ class SearchSpace:
     rough: NDArray[np.bool_] | None = None
     one_sided: NDArray[np.bool_] | None = None
     span: Array | None = None
+    spread: Array | None = None
 
     def __post_init__(self) -> None:
         mean = _array("mean", self.mean)
@@ -77,10 +78,14 @@ class SearchSpace:
         if rough is not None and rough.shape != factor.shape[1:]:
             raise LevadeError(f"rough: expected shape ({factor.shape[1]},), got {rough.shape}")
         span = None if self.span is None else _array("span", self.span)
-        if span is not None and (span.shape != (mean.size, 2) or (span[:, 0] > span[:, 1]).any()):
-            raise LevadeError(f"span: expected shape ({mean.size}, 2), the least value first, got {span.shape}")
+        spread = None if self.spread is None else _array("spread", self.spread)
+        drawn = mean.size if spread is None else spread.shape[-1]
+        if span is not None and (span.shape != (drawn, 2) or (span[:, 0] > span[:, 1]).any()):
+            raise LevadeError(f"span: expected shape ({drawn}, 2), the least value first, got {span.shape}")
+        if spread is not None and spread.shape != (mean.size, drawn):
+            raise LevadeError(f"spread: expected shape ({mean.size}, s), got {spread.shape}")
         arrays = {"mean": mean, "factor": _read_only(factor), "ending": ending, "rough": rough, "one_sided": one_sided}
-        arrays["span"] = span
+        arrays |= {"span": span, "spread": spread}
         for name, value in arrays.items():
             object.__setattr__(
                 self, name, value
@@ -112,7 +117,8 @@ class SearchSpace:
         if self.span is None:
             raise LevadeError("search.sketches: the policy has no ranges to draw them from; leave sketches out")
         lower, upper = self.span.T
-        return generator.uniform(lower, upper, (n, self.size))
+        drawn = generator.uniform(lower, upper, (n, len(self.span)))
+        return drawn if self.spread is None else drawn @ self.spread.T
 
     def candidates(self, z: Array) -> Array:
         """Candidates from coordinates: ``mean + factor @ z`` for each row.

@@ -26,6 +26,9 @@ DURATION_PER_STEP = 0.6
 """Upper bound of the same per step of the weights [1/rad]: a search close around a motion also stays close to its duration."""
 
 
+SKETCHED = 3
+"""Random postures that a sketch goes through."""
+
 SIDEWAYS = 0.3
 """Factor on the first step of joints that turn or spread limbs of a robot that stands upright, if the search has sketches."""
 
@@ -73,13 +76,23 @@ def _of_weights(task: Task, robot: Robot, policy: Policy, start: State) -> Searc
         population=search.population,
         ending=_ending(policy),
         span=_span(policy, robot) if search.sketches else None,
+        spread=_spread(policy) if search.sketches else None,
     )
 
 
-def _span(policy: Policy, robot: Robot) -> Array:
-    """Return the ranges that sketches are drawn from, shape (d, 2): of the joints [rad], at each kernel.
+def _spread(policy: Policy) -> Array:
+    """Return the weights of a motion through a few postures, evenly spaced over the kernels, shape (d, postures * joints)."""
+    kernels = policy.kernels.kernels
+    postures = min(SKETCHED, kernels)
+    at, knots = np.linspace(0.0, 1.0, kernels), np.linspace(0.0, 1.0, postures)
+    between = np.stack([np.interp(at, knots, one) for one in np.eye(postures)], axis=-1)
+    return np.kron(np.eye(policy.independent_joints), between)
 
-    A robot that stands upright gets up and jumps by bending forward and back: its other joints stay as in neutral.
+
+def _span(policy: Policy, robot: Robot) -> Array:
+    """Return the ranges that sketches are drawn from, shape (postures * joints, 2): of each joint in each posture [rad].
+
+    A robot that stands upright gets up by bending forward and back: its other joints stay as in neutral.
     """
     leaders = _leaders(policy)
     lower, upper = robot.limits.lower[leaders], robot.limits.upper[leaders]
@@ -88,7 +101,7 @@ def _span(policy: Policy, robot: Robot) -> Array:
     if robot.stance == "upright":
         still = ~_bends_forward(robot)[leaders]
         span[still] = robot.posture("neutral")[leaders][still, None]
-    return np.repeat(span, policy.kernels.kernels, axis=0)
+    return np.repeat(span, min(SKETCHED, policy.kernels.kernels), axis=0)
 
 
 def _leaders(policy: Policy) -> list[int]:
@@ -110,7 +123,7 @@ def _with_more(space: SearchSpace, policy: FreePolicy, task: Task) -> SearchSpac
     than a tight tolerance from one to the next. Where a criterion asks for a duration it is not rough, since that error
     follows it closely.
     """
-    d, m = space.factor.shape
+    before, (d, m) = space, space.factor.shape
     more = policy.size - d
     factor = np.zeros((d + more, m + more))
     factor[:d, :m], factor[d:, m:] = space.factor, np.eye(more)
@@ -121,8 +134,12 @@ def _with_more(space: SearchSpace, policy: FreePolicy, task: Task) -> SearchSpac
         rough = None if asked else np.arange(m + more) == m
     ending = None if space.ending is None else np.pad(space.ending, ((0, 0), (0, more)))
     mean = policy.decision(space.mean[None])[0]
-    span = None if space.span is None else np.concatenate([space.span, policy.span])
-    return dataclasses.replace(space, mean=mean, factor=factor, ending=ending, rough=rough, span=span)
+    space = dataclasses.replace(space, mean=mean, factor=factor, ending=ending, rough=rough, span=None, spread=None)
+    if before.span is None or before.spread is None:
+        return space
+    spread = np.zeros((policy.size, before.spread.shape[1] + more))
+    spread[:d, :-more], spread[d:, -more:] = before.spread, np.eye(more)
+    return dataclasses.replace(space, span=np.concatenate([before.span, policy.span]), spread=spread)
 
 
 def _ending(policy: Policy) -> Array | None:
