@@ -38,7 +38,6 @@ LIMB_TASKS = ("self-righting", FRONT, "squat-jump")
 LIMBS = {
     "g1": LIMB_TASKS,
     "mjlab:unitree_g1": LIMB_TASKS,
-    "example-robot-data:talos_full_v2": ("squat-jump",),
     "hexapod": ("self-righting", "squat-jump"),
     "gymnasium's ant": ("self-righting", "squat-jump"),
 }
