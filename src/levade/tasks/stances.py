@@ -12,11 +12,11 @@ from typing import Any
 from levade.document import kind_of
 from levade.errors import LevadeError, did_you_mean
 from levade.robots import Robot
-from levade.tasks.files import extended
+from levade.tasks.files import BY_STANCE, extended
 
 STANCES = ("level", "upright", "sprawled")
 """See `levade.robots.Robot.stance`."""
-KEY, LYING = "stances", "lying"
+LYING = "lying"
 
 ATTITUDES: dict[str, dict[str, tuple[str, str]]] = {
     "level": {
@@ -51,7 +51,7 @@ def on_robot(content: Mapping[str, Any], robot: Callable[[], Robot], where: str)
         LevadeError: As `for_stance` and `as_attitude` do.
     """
     content = dict(content)
-    if KEY in content:
+    if BY_STANCE in content:
         content = for_stance(content, robot(), where)
     start = content.get("start")
     fall = start.get("fall") if isinstance(start, Mapping) else None
@@ -75,15 +75,15 @@ def for_stance(content: Mapping[str, Any], robot: Robot, where: str) -> dict[str
         LevadeError: If a stance does not exist, or the task does not apply to such a robot.
     """
     content = dict(content)
-    stances = content.pop(KEY)
+    stances = content.pop(BY_STANCE)
     if not isinstance(stances, Mapping):
-        raise LevadeError(f"{where}.{KEY}: should be a table such as {{upright: {{...}}}}, is {kind_of(stances)}")
+        raise LevadeError(f"{where}.{BY_STANCE}: should be a table such as {{upright: {{...}}}}, is {kind_of(stances)}")
     for name, changes in stances.items():
         if name not in STANCES:
-            raise LevadeError(f"{where}.{KEY}: no stance {name!r}; {did_you_mean(str(name), STANCES)}")
+            raise LevadeError(f"{where}.{BY_STANCE}: no stance {name!r}; {did_you_mean(str(name), STANCES)}")
         if not isinstance(changes, (str, Mapping)):
             raise LevadeError(
-                f"{where}.{KEY}.{name}: should be a table of changes, or a text that says why the task does not apply, is"
+                f"{where}.{BY_STANCE}.{name}: should be a table of changes, or a text that says why the task does not apply, is"
                 f" {kind_of(changes)}"
             )
     changes = stances.get(robot.stance, {})
