@@ -96,6 +96,31 @@ def insect(legs: int) -> str:
     return f"{HEAD}{body}{''.join(parts)}</body></worldbody></mujoco>"
 
 
+def spokes(number: int, *, start: float = 0.0) -> str:
+    """Legs of coxa, femur and tibia that point in all directions; the first one is turned from ahead by an angle [rad]."""
+    parts = []
+    for k in range(number):
+        angle = start + 2 * np.pi * k / number
+        parts.append(f"""
+<body name="c{k}" pos="{0.1 * np.cos(angle)} {0.1 * np.sin(angle)} 0" euler="0 0 {angle}">
+ {hinge(f"coxa{k}", "0 0 1", -0.8, 0.8, 12)}<geom type="capsule" fromto="0 0 0 0.06 0 0" size="0.02" mass="0.15"/>
+<body name="f{k}" pos="0.06 0 0">{hinge(f"femur{k}", "0 1 0", -1.5, 1.0, 12)}
+ <geom type="capsule" fromto="0.03 0 0 0.12 0 0" size="0.015" mass="0.15"/>
+<body name="t{k}" pos="0.12 0 0">{hinge(f"tibia{k}", "0 1 0", 0.3, 2.4, 12)}
+ <geom name="tip{k}" type="capsule" fromto="0 0 0 0.15 0 0" size="0.012" mass="0.08"/></body></body></body>""")
+    body = '<body name="base" pos="0 0 0.2"><freejoint/><geom type="cylinder" size="0.1 0.03" mass="3"/>'
+    return f"{HEAD}{body}{''.join(parts)}</body></worldbody></mujoco>"
+
+
+def raised(text: str, by: float) -> str:
+    """Put everything on the trunk higher in its frame [m]."""
+    spec = mujoco.MjSpec.from_string(text)
+    trunk = spec.worldbody.first_body()
+    for part in [*trunk.geoms, *trunk.bodies]:
+        part.pos = part.pos + np.array([0.0, 0.0, by])
+    return spec.to_xml()
+
+
 def limbs_of(text: str, wanted: dict[str, str] | None = None):
     model = mujoco.MjModel.from_xml_string(text)
     return read_limbs(model, find_trunk(model, "here"), "here", wanted or {})
@@ -153,6 +178,48 @@ def test_wheels_are_locked_and_are_the_feet() -> None:
     found = limbs_of(text)
     assert found.wheels == ("wheel0", "wheel1", "wheel2", "wheel3")
     assert sorted(limb.foot for limb in found.legs) == ["tyre0", "tyre1", "tyre2", "tyre3"]
+
+
+def test_the_height_of_the_trunk_frame_has_no_effect() -> None:
+    """Some files put its origin between the soles, or far above the head."""
+    for text in (humanoid(), insect(6)):
+        here = limbs_of(text)
+        for by in (0.83, 0.9, -2.0):
+            there = limbs_of(raised(text, by))
+            assert (there.problem, there.held) == ("", here.held)
+            assert [(one.name, one.joints) for one in there.legs] == [(one.name, one.joints) for one in here.legs]
+
+
+@pytest.mark.parametrize(("number", "start"), [(3, 0.0), (3, np.pi), (4, 0.0), (5, 0.0)])
+def test_legs_straight_ahead_and_behind_are_legs(number: int, start: float) -> None:
+    found = limbs_of(spokes(number, start=start))
+    assert [limb.kind for limb in found.legs] == ["leg"] * number
+    assert not found.held
+
+
+@pytest.mark.parametrize("start", [0.0, 0.3, np.pi / 4])
+def test_a_robot_with_one_odd_leg_does_not_stand_on_the_others(start: float) -> None:
+    text = spokes(4, start=start)
+    slides = text.replace('<joint name="tibia0"', '<joint type="slide" name="tibia0"')
+    assert "the limb from coxa0 reaches as deep as the legs" in limbs_of(slides).problem
+    tip = '<geom name="tip0" type="capsule" fromto="0 0 0 0.15 0 0" size="0.012" mass="0.08"/>'
+    bare = text.replace(tip, '<inertial pos="0 0 0" mass="0.1" diaginertia="1e-4 1e-4 1e-4"/>')
+    with pytest.raises(LevadeError, match=r"no foot|nothing collides at the end of the limb from coxa0") as raised:
+        limbs_of(bare)
+    assert "0" in str(raised.value)
+
+
+def test_an_arm_without_fingers_that_turns_without_end_has_no_wheel() -> None:
+    text = humanoid()
+    for side in "pq":
+        text = text.replace(f'name="{side}_turn" axis="0 0 1" range="-1.5 1.5"', f'name="{side}_turn" axis="0 0 1"')
+        for k in (-1, 1):
+            finger = f'<body name="{side}_finger{k}" pos="0 {0.02 * k} -0.06">{hinge(f"{side}_finger{k}", "1 0 0", -0.5, 0.5, 1)}'
+            text = text.replace(f'{finger}<geom type="sphere" size="0.01" mass="0.02"/></body>', "")
+    assert "finger" not in text
+    found = limbs_of(text, {"arm": "free"})
+    assert found.wheels == ()
+    assert found.legs[2].joints == ("p_reach", "p_lift", "p_elbow", "p_turn")
 
 
 def test_a_robot_on_one_leg_is_refused(tmp_path: Path) -> None:
