@@ -197,6 +197,12 @@ def test_legs_straight_ahead_and_behind_are_legs(number: int, start: float) -> N
     assert not found.held
 
 
+def test_legs_ahead_behind_and_aside_are_not_in_another_frame(tmp_path: Path) -> None:
+    robot = load(tmp_path, spokes(4))
+    assert robot.stance == "sprawled"
+    assert settle(robot).tilt < 0.05
+
+
 @pytest.mark.parametrize("start", [0.0, 0.3, np.pi / 4])
 def test_a_robot_with_one_odd_leg_does_not_stand_on_the_others(start: float) -> None:
     text = spokes(4, start=start)
@@ -214,7 +220,8 @@ def test_an_arm_without_fingers_that_turns_without_end_has_no_wheel() -> None:
     for side in "pq":
         text = text.replace(f'name="{side}_turn" axis="0 0 1" range="-1.5 1.5"', f'name="{side}_turn" axis="0 0 1"')
         for k in (-1, 1):
-            finger = f'<body name="{side}_finger{k}" pos="0 {0.02 * k} -0.06">{hinge(f"{side}_finger{k}", "1 0 0", -0.5, 0.5, 1)}'
+            joint = hinge(f"{side}_finger{k}", "1 0 0", -0.5, 0.5, 1)
+            finger = f'<body name="{side}_finger{k}" pos="0 {0.02 * k} -0.06">{joint}'
             text = text.replace(f'{finger}<geom type="sphere" size="0.01" mass="0.02"/></body>', "")
     assert "finger" not in text
     found = limbs_of(text, {"arm": "free"})
