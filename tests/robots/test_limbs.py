@@ -12,8 +12,9 @@ import pytest
 from levade.engines import FOOT_CONTACT_FORCE, Physics, Settled, make_engine, start_state
 from levade.engines.ode.library import load as load_ode
 from levade.errors import LevadeError
-from levade.robots import Robot, dimensions, load_robot
+from levade.robots import Robot, dimensions, load_robot, settling
 from levade.robots.limbs import read_limbs
+from levade.robots.settling import Settled as PutDown
 from levade.robots.settling import settle
 from levade.robots.understanding import find_trunk
 from levade.scenes import Scene
@@ -251,6 +252,32 @@ def test_a_humanoid_stands_for_three_seconds(walker: Robot) -> None:
     assert settled.tilt < 0.15
     assert abs(settled.sag) < 0.05 * dimensions(walker).height
     assert walker.stance == "upright"
+
+
+def turned_round(text: str) -> str:
+    """Turn everything on the trunk about the vertical by half a turn: the robot faces backward in the trunk's frame."""
+    spec = mujoco.MjSpec.from_string(text)
+    for part in spec.worldbody.first_body().bodies:
+        part.pos = part.pos * np.array([-1.0, -1.0, 1.0])
+        part.quat = np.array([0.0, 0.0, 0.0, 1.0])
+    return spec.to_xml()
+
+
+def test_a_push_forward_is_one_to_where_the_toes_point(
+    walker: Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    backward = load(tmp_path, turned_round(humanoid()))
+    assert (walker.ahead, backward.ahead) == (1.0, -1.0)
+    for robot, felled in ((walker, 1.0), (backward, -1.0)):
+
+        def settled(
+            _: Robot, *, push: tuple[float, float] = (0.0, 0.0), felled: float = felled, **__: float
+        ) -> PutDown:
+            return PutDown(0.0, 1.0 if push[0] * felled > 0 else 0.0, {}, False)
+
+        monkeypatch.setattr(settling, "settle", settled)
+        (said,) = [str(finding) for finding in settling.doubt_standing(robot)]
+        assert ", forward, fells it" in said
 
 
 def test_its_soles_lie_flat_and_it_is_balanced(walker: Robot) -> None:
