@@ -236,6 +236,20 @@ def test_a_robot_on_one_leg_is_refused(tmp_path: Path) -> None:
         load(tmp_path, text)
 
 
+@pytest.mark.parametrize(
+    ("text", "old", "new", "why"),
+    [
+        (humanoid(), leg("two", -0.1), "", "no two of its limbs that can stand are mirror images left and right"),
+        (humanoid(), leg("one", 0.1) + leg("two", -0.1), "", "the limbs that may be legs are arms: they hang high"),
+        (spokes(4), 'name="tibia0"', 'name="tibia0" type="slide"', "the limb from coxa0 reaches as deep as the legs"),
+    ],
+)
+def test_a_refusal_says_why_the_limbs_are_no_legs(tmp_path: Path, text: str, old: str, new: str, why: str) -> None:
+    assert old in text
+    with pytest.raises(LevadeError, match=f"this robot has .*; {why}"):
+        load(tmp_path, text.replace(old, new))
+
+
 def test_two_legs_ahead_of_each_other_are_in_another_frame(tmp_path: Path) -> None:
     text = (
         humanoid()

@@ -16,7 +16,6 @@ import numpy as np
 
 from levade.arrays import Array
 from levade.errors import LevadeError
-from levade.robots.findings import some
 from levade.robots.shapes import reach, support, thickness
 from levade.robots.understanding import Leg, NoFootError, Tree, find_foot, level
 
@@ -532,6 +531,7 @@ def limb_roles(model: mujoco.MjModel, data: mujoco.MjData, joints: Sequence[str]
 
 def _census(model: mujoco.MjModel, branches: Sequence[Branch]) -> str:
     if not branches:
-        return "this model has no joints besides its free base"
-    counted = [f"{len(b.joints)} from {model.joint(b.joints[0]).name}" for b in branches]
-    return f"no two limbs of two to eight hinges stand symmetrically left and right of the trunk (limbs: {some(counted, 6)})"
+        return "none of its limbs can stand" if model.njnt > 1 else "this model has no joints besides its free base"
+    if len(branches) == 1:
+        return "one limb alone does not stand"
+    return "no two of its limbs that can stand are mirror images left and right of the trunk"

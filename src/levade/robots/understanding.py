@@ -480,10 +480,6 @@ def _census(model: mujoco.MjModel, limbs: list[Limb]) -> str:
     sizes = [len(limb.joints) for limb in limbs if _is_serial(model, limb)]
     if any(sizes.count(count) > 4 for count in (2, 3)):
         return f"{text}; if four of them are its legs, name those in a robot.yaml (legs: ...)"
-    if len([size for size in sizes if size > 3]) == 4:
-        return (
-            f"{text}; if these are legs, hold the joints beyond three fixed in a robot.yaml (fixed: {{joint: angle}})"
-        )
     return text
 
 
