@@ -6,13 +6,17 @@ that point outward (``sprawled``), or says in one line why the task does not app
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Callable, Iterator, Mapping
+from fnmatch import fnmatchcase
+from typing import TYPE_CHECKING, Any
 
 from levade.document import kind_of
 from levade.errors import LevadeError, did_you_mean
 from levade.robots import Robot
 from levade.tasks.files import BY_STANCE, extended
+
+if TYPE_CHECKING:
+    from levade.tasks.task import Task
 
 STANCES = ("level", "upright", "sprawled")
 """See `levade.robots.Robot.stance`."""
@@ -115,3 +119,39 @@ def as_attitude(fall: Mapping[str, Any], robot: Robot, where: str) -> dict[str, 
     if robot.ahead < 0 and side in ("back", "front"):
         table["pitch"] = attitudes["front" if side == "back" else "back"][1]
     return table
+
+
+def check_postures(task: Task, written: Task, own: str, robot: Robot | None) -> None:
+    """Check that the postures of a task file, which may be angles of its own robot's joints, mean something on another one.
+
+    Args:
+        task: The task, with the other robot.
+        written: The task before changes of single values, which are for the other robot.
+        own: Name of the robot that the task file names.
+        robot: The other robot, if it is already loaded.
+
+    Raises:
+        LevadeError: If a posture names a joint that the other robot lacks.
+    """
+    before = list(_postures(written))
+    postures = [posture for posture in _postures(task) if posture in before]
+    if not postures:
+        return
+    robot = robot or task.robot.load()
+    legs = {name for leg in robot.legs for name in (leg.name, leg.end, leg.side)}
+    for where, posture in postures:
+        for key in posture:
+            if key not in legs and not any(fnmatchcase(joint, key) for joint in robot.joint_names):
+                raise LevadeError(
+                    f"{task.name}: does not apply to {robot.name}: its postures are angles of {own}'s joints ({where}: {key});"
+                    f" give it postures of {robot.name} in a task that extends it"
+                )
+
+
+def _postures(task: Task) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    """Yield the place and the table of every posture of a task that is not just a name."""
+    start = task.start
+    named = [("start.settled.posture", start.settled and start.settled.posture)]
+    named += [("start.fall.posture", start.fall and start.fall.posture), ("policy.goal", task.policy.goal)]
+    named += [("policy.through", posture) for posture in task.policy.through]
+    yield from ((where, posture) for where, posture in named if isinstance(posture, Mapping))
