@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from levade.engines import FOOT_CONTACT_FORCE, Physics, Settled, make_engine, start_state
+from levade.engines import FOOT_CONTACT_FORCE, Fall, Physics, Settled, make_engine, start_state
 from levade.engines.ode.library import load as load_ode
 from levade.errors import LevadeError
 from levade.robots import Robot, dimensions, load_robot, settling
@@ -292,6 +292,47 @@ def test_a_push_forward_is_one_to_where_the_toes_point(
         monkeypatch.setattr(settling, "settle", settled)
         (said,) = [str(finding) for finding in settling.doubt_standing(robot)]
         assert ", forward, fells it" in said
+
+
+@pytest.fixture(scope="module")
+def without_rotors(tmp_path_factory: pytest.TempPathFactory) -> Robot:
+    """Its feet are light, too: nothing but a rotor gives their joints an inertia."""
+    return load(
+        tmp_path_factory.mktemp("rotors"),
+        humanoid().replace(' armature="0.01"', "").replace('mass="0.3"', 'mass="0.01"'),
+    )
+
+
+def armature_of(robot: Robot, joint: str) -> float:
+    return float(robot.model.joint(joint).armature[0])
+
+
+def test_a_model_without_armature_gets_that_of_drives_of_its_torque(walker: Robot, without_rotors: Robot) -> None:
+    assert all(armature_of(walker, joint) == 0.01 for joint in walker.joint_names)
+    for joint, torque in zip(without_rotors.joint_names, without_rotors.limits.torque, strict=True):
+        assert armature_of(without_rotors, joint) == pytest.approx(1.5e-4 * torque)
+    assert any("no armature" in finding.what for finding in without_rotors.findings)
+
+
+def test_a_description_gives_armature(tmp_path: Path) -> None:
+    own = load(tmp_path, humanoid(), "armature: {one_knee: 0.02, '*_elbow': 0.003}\n")
+    given = {"one_knee": 0.02, "two_knee": 0.01, "p_elbow": 0.003, "q_elbow": 0.003}
+    assert {joint: armature_of(own, joint) for joint in given} == given
+    with pytest.raises(LevadeError, match="armature: no joint 'one_kneee'; did you mean one_knee"):
+        load(tmp_path, humanoid(), "armature: {one_kneee: 0.02}\n")
+
+
+def test_its_servos_are_stable_in_the_air(without_rotors: Robot) -> None:
+    """A foot that touches nothing follows its servo, though the reference jumps so far that the torque saturates."""
+    engine = make_engine(without_rotors, Scene(), Physics(), threads=1)
+    start = start_state(engine, without_rotors, Scene(), Fall(height=4.0, gain=1.0, time=0.01))
+    lower, upper = without_rotors.limits.lower, without_rotors.limits.upper
+    goal = start.joint_reference[0] + 0.4 * (upper - start.joint_reference[0])
+    goal[goal < lower] = lower[goal < lower]
+    position = np.repeat(goal[None, None], 350, axis=1)  # 0.7 s: it falls 2.4 m
+    out = engine.rollout(start, JointReference(position, np.zeros_like(position), 0.002, 350))
+    assert np.abs(out.joint_velocity[0, -25:]).max() < 1.0
+    assert np.abs(out.joint_position[0, -1] - goal).max() < 0.1
 
 
 def test_its_soles_lie_flat_and_it_is_balanced(walker: Robot) -> None:

@@ -60,6 +60,25 @@ def test_lines_are_those_of_the_sources(name: str, joint: str, speed: float, tor
     assert line(name, joint, speed) == pytest.approx(torque, rel=0.01, abs=0.02)
 
 
+@pytest.mark.skipif(find_spec("mjlab") is None, reason="mjlab is not installed: pip install --no-deps mjlab")
+def test_g1_has_the_motors_and_rotors_of_the_sources() -> None:
+    robot = loaded("g1")
+    assert (robot.limits.assumed_torque, robot.limits.assumed_velocity) == ((), ())
+    for joint, corner, no_load, torque in (
+        ("left_hip_pitch_joint", 22.63, 35.52, 71.0),
+        ("right_knee_joint", 14.5, 22.7, 111.0),
+        ("left_elbow_joint", 30.86, 40.13, 24.8),
+        ("right_ankle_roll_joint", 30.86, 40.13, 2 * 24.8),
+    ):
+        assert line("g1", joint, corner) == pytest.approx(torque, rel=0.01), joint
+        assert line("g1", joint, no_load) == pytest.approx(0.0, abs=0.02), joint
+    # mjlab's constants: rotors of 0.139, 0.017 and 0.169 kg cm2 behind gears of 1 + 46/18 and 1 + 56/16
+    first, second = 1 + 46 / 18, 1 + 56 / 16
+    rotor = 1e-4 * (0.139 * (first * second) ** 2 + 0.017 * second**2 + 0.169)
+    armature = [float(robot.model.joint(joint).armature[0]) for joint in ("left_elbow_joint", "left_ankle_pitch_joint")]
+    assert armature == pytest.approx([rotor, 2 * rotor], rel=2e-3)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "torque", "velocity"),

@@ -347,3 +347,37 @@ def test_feedback_is_asked_for_on_perturbed_models_only() -> None:
     first = next(i for i, along in enumerate(gains) if along is not None)
     assert first <= 1  # the motion to make them along is judged before
     assert all(along is not None for along in gains[first:])
+
+
+def test_an_attempt_begins_around_the_best_of_its_sketches() -> None:
+    space = dataclasses.replace(SPACE, span=np.tile([-3.0, 3.0], (6, 1)))
+    task = make_task(sketches=20, trials=160, restart=32)
+    asked, _ = driven(Search(task, space, seed=5))
+    sketches = [trials.weights for trials in asked if trials.n == 20]
+    assert len(sketches) == 3  # each attempt takes 32 trials after its sketches
+    assert np.array_equal(sketches[0], asked[0].weights)
+    drawn = np.concatenate(sketches)
+    assert len(np.unique(drawn, axis=0)) == 60
+    assert drawn.min() < -2.5
+    assert drawn.max() > 2.5
+    for attempt, weights in enumerate(sketches):
+        best = weights[np.argmin(answer(task, Trials(weights, 0)).terms["position"])]
+        around = asked[5 * attempt + 1].weights
+        assert np.linalg.norm(around.mean(axis=0) - best) < 0.5
+    again, _ = driven(Search(task, space, seed=5))
+    assert all(np.array_equal(one.weights, other.weights) for one, other in zip(asked, again, strict=True))
+
+
+def test_a_sketch_that_succeeds_ends_the_search() -> None:
+    space = dataclasses.replace(SPACE, span=np.tile([-3.0, 3.0], (6, 1)))
+    search = Search(make_task(sketches=40, polish=0, tolerance=0.5), space)
+    asked, seen = driven(search)
+    assert asked[0].n == 32  # at most half of what is left
+    assert not seen
+    assert search.solution.stopped is Stopped.SUCCESS
+    assert search.solution.trials_to_success == 32
+
+
+def test_sketches_need_ranges() -> None:
+    with pytest.raises(LevadeError, match="sketches: the policy has no ranges"):
+        Search(make_task(sketches=4), SPACE).ask()

@@ -37,6 +37,8 @@ class SearchSpace:
             nothing about small changes. None if there are none.
         one_sided: Which of the k errors that an optimizer gets belong to a bound, shape (k,): 1 at the bound, less inside.
             None if none do.
+        span: Least and largest value of each number of a candidate, shape (d, 2), from which sketches are drawn. None if the
+            space has no bounds.
 
     Raises:
         LevadeError: If a shape does not fit, a number is not finite, the step is not positive or the population too small.
@@ -50,6 +52,7 @@ class SearchSpace:
     ending: Array | None = None
     rough: NDArray[np.bool_] | None = None
     one_sided: NDArray[np.bool_] | None = None
+    span: Array | None = None
 
     def __post_init__(self) -> None:
         mean = _array("mean", self.mean)
@@ -73,7 +76,11 @@ class SearchSpace:
         rough = None if self.rough is None else _read_only(np.asarray(self.rough, dtype=np.bool_))
         if rough is not None and rough.shape != factor.shape[1:]:
             raise LevadeError(f"rough: expected shape ({factor.shape[1]},), got {rough.shape}")
+        span = None if self.span is None else _array("span", self.span)
+        if span is not None and (span.shape != (mean.size, 2) or (span[:, 0] > span[:, 1]).any()):
+            raise LevadeError(f"span: expected shape ({mean.size}, 2), the least value first, got {span.shape}")
         arrays = {"mean": mean, "factor": _read_only(factor), "ending": ending, "rough": rough, "one_sided": one_sided}
+        arrays["span"] = span
         for name, value in arrays.items():
             object.__setattr__(
                 self, name, value
@@ -88,6 +95,24 @@ class SearchSpace:
     def dimensions(self) -> int:
         """Coordinates that an optimizer searches over, m."""
         return self.factor.shape[1]
+
+    def sketches(self, n: int, generator: np.random.Generator) -> Array:
+        """Draw candidates from all of the span.
+
+        Args:
+            n: Number of candidates.
+            generator: Source of random numbers.
+
+        Returns:
+            Candidates, shape (n, d).
+
+        Raises:
+            LevadeError: If the space has no span.
+        """
+        if self.span is None:
+            raise LevadeError("search.sketches: the policy has no ranges to draw them from; leave sketches out")
+        lower, upper = self.span.T
+        return generator.uniform(lower, upper, (n, self.size))
 
     def candidates(self, z: Array) -> Array:
         """Candidates from coordinates: ``mean + factor @ z`` for each row.

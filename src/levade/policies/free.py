@@ -112,6 +112,16 @@ class FreePolicy:
         """Rows up to the longest horizon."""
         return self.bounds[1]
 
+    @property
+    def span(self) -> Array:
+        """Bounds of the decisions after the weights, shape (size - policy.size, 2): ``log(T / T0)``, then angles [rad]."""
+        rows = []
+        if self.horizon is not None:
+            rows.append(np.log(np.array([self.bounds]) * self.timestep / self.policy.horizon))
+        if self.goal is not None:
+            rows.append(np.stack([self.goal.lower, self.goal.upper], axis=-1))
+        return np.concatenate(rows)
+
     def lengths(self, decisions: Array) -> NDArray[np.intp]:
         """Find the horizon of each trial.
 

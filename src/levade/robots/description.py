@@ -162,6 +162,7 @@ class RobotForm(_Form):
         fixed: Joint outside the legs -> angle at which it is held [rad].
         postures: Name -> joint -> angle [rad].
         limits: Torque and speed limits.
+        armature: Joint or pattern -> reflected rotor inertia [kg m2], instead of the model's.
         linkage: Joint -> torque curve of its linkage, which is used only on request.
         actuation: Name of the default actuation.
         actuations: Name -> actuation.
@@ -177,6 +178,7 @@ class RobotForm(_Form):
     fixed: dict[str, Number] = {}
     postures: dict[str, Angles] = {}
     limits: LimitsForm = LimitsForm()
+    armature: dict[str, Positive] = {}
     linkage: dict[str, CurveForm] = {}
     actuation: str | None = None
     actuations: dict[str, ActuationForm] = {}

@@ -141,6 +141,8 @@ def _arm_torque(bare: Bare, most: float) -> Array:
         mass = float(model.body_subtreemass[body])
         away = float(np.linalg.norm(data.subtree_com[body] - data.joint(joint).xanchor))
         torque[k] = min(most, max(gains.ARM_RESERVE * mass * gains.GRAVITY * away, 0.05 * most))
+    for arm in ([bare.joints.index(joint) for joint in leg.joints] for leg in bare.legs):
+        torque[arm] = np.maximum(torque[arm], gains.ARM_EVEN * torque[arm].max())
     return torque
 
 
@@ -257,7 +259,7 @@ def _gains(
     """
     joints = bare.joints
     servos = {joint: draft.servos[joint] for joint in joints if keep and joint in draft.servos}
-    if bare.columnar and len(bare.standing) == len(bare.legs):
+    if bare.shares_gains:
         stiffness, damping = _same_gains(bare, neutral, kps)
     else:
         stiffness, damping = _own_gains(bare, neutral, torque, kps)

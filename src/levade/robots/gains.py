@@ -17,6 +17,13 @@ It gives 26 Nm at the shoulders of G1, whose data sheet has 25 Nm.
 GIVE_UNDER_LOAD = 0.03
 """Largest deflection under the load of the neutral posture [rad], for joints with their own gains."""
 DAMPING_RATIO = 0.7
+ROTOR_INERTIA = 1.5e-4
+"""Reflected rotor inertia of a geared drive over its torque limit [kg m2 / Nm].
+
+The four drives of G1 have 1.2e-4 to 1.8e-4 (armature and effort limits in mjlab's constants of the robot).
+"""
+ARM_EVEN = 0.5
+"""Smallest assumed torque limit in an arm as a share of the largest: its joints tend to have the same drives."""
 
 
 def stiffness(mass: float, leg_length: float) -> float:
@@ -43,6 +50,18 @@ def damping(kp: float, inertia: float) -> float:
         Damping kd [Nm s/rad].
     """
     return 2 * DAMPING_RATIO * math.sqrt(kp * inertia)
+
+
+def rotor_inertia(torque: float) -> float:
+    """Assume the reflected rotor inertia of a drive.
+
+    Args:
+        torque: Torque limit [Nm].
+
+    Returns:
+        Armature [kg m2].
+    """
+    return ROTOR_INERTIA * torque
 
 
 def assumed_torque(mass: float, leg_length: float) -> float:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.document import hides
 from levade.embodiment import JointLimits, TorqueCurve
 from levade.errors import LevadeError, did_you_mean
@@ -19,14 +20,17 @@ from levade.robots.inertias import survive_text
 from levade.robots.packages import find_package_robot, package_robots
 from levade.robots.posing import pose
 from levade.robots.preparing import (
+    add_rotors,
     exclude_overlaps,
     float_freely,
     lift_joint_limits,
     lighten,
+    set_armature,
     support_servos,
 )
 from levade.robots.reading import Draft, read_model
 from levade.robots.robot import Robot
+from levade.robots.standing import Bare
 from levade.robots.visuals import thin_visuals
 
 if TYPE_CHECKING:
@@ -103,6 +107,7 @@ def load_robot(
         _apply_variant(draft, path, form, variant)
     bare, followers = understand(draft, path, form)
     drives = find_limits(draft, bare, path, form, actuation or form.actuation)
+    _set_rotors(draft, bare, path, form, drives.torque)
     bare, postures = pose(draft, bare, followers, path, form, drives.torque)
     joints = bare.joints
     ranges = np.array([bare.ranges[joint] for joint in joints])
@@ -205,6 +210,16 @@ def _apply_variant(draft: Draft, path: Path, form: RobotForm, variant: str) -> N
         if inertial.inertia is not None:
             body.fullinertia = inertial.inertia
             body.iquat = [1.0, 0.0, 0.0, 0.0]
+
+
+def _set_rotors(draft: Draft, bare: Bare, path: Path, form: RobotForm, torque: Array) -> None:
+    """Set the rotor inertia that the description gives. Where it leaves the drives to levade, assume what the model lacks."""
+    from levade.robots.description import per_joint
+
+    if form.armature:
+        set_armature(draft, bare, per_joint(form.armature, bare.joints, f"{path}: armature", all_joints=False))
+    if not form.actuations:
+        add_rotors(draft, bare, torque)
 
 
 def _curves(joints: tuple[str, ...], path: Path, form: RobotForm) -> dict[int, TorqueCurve]:

@@ -8,7 +8,9 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+from levade.arrays import Array
 from levade.errors import LevadeError, did_you_mean
+from levade.robots import gains
 from levade.robots.actuation import Actuation
 from levade.robots.findings import named, note, some, warning
 from levade.robots.reading import Draft
@@ -77,6 +79,48 @@ def exclude_overlaps(draft: Draft, bare: Bare, neutral: Mapping[str, float]) -> 
         what = f"overlap by up to {depth:.0f} mm in the neutral posture: contact between them is left out"
         remedy = "legs should stand apart: fix the shapes, or give robot.yaml, postures: {neutral: ...}"
         draft.findings.append(add(f"bodies {some(names)}", what, remedy if couples is across else ""))
+
+
+def set_armature(draft: Draft, bare: Bare, armature: Mapping[str, float]) -> None:
+    """Set the reflected rotor inertia of joints.
+
+    Args:
+        draft: The model; it is changed.
+        bare: The bare robot; its model is changed, too.
+        armature: Joint -> reflected rotor inertia [kg m2].
+    """
+    for joint, inertia in armature.items():
+        draft.spec.joint(joint).armature = inertia
+        bare.model.dof_armature[int(bare.model.joint(joint).dofadr[0])] = inertia
+
+
+def add_rotors(draft: Draft, bare: Bare, torque: Array) -> None:
+    """Give joints without armature the reflected rotor inertia that a geared drive of their torque has.
+
+    Without it, an ankle turns nothing but its foot, and a servo that is stiff enough to stand on is unstable in the air.
+    Quadrupeds whose joints share one gain stay as they are, and so do joints with servos of their own.
+
+    Args:
+        draft: The model; it is changed.
+        bare: The bare robot; its model is changed, too.
+        torque: Torque limits [Nm], shape (joints,).
+    """
+    if bare.shares_gains:
+        return
+    bare_dofs = {joint: int(bare.model.joint(joint).dofadr[0]) for joint in bare.joints}
+    added = {
+        joint: gains.rotor_inertia(most)
+        for joint, most in zip(bare.joints, torque.tolist(), strict=True)
+        if joint not in draft.servos and bare.model.dof_armature[bare_dofs[joint]] == 0 and np.isfinite(most)
+    }
+    set_armature(draft, bare, added)
+    if added:
+        low, high = min(added.values()), max(added.values())
+        size = f"{low:.2g}" if low == high else f"{low:.2g} to {high:.2g}"
+        what = f"no armature; {size} kg m2 of reflected rotor inertia is assumed, in proportion to the torque limit"
+        draft.findings.append(
+            note(named("joint", list(added)) if len(added) < len(bare.joints) else "all joints", what)
+        )
 
 
 def support_servos(draft: Draft, bare: Bare, neutral: Mapping[str, float], actuation: Actuation) -> None:

@@ -56,6 +56,11 @@ class Bare:
         short = all(len(leg.joints) <= 3 and {"hfe", "kfe"} <= set(leg.roles) for leg in self.standing)
         return short and len(self.standing) >= 4 and all(leg.roles[0] != "swing" for leg in self.standing)
 
+    @property
+    def shares_gains(self) -> bool:
+        """Whether one gain suits all joints: columnar legs and no other limb."""
+        return self.columnar and len(self.standing) == len(self.legs)
+
     def data_at(self, angles: Mapping[str, float]) -> mujoco.MjData:
         """Compute kinematics with the trunk frame at the world frame.
 

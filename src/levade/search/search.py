@@ -21,7 +21,7 @@ from levade.costs import DIVERGED
 from levade.errors import LevadeError
 from levade.optimizers import Optimizer, SearchSpace, uses_errors
 from levade.search.evaluation import Evaluation, Trials
-from levade.search.initial import InitialGuess
+from levade.search.initial import AROUND, InitialGuess
 from levade.search.optimizing import make_attempt
 from levade.search.outcome import Generation, Solution, Stopped, Trial, better
 from levade.search.robust import Judge
@@ -32,6 +32,9 @@ from levade.tasks import Change, Task, looks_at_hold
 Steer = Callable[[int], "Mapping[str, float] | Stopped | None"]
 """Called before each generation with its number. It may return cost -> factor on its weight, which holds from this generation
 on. `Stopped.INTERRUPTED` ends the search."""
+
+_SKETCHES = 1_936_419_188
+"""Separates the random numbers of sketches from those of the optimizers."""
 
 _Asking = Generator["Trials | Generation", Evaluation, None]
 
@@ -185,18 +188,28 @@ class Search:
         yield from self._close()
 
     def _begin(self) -> _Asking:
-        """Enter the first stage, around the initial guess if there is one."""
+        """Enter the first stage, around the initial guess or the best sketch if there are any."""
         if self._initial is not None:
             yield from self._try_initial(self._initial)
+        elif self._task.search.sketches:
+            yield from self._sketch()
         self._scale_step()
 
-    def _try_initial(self, initial: InitialGuess) -> _Asking:
+    def _sketch(self) -> _Asking:
+        """Draw the sketches of this attempt, and let the optimizer begin around the best of them."""
+        attempt, search = self._schedule.attempt, self._task.search
+        generator = np.random.default_rng((self._seed, attempt, _SKETCHES))
+        n = max(1, min(search.sketches, (search.trials - self._trials) // 2))  # the rest is for the optimizer
+        drawn = self._space.sketches(n, generator)
+        yield from self._try_initial(InitialGuess(drawn, step=AROUND), attempt)
+
+    def _try_initial(self, initial: InitialGuess, attempt: int = 0) -> _Asking:
         """Try the motions to begin around, and let the optimizer begin at the best of them."""
-        candidates = initial.candidates
-        evaluation = yield from self._judge.evaluate(candidates, self._schedule.level)
+        candidates, level = initial.candidates, self._schedule.level
+        evaluation = yield from self._judge.evaluate(candidates, level)
         self._trials += evaluation.trials
         self._diverged += int(evaluation.diverged.sum())
-        if evaluation.success.any():
+        if self._trials_to_success is None and evaluation.success.any():
             self._trials_to_success = self._trials
         cost = evaluation.cost(
             {**self._weights, **stage_weights(self._task, self._schedule.stage, 0)}, self._task.robust
@@ -206,7 +219,7 @@ class Search:
         if self._trials_to_success is not None and self._task.search.polish == 0:
             raise _Halt(Stopped.SUCCESS)
         space = initial.space(self._space, candidates[first])
-        self._optimizer = make_attempt(self._task, space, seed=self._seed)
+        self._optimizer = make_attempt(self._task, space, seed=self._seed, attempt=attempt)
 
     def _affordable(self) -> bool:
         """Whether the budget lasts for the largest possible generation. It always does for the first one."""
@@ -329,7 +342,10 @@ class Search:
                 assert self._best is not None
                 self._kept = better(self._kept, self._best)
                 self._starts = sorted(self._starts, key=_rank)[1:]
-            self._optimizer = make_attempt(self._task, self._space, seed=self._seed, attempt=self._schedule.attempt)
+            if self._task.search.sketches:
+                yield from self._sketch()
+            else:
+                self._optimizer = make_attempt(self._task, self._space, seed=self._seed, attempt=self._schedule.attempt)
         self._scale_step()
         level = self._schedule.level
         if not level.robust:

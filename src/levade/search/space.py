@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 
 import numpy as np
+from numpy.typing import NDArray
 
 from levade.arrays import Array
 from levade.engines import State
@@ -22,6 +24,10 @@ DURATION = 0.08
 
 DURATION_PER_STEP = 0.6
 """Upper bound of the same per step of the weights [1/rad]: a search close around a motion also stays close to its duration."""
+
+
+_TO_THE_SIDE = math.cos(math.radians(45.0))
+"""Smallest share of an axis along y with which a joint bends a limb forward and back."""
 
 
 def search_space(task: Task, robot: Robot, policy: JointPolicy, start: State) -> SearchSpace:
@@ -54,7 +60,36 @@ def _of_weights(task: Task, robot: Robot, policy: Policy, start: State) -> Searc
         smooth = smoothness_factor(policy.kernels, search.smoothness, policy.independent_joints, modes=search.modes)
     else:
         smooth = np.eye(policy.size)
-    return SearchSpace(mean, smooth, step=search.step, population=search.population, ending=_ending(policy))
+    return SearchSpace(
+        mean,
+        smooth,
+        step=search.step,
+        population=search.population,
+        ending=_ending(policy),
+        span=_span(policy, robot) if search.sketches else None,
+    )
+
+
+def _span(policy: Policy, robot: Robot) -> Array:
+    """Return the ranges that sketches are drawn from, shape (d, 2): of the joints [rad], at each kernel.
+
+    A robot that stands upright gets up and jumps by bending forward and back: its other joints stay as in neutral.
+    """
+    leaders = [joint for group in policy.groups for joint in group.leader]
+    lower, upper = robot.limits.lower[leaders], robot.limits.upper[leaders]
+    unlimited = np.isinf(lower) | np.isinf(upper)
+    span = np.stack([np.where(unlimited, -np.pi, lower), np.where(unlimited, np.pi, upper)], axis=-1)
+    if robot.stance == "upright":
+        still = ~_bends_forward(robot)[leaders]
+        span[still] = robot.posture("neutral")[leaders][still, None]
+    return np.repeat(span, policy.kernels.kernels, axis=0)
+
+
+def _bends_forward(robot: Robot) -> NDArray[np.bool_]:
+    """Tell which joints' axes point to the side in the neutral posture, shape (joints,)."""
+    data = robot.data_at(robot.posture("neutral"))
+    axes = np.array([data.joint(joint).xaxis for joint in robot.joint_names])
+    return np.abs(axes[:, 1]) > _TO_THE_SIDE
 
 
 def _with_more(space: SearchSpace, policy: FreePolicy, task: Task) -> SearchSpace:
@@ -75,7 +110,8 @@ def _with_more(space: SearchSpace, policy: FreePolicy, task: Task) -> SearchSpac
         rough = None if asked else np.arange(m + more) == m
     ending = None if space.ending is None else np.pad(space.ending, ((0, 0), (0, more)))
     mean = policy.decision(space.mean[None])[0]
-    return dataclasses.replace(space, mean=mean, factor=factor, ending=ending, rough=rough)
+    span = None if space.span is None else np.concatenate([space.span, policy.span])
+    return dataclasses.replace(space, mean=mean, factor=factor, ending=ending, rough=rough, span=span)
 
 
 def _ending(policy: Policy) -> Array | None:

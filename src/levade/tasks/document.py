@@ -72,9 +72,10 @@ _ORDER = (
 )
 _LATER = (
     *(("hardware",), ("policy", "room"), ("policy", "slew"), ("policy", "through"), ("search", "patience")),
+    ("search", "sketches"),
     *(("robust", "perturb", "softness"), ("start", "fallen", "fold")),
 )
-"""Keys that were added after the first runs with a checksum, and are null or empty by default."""
+"""Keys that were added after the first runs with a checksum, and are null, zero or empty by default."""
 _SEQUENCE = "tag:yaml.org,2002:seq"
 
 
@@ -420,7 +421,7 @@ def task_checksum(task: Task, *more: object) -> int:
         table: Any = content
         for key in tables:
             table = table.get(key) if isinstance(table, dict) else None
-        if isinstance(table, dict) and name in table and table[name] in (None, []):
+        if isinstance(table, dict) and name in table and table[name] in (None, [], 0):
             del table[name]
     first = {name: alias for alias, name in ALIASES.items()}
     name = content["search"]["optimizer"]

@@ -241,6 +241,9 @@ class Search:
         optimizer: Name of the optimizer; an alias becomes the name. In Python also a class, function or object: see
             `levade.optimizers`.
         trials: Budget of all stages together.
+        sketches: Number of motions that each attempt tries first, before the optimizer begins around the best of them. At each
+            kernel, their joints have random angles from the whole of their ranges; on robots that stand upright only the
+            joints that bend them forward and back. For motions far from the posture at the start, such as a get-up.
         population: Trials per generation. Defaults to the optimizer's own.
         step: Initial standard deviation of the weights [rad].
         smoothness: Correlation length of neighbouring weights in the initial covariance, as a share of the horizon; 0 for
@@ -259,6 +262,7 @@ class Search:
 
     optimizer: OptimizerChoice = "cma-aimed"
     trials: int = 3000
+    sketches: int = 0
     population: int | None = None
     step: float = 0.1
     smoothness: float = 0.3

@@ -242,12 +242,22 @@ def check_search(search: Search, costs: Mapping[str, Cost]) -> None:
         )
     if search.trials < 1:
         raise LevadeError(f"search.trials: {search.trials} should be at least 1; the paper has about 3000")
+    if search.sketches < 0:
+        raise LevadeError(f"search.sketches: {search.sketches} should be 0 for none, or more; 120 is usual")
     if search.population is not None and not 4 <= search.population <= 100_000:
         raise LevadeError(f"search.population: {search.population} should be 4 or more; leave it out for the usual one")
     if not (math.isfinite(search.step) and search.step > 0):
         raise LevadeError(f"search.step: {search.step} should be a positive number of rad; 0.05 to 0.3 is usual")
     if not (math.isfinite(search.smoothness) and search.smoothness >= 0):
         raise LevadeError(f"search.smoothness: {search.smoothness} should be 0 or more, as a share of the horizon")
+    _check_restart(search)
+    if search.polish is not None and search.polish < 0:
+        raise LevadeError(f"search.polish: {search.polish} should be 0 or more trials")
+    for i, change in enumerate(search.changes):
+        _check_change(f"search.changes.{i}", change, costs)
+
+
+def _check_restart(search: Search) -> None:
     if search.patience is not None and search.patience < 1:
         raise LevadeError(
             f"search.patience: {search.patience} should be at least 1; leave it out to restart in any case"
@@ -256,10 +266,6 @@ def check_search(search: Search, costs: Mapping[str, Cost]) -> None:
         raise LevadeError("search.patience: only works with a restart; set search.restart, too")
     if search.restart is not None and search.restart < 1:
         raise LevadeError(f"search.restart: {search.restart} should be at least 1; leave it out to go on")
-    if search.polish is not None and search.polish < 0:
-        raise LevadeError(f"search.polish: {search.polish} should be 0 or more trials")
-    for i, change in enumerate(search.changes):
-        _check_change(f"search.changes.{i}", change, costs)
 
 
 def _check_optimizer(name: str, given: Mapping[str, float]) -> None:
