@@ -1,14 +1,13 @@
-"""Postures of robots on two legs beyond standing: swayed over the left foot, on the left leg alone, and kneeling.
+"""Postures of robots on two legs beyond standing: swayed to the left foot, on the left leg alone, and kneeling.
 
     load_robot("mjlab:unitree_g1").posture("kneeling")
 
-They are searched only when something asks for them, as the neutral posture is (`levade.robots.neutral`): the trunk is level, and
+They are searched when something asks for them, as the neutral posture is (`levade.robots.neutral`): the trunk is level, and
 the centre of mass is over what stands on the ground.
 """
 
 from __future__ import annotations
 
-import mujoco
 import numpy as np
 
 from levade.arrays import Array
@@ -18,6 +17,8 @@ from levade.robots.robot import Robot
 from levade.robots.shapes import support
 from levade.robots.standing import Bare
 
+_SWAY = 0.45
+"""Place of a swayed robot's centre of mass between the middle of its feet (0) and the left one (1). Servos give way further."""
 _LIFT = 0.16
 """Height of the lifted sole over the other one, as a share of the leg's length."""
 _EXTENSION = 0.92
@@ -64,10 +65,8 @@ class _PoseSearch(PostureSearch):
         self._alone: tuple[list[int], list[int], Array, list[int]] = (joints, [], np.zeros(0), [])
 
     def swayed(self) -> Array:
-        """Search a posture on both feet, which stay where they are, with the centre of mass over the left one."""
-        return self._search(
-            self.neutral_posture, self.bare.standing, self._sway_cost, _TRIES, self._alone, spread=0.2
-        )
+        """Search a posture on both feet, which stay where they are, with the centre of mass towards the left one."""
+        return self._search(self.neutral_posture, self.bare.standing, self._sway_cost, _TRIES, self._alone, spread=0.2)
 
     def one_leg(self) -> Array:
         """Search a posture on the left foot, with the right one lifted."""
@@ -80,7 +79,9 @@ class _PoseSearch(PostureSearch):
         for sole in self.soles:
             joints = dict(zip(sole.leg.roles, sole.leg.joints, strict=True))
             if not {"hfe", "kfe"} <= set(joints):
-                raise LevadeError(f"robot {self.robot.name}: has no kneeling posture: leg {sole.leg.name} has no hip and knee")
+                raise LevadeError(
+                    f"robot {self.robot.name}: has no kneeling posture: leg {sole.leg.name} has no hip and knee"
+                )
             hip, knee = (model.joint(joints[role]).id for role in ("hfe", "kfe"))
             shank = int(model.jnt_bodyid[knee])
             shapes = [g for g in range(model.ngeom) if int(model.body_weldid[model.geom_bodyid[g]]) == shank]
@@ -109,7 +110,10 @@ class _PoseSearch(PostureSearch):
     def _sway_cost(self, angles: Array) -> float:
         self._put(angles)
         step = self._centre(self.left) - self._centre(self.right) - self._step
-        cost = 300.0 * float(step @ step) / self.scale**2 + self._over(self._centre(self.left))
+        left, right = self._centre(self.left), self._centre(self.right)
+        cost = 300.0 * float(step @ step) / self.scale**2 + self._over(
+            0.5 * (left + right) + _SWAY * 0.5 * (left - right)
+        )
         for sole in (self.left, self.right):
             cost += self._shape_cost(sole, self._lowest(sole))
         return cost + self._comfort(angles) + self._overlap_cost()
@@ -118,7 +122,9 @@ class _PoseSearch(PostureSearch):
         self._put(angles)
         low, lifted = self._lowest(self.left), self._centre(self.right)
         hip = self.data.xanchor[self.right.first]
-        cost = 400.0 * ((self._lowest(self.right) - low) / self.scale - _LIFT) ** 2 + self._over(self._centre(self.left))
+        cost = 400.0 * ((self._lowest(self.right) - low) / self.scale - _LIFT) ** 2 + self._over(
+            self._centre(self.left)
+        )
         cost += 30.0 * ((lifted[1] - hip[1]) / self.scale) ** 2
         cost += 10.0 * ((lifted[0] - self._centre(self.left)[0]) / self.scale) ** 2
         cost += self._shape_cost(self.left, low) + 0.3 * self._shape_cost(self.right, None)
