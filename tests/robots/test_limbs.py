@@ -16,6 +16,7 @@ from levade.robots import Robot, dimensions, load_robot, settling
 from levade.robots.limbs import read_limbs
 from levade.robots.settling import Settled as PutDown
 from levade.robots.settling import settle
+from levade.robots.shapes import support
 from levade.robots.understanding import find_trunk
 from levade.scenes import Scene
 from levade.tasks import load_task
@@ -411,3 +412,54 @@ def test_the_force_on_a_sole_is_that_on_all_of_its_shapes(walker: Robot, name: s
     carried = out.foot_contact_force[0, -100:, :, 2].sum(axis=1).mean()
     weight = 9.81 * float(walker.model.body_mass.sum())
     assert carried == pytest.approx(weight, rel=0.1)
+
+
+def lowest(robot: Robot, data: mujoco.MjData, geoms: tuple[str, ...]) -> np.ndarray:
+    points = [support(robot.model, data, robot.model.geom(geom).id, np.array([0.0, 0.0, -1.0])) for geom in geoms]
+    return min(points, key=lambda point: point[2])
+
+
+@pytest.mark.slow
+def test_on_one_leg_the_centre_of_mass_is_over_its_sole(walker: Robot) -> None:
+    data = walker.data_at(walker.posture("one-leg"))
+    left, right = walker.leg("l"), walker.leg("r")
+    com = data.subtree_com[walker.model.body(walker.trunk).id]
+    sole = np.mean([data.geom(pad).xpos for pad in left.pads], axis=0)
+    assert np.abs(com[:2] - sole[:2]).max() < 0.02
+    lift = lowest(walker, data, right.pads)[2] - lowest(walker, data, left.pads)[2]
+    assert lift > 0.1 * dimensions(walker).leg
+    assert all(data.geom(pad).xmat[8] > np.cos(0.06) for pad in left.pads)
+
+
+@pytest.mark.slow
+def test_swayed_the_feet_stay_and_the_weight_goes_to_the_left(walker: Robot) -> None:
+    neutral, swayed = (walker.data_at(walker.posture(name)) for name in ("neutral", "swayed"))
+    steps = [data.geom("one_toe").xpos - data.geom("two_toe").xpos for data in (neutral, swayed)]
+    np.testing.assert_allclose(steps[1], steps[0], atol=0.02)
+    trunk = walker.model.body(walker.trunk).id
+    places = [data.subtree_com[trunk][1] - 0.5 * (data.geom("one_toe").xpos + data.geom("two_toe").xpos)[1]
+              for data in (neutral, swayed)]  # fmt: skip
+    assert abs(places[0]) < 0.01
+    assert 0.3 < places[1] / (0.5 * steps[0][1]) < 0.6
+
+
+@pytest.mark.slow
+def test_a_kneeling_robot_stays_on_its_knees(walker: Robot) -> None:
+    """Put down in the posture, it rests on shanks and toes with the trunk upright."""
+    engine = make_engine(walker, Scene(), Physics(), threads=1)
+    state = start_state(engine, walker, Scene(), Settled(posture="kneeling", time=1.5))
+    _, x, y, _ = state.qpos[0][3:7]
+    assert 1 - 2 * (x * x + y * y) > np.cos(0.2)
+    assert state.qpos[0][2] < 0.8 * walker.neutral_height
+    data = walker.data_at(walker.posture("kneeling"))
+    shank = walker.model.body("one4").id
+    shapes = tuple(walker.model.geom(g).name for g in range(walker.model.ngeom) if walker.model.geom_bodyid[g] == shank)
+    knee, toe = lowest(walker, data, shapes), lowest(walker, data, walker.leg("l").pads)
+    assert knee[2] == pytest.approx(toe[2], abs=0.02)
+    assert toe[0] < data.subtree_com[walker.model.body(walker.trunk).id][0] < knee[0]
+
+
+def test_only_robots_on_two_legs_kneel(tmp_path: Path) -> None:
+    robot = load(tmp_path, insect(6))
+    with pytest.raises(LevadeError, match="no posture 'kneeling'"):
+        robot.posture("kneeling")
