@@ -17,6 +17,7 @@ import pytest
 from levade.cli import main
 from levade.exports import FORMATS, export
 from levade.exports.as_csv import columns
+from levade.exports.as_unitree import G1, HELD_KD, HELD_KP
 from levade.exports.samples import sample
 from levade.motions import Motion
 
@@ -89,10 +90,12 @@ def test_the_bag(here: Path, rearing: Motion, capsys: pytest.CaptureFixture[str]
     assert capsys.readouterr().out == f"1300000000 lf_haa {rearing['joint_position'][-1, 0]}\n"
 
 
-def test_unitrees_interface_with_a_stand_in_for_its_sdk(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The names are those of unitree_sdk2_python's example/go2/low_level/go2_stand_example.py."""
+def stand_in_for_unitree(
+    monkeypatch: pytest.MonkeyPatch, kind: str, command: dict[str, Any], state: dict[str, Any]
+) -> list:
+    """Put a stand-in for the SDK where imports find it; return the list of commands that it publishes."""
     written: list[Any] = []
-    motors = [SimpleNamespace(q=0.1 * i, dq=-0.1 * i) for i in range(20)]
+    motors = [SimpleNamespace(q=0.1 * i, dq=-0.1 * i) for i in range(35)]
 
     class Publisher:
         def __init__(self, topic: str, kind: object) -> None:
@@ -107,10 +110,10 @@ def test_unitrees_interface_with_a_stand_in_for_its_sdk(monkeypatch: pytest.Monk
             assert topic == "rt/lowstate"
 
         def Init(self, hear: Any, depth: int) -> None:
-            hear(SimpleNamespace(motor_state=motors))
+            hear(SimpleNamespace(motor_state=motors, **state))
 
     def low_cmd() -> SimpleNamespace:
-        return SimpleNamespace(head=[0, 0], level_flag=0, motor_cmd=[SimpleNamespace() for _ in range(20)], crc=0)
+        return SimpleNamespace(motor_cmd=[SimpleNamespace() for _ in range(35)], crc=0, **command)
 
     contents: dict[str, dict[str, Any]] = {
         "core.channel": {
@@ -118,14 +121,20 @@ def test_unitrees_interface_with_a_stand_in_for_its_sdk(monkeypatch: pytest.Monk
             "ChannelPublisher": Publisher,
             "ChannelSubscriber": Subscriber,
         },
-        "idl.default": {"unitree_go_msg_dds__LowCmd_": low_cmd},
-        "idl.unitree_go.msg.dds_": {"LowCmd_": object, "LowState_": object},
+        "idl.default": {f"{kind}_msg_dds__LowCmd_": low_cmd},
+        f"idl.{kind}.msg.dds_": {"LowCmd_": object, "LowState_": object},
         "utils.crc": {"CRC": type("CRC", (), {"Crc": lambda self, command: 7})},
     }
     for name, values in contents.items():
         module = ModuleType(f"unitree_sdk2py.{name}")
         vars(module).update(values)
         monkeypatch.setitem(sys.modules, module.__name__, module)
+    return written
+
+
+def test_unitrees_interface_with_a_stand_in_for_its_sdk(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The names are those of unitree_sdk2_python's example/go2/low_level/go2_stand_example.py."""
+    written = stand_in_for_unitree(monkeypatch, "unitree_go", {"head": [0, 0], "level_flag": 0}, {})
     scope: dict[str, Any] = {"__name__": "example"}
     exec(compile(block("class Go2"), "export.md", "exec"), scope)
     robot = scope["Go2"]()
@@ -134,6 +143,33 @@ def test_unitrees_interface_with_a_stand_in_for_its_sdk(monkeypatch: pytest.Monk
     (command,) = written
     assert vars(command.motor_cmd[3]) == {"mode": 1, "q": 3.0, "dq": 103.0, "tau": 203.0, "kp": 303.0, "kd": 403.0}
     assert (command.head[:2], command.level_flag, command.crc) == ([0xFE, 0xEF], 0xFF, 7)
+
+
+def test_g1s_interface_with_a_stand_in_for_its_sdk(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The names are those of unitree_sdk2_python's example/g1/low_level/g1_low_level_example.py."""
+    written = stand_in_for_unitree(monkeypatch, "unitree_hg", {"mode_pr": 1, "mode_machine": 0}, {"mode_machine": 5})
+    scope: dict[str, Any] = {"__name__": "example"}
+    exec(compile(block("class G1"), "export.md", "exec"), scope)
+    joints = {motor: motor.lower() for motor in G1}
+    still = {"waistyaw": 0.3, "leftwristroll": -0.2}
+    moved = [motor for motor in G1 if joints[motor] not in still]
+    robot = scope["G1"]({"provenance": {"motors": joints}, "held": still, "joints": moved})
+    indices = [i for i in range(29) if i not in (12, 19)]
+    np.testing.assert_allclose(robot.read(), [0.1 * np.array(indices), -0.1 * np.array(indices)])
+    robot.write(*(np.array(indices) + 100.0 * k for k in range(5)))
+    (command,) = written
+    assert vars(command.motor_cmd[28]) == {"mode": 1, "q": 28.0, "dq": 128.0, "tau": 228.0, "kp": 328.0, "kd": 428.0}
+    assert vars(command.motor_cmd[12]) == {
+        "mode": 1,
+        "q": 0.3,
+        "dq": 0.0,
+        "tau": 0.0,
+        "kp": HELD_KP["WaistYaw"],
+        "kd": HELD_KD,
+    }
+    assert vars(command.motor_cmd[19]) == {"mode": 1, "q": -0.2, "dq": 0.0, "tau": 0.0, "kp": 40.0, "kd": HELD_KD}
+    assert not vars(command.motor_cmd[29])
+    assert (command.mode_pr, command.mode_machine, command.crc) == (0, 5, 7)
 
 
 def test_every_format_column_and_key_is_documented(rearing: Motion, rearing_model: Any, tmp_path: Path) -> None:

@@ -13,9 +13,11 @@ from levade.engines import FOOT_CONTACT_FORCE, Fall, Physics, Settled, make_engi
 from levade.engines.ode.library import load as load_ode
 from levade.errors import LevadeError
 from levade.policies import FreePolicy, Policy
-from levade.robots import Robot, dimensions, load_robot
+from levade.robots import Robot, dimensions, load_robot, settling
 from levade.robots.limbs import read_limbs
+from levade.robots.settling import Settled as PutDown
 from levade.robots.settling import settle
+from levade.robots.shapes import support
 from levade.robots.understanding import find_trunk
 from levade.scenes import Scene
 from levade.search.objective import make_objective
@@ -98,6 +100,31 @@ def insect(legs: int) -> str:
     return f"{HEAD}{body}{''.join(parts)}</body></worldbody></mujoco>"
 
 
+def spokes(number: int, *, start: float = 0.0) -> str:
+    """Legs of coxa, femur and tibia that point in all directions; the first one is turned from ahead by an angle [rad]."""
+    parts = []
+    for k in range(number):
+        angle = start + 2 * np.pi * k / number
+        parts.append(f"""
+<body name="c{k}" pos="{0.1 * np.cos(angle)} {0.1 * np.sin(angle)} 0" euler="0 0 {angle}">
+ {hinge(f"coxa{k}", "0 0 1", -0.8, 0.8, 12)}<geom type="capsule" fromto="0 0 0 0.06 0 0" size="0.02" mass="0.15"/>
+<body name="f{k}" pos="0.06 0 0">{hinge(f"femur{k}", "0 1 0", -1.5, 1.0, 12)}
+ <geom type="capsule" fromto="0.03 0 0 0.12 0 0" size="0.015" mass="0.15"/>
+<body name="t{k}" pos="0.12 0 0">{hinge(f"tibia{k}", "0 1 0", 0.3, 2.4, 12)}
+ <geom name="tip{k}" type="capsule" fromto="0 0 0 0.15 0 0" size="0.012" mass="0.08"/></body></body></body>""")
+    body = '<body name="base" pos="0 0 0.2"><freejoint/><geom type="cylinder" size="0.1 0.03" mass="3"/>'
+    return f"{HEAD}{body}{''.join(parts)}</body></worldbody></mujoco>"
+
+
+def raised(text: str, by: float) -> str:
+    """Put everything on the trunk higher in its frame [m]."""
+    spec = mujoco.MjSpec.from_string(text)
+    trunk = spec.worldbody.first_body()
+    for part in [*trunk.geoms, *trunk.bodies]:
+        part.pos = part.pos + np.array([0.0, 0.0, by])
+    return spec.to_xml()
+
+
 def limbs_of(text: str, wanted: dict[str, str] | None = None):
     model = mujoco.MjModel.from_xml_string(text)
     return read_limbs(model, find_trunk(model, "here"), "here", wanted or {})
@@ -157,10 +184,73 @@ def test_wheels_are_locked_and_are_the_feet() -> None:
     assert sorted(limb.foot for limb in found.legs) == ["tyre0", "tyre1", "tyre2", "tyre3"]
 
 
+def test_the_height_of_the_trunk_frame_has_no_effect() -> None:
+    """Some files put its origin between the soles, or far above the head."""
+    for text in (humanoid(), insect(6)):
+        here = limbs_of(text)
+        for by in (0.83, 0.9, -2.0):
+            there = limbs_of(raised(text, by))
+            assert (there.problem, there.held) == ("", here.held)
+            assert [(one.name, one.joints) for one in there.legs] == [(one.name, one.joints) for one in here.legs]
+
+
+@pytest.mark.parametrize(("number", "start"), [(3, 0.0), (3, np.pi), (4, 0.0), (5, 0.0)])
+def test_legs_straight_ahead_and_behind_are_legs(number: int, start: float) -> None:
+    found = limbs_of(spokes(number, start=start))
+    assert [limb.kind for limb in found.legs] == ["leg"] * number
+    assert not found.held
+
+
+def test_legs_ahead_behind_and_aside_are_not_in_another_frame(tmp_path: Path) -> None:
+    robot = load(tmp_path, spokes(4))
+    assert robot.stance == "sprawled"
+    assert settle(robot).tilt < 0.05
+
+
+@pytest.mark.parametrize("start", [0.0, 0.3, np.pi / 4])
+def test_a_robot_with_one_odd_leg_does_not_stand_on_the_others(start: float) -> None:
+    text = spokes(4, start=start)
+    slides = text.replace('<joint name="tibia0"', '<joint type="slide" name="tibia0"')
+    assert "the limb from coxa0 reaches as deep as the legs" in limbs_of(slides).problem
+    tip = '<geom name="tip0" type="capsule" fromto="0 0 0 0.15 0 0" size="0.012" mass="0.08"/>'
+    bare = text.replace(tip, '<inertial pos="0 0 0" mass="0.1" diaginertia="1e-4 1e-4 1e-4"/>')
+    with pytest.raises(LevadeError, match=r"no foot|nothing collides at the end of the limb from coxa0") as raised:
+        limbs_of(bare)
+    assert "0" in str(raised.value)
+
+
+def test_an_arm_without_fingers_that_turns_without_end_has_no_wheel() -> None:
+    text = humanoid()
+    for side in "pq":
+        text = text.replace(f'name="{side}_turn" axis="0 0 1" range="-1.5 1.5"', f'name="{side}_turn" axis="0 0 1"')
+        for k in (-1, 1):
+            joint = hinge(f"{side}_finger{k}", "1 0 0", -0.5, 0.5, 1)
+            finger = f'<body name="{side}_finger{k}" pos="0 {0.02 * k} -0.06">{joint}'
+            text = text.replace(f'{finger}<geom type="sphere" size="0.01" mass="0.02"/></body>', "")
+    assert "finger" not in text
+    found = limbs_of(text, {"arm": "free"})
+    assert found.wheels == ()
+    assert found.legs[2].joints == ("p_reach", "p_lift", "p_elbow", "p_turn")
+
+
 def test_a_robot_on_one_leg_is_refused(tmp_path: Path) -> None:
     text = humanoid().replace(leg("two", -0.1), "")
     with pytest.raises(LevadeError, match="levade moves two and more legs"):
         load(tmp_path, text)
+
+
+@pytest.mark.parametrize(
+    ("text", "old", "new", "why"),
+    [
+        (humanoid(), leg("two", -0.1), "", "no two of its limbs that can stand are mirror images left and right"),
+        (humanoid(), leg("one", 0.1) + leg("two", -0.1), "", "the limbs that may be legs are arms: they hang high"),
+        (spokes(4), 'name="tibia0"', 'name="tibia0" type="slide"', "the limb from coxa0 reaches as deep as the legs"),
+    ],
+)
+def test_a_refusal_says_why_the_limbs_are_no_legs(tmp_path: Path, text: str, old: str, new: str, why: str) -> None:
+    assert old in text
+    with pytest.raises(LevadeError, match=f"this robot has .*; {why}"):
+        load(tmp_path, text.replace(old, new))
 
 
 def test_two_legs_ahead_of_each_other_are_in_another_frame(tmp_path: Path) -> None:
@@ -179,6 +269,32 @@ def test_a_humanoid_stands_for_three_seconds(walker: Robot) -> None:
     assert settled.tilt < 0.15
     assert abs(settled.sag) < 0.05 * dimensions(walker).height
     assert walker.stance == "upright"
+
+
+def turned_round(text: str) -> str:
+    """Turn everything on the trunk about the vertical by half a turn: the robot faces backward in the trunk's frame."""
+    spec = mujoco.MjSpec.from_string(text)
+    for part in spec.worldbody.first_body().bodies:
+        part.pos = part.pos * np.array([-1.0, -1.0, 1.0])
+        part.quat = np.array([0.0, 0.0, 0.0, 1.0])
+    return spec.to_xml()
+
+
+def test_a_push_forward_is_one_to_where_the_toes_point(
+    walker: Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    backward = load(tmp_path, turned_round(humanoid()))
+    assert (walker.ahead, backward.ahead) == (1.0, -1.0)
+    for robot, felled in ((walker, 1.0), (backward, -1.0)):
+
+        def settled(
+            _: Robot, *, push: tuple[float, float] = (0.0, 0.0), felled: float = felled, **__: float
+        ) -> PutDown:
+            return PutDown(0.0, 1.0 if push[0] * felled > 0 else 0.0, {}, False)
+
+        monkeypatch.setattr(settling, "settle", settled)
+        (said,) = [str(finding) for finding in settling.doubt_standing(robot)]
+        assert ", forward, fells it" in said
 
 
 @pytest.fixture(scope="module")
@@ -358,3 +474,54 @@ def test_sketches_have_any_duration_that_the_task_allows(walker: Robot) -> None:
     assert horizons.max() > 3.9
     assert horizons.min() >= 2.0 - 1e-9
     assert horizons.max() <= 4.0 + 1e-9
+
+
+def lowest(robot: Robot, data: mujoco.MjData, geoms: tuple[str, ...]) -> np.ndarray:
+    points = [support(robot.model, data, robot.model.geom(geom).id, np.array([0.0, 0.0, -1.0])) for geom in geoms]
+    return min(points, key=lambda point: point[2])
+
+
+@pytest.mark.slow
+def test_on_one_leg_the_centre_of_mass_is_over_its_sole(walker: Robot) -> None:
+    data = walker.data_at(walker.posture("one-leg"))
+    left, right = walker.leg("l"), walker.leg("r")
+    com = data.subtree_com[walker.model.body(walker.trunk).id]
+    sole = np.mean([data.geom(pad).xpos for pad in left.pads], axis=0)
+    assert np.abs(com[:2] - sole[:2]).max() < 0.02
+    lift = lowest(walker, data, right.pads)[2] - lowest(walker, data, left.pads)[2]
+    assert lift > 0.1 * dimensions(walker).leg
+    assert all(data.geom(pad).xmat[8] > np.cos(0.06) for pad in left.pads)
+
+
+@pytest.mark.slow
+def test_swayed_the_feet_stay_and_the_weight_goes_to_the_left(walker: Robot) -> None:
+    neutral, swayed = (walker.data_at(walker.posture(name)) for name in ("neutral", "swayed"))
+    steps = [data.geom("one_toe").xpos - data.geom("two_toe").xpos for data in (neutral, swayed)]
+    np.testing.assert_allclose(steps[1], steps[0], atol=0.02)
+    trunk = walker.model.body(walker.trunk).id
+    places = [data.subtree_com[trunk][1] - 0.5 * (data.geom("one_toe").xpos + data.geom("two_toe").xpos)[1]
+              for data in (neutral, swayed)]  # fmt: skip
+    assert abs(places[0]) < 0.01
+    assert 0.3 < places[1] / (0.5 * steps[0][1]) < 0.6
+
+
+@pytest.mark.slow
+def test_a_kneeling_robot_stays_on_its_knees(walker: Robot) -> None:
+    """Put down in the posture, it rests on shanks and toes with the trunk upright."""
+    engine = make_engine(walker, Scene(), Physics(), threads=1)
+    state = start_state(engine, walker, Scene(), Settled(posture="kneeling", time=1.5))
+    _, x, y, _ = state.qpos[0][3:7]
+    assert 1 - 2 * (x * x + y * y) > np.cos(0.2)
+    assert state.qpos[0][2] < 0.8 * walker.neutral_height
+    data = walker.data_at(walker.posture("kneeling"))
+    shank = walker.model.body("one4").id
+    shapes = tuple(walker.model.geom(g).name for g in range(walker.model.ngeom) if walker.model.geom_bodyid[g] == shank)
+    knee, toe = lowest(walker, data, shapes), lowest(walker, data, walker.leg("l").pads)
+    assert knee[2] == pytest.approx(toe[2], abs=0.02)
+    assert toe[0] < data.subtree_com[walker.model.body(walker.trunk).id][0] < knee[0]
+
+
+def test_only_robots_on_two_legs_kneel(tmp_path: Path) -> None:
+    robot = load(tmp_path, insect(6))
+    with pytest.raises(LevadeError, match="no posture 'kneeling'"):
+        robot.posture("kneeling")

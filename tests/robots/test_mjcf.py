@@ -101,6 +101,19 @@ def test_what_is_no_position_servo_is_replaced_by_one(
     assert robot.spec().compile().nu == 24
 
 
+@pytest.mark.parametrize(
+    "default",
+    ['ctrlrange="-1 1"', 'gear="25" ctrlrange="-1 1"', 'forcerange="-1 1"', 'ctrllimited="true" ctrlrange="-1 1"'],
+)
+def test_defaults_of_actuators_are_not_those_of_levades_servos(tmp_path: Path, quadruped: type, default: str) -> None:
+    """The servos are those of the same file with the numbers at each actuator."""
+    text = quadruped().mjcf('<motor joint="{}"/>')
+    ours = load(tmp_path, text, ("<worldbody>", f"<default><motor {default}/></default><worldbody>")).spec().compile()
+    theirs = load(tmp_path, quadruped().mjcf(f'<motor joint="{{}}" {default}/>')).spec().compile()
+    for name in ("gear", "ctrllimited", "ctrlrange", "forcelimited", "forcerange", "gainprm", "biasprm"):
+        np.testing.assert_array_equal(getattr(ours, f"actuator_{name}"), getattr(theirs, f"actuator_{name}"), name)
+
+
 def test_servos_geared_are_those_of_the_joint(tmp_path: Path, quadruped: type) -> None:
     robot = load(tmp_path, quadruped().mjcf('<position joint="{}" kp="2" kv="0.1" gear="5" forcerange="-3 3"/>'))
     np.testing.assert_allclose(robot.actuation.kp, 50)

@@ -69,6 +69,59 @@ def test_a_start_a_horizon_and_a_robot_are_replaced(tmp_path: Path) -> None:
     assert task.horizon == load_task("self-righting", changes=["horizon={minimum: 0.5, maximum: 1.5}"]).horizon
 
 
+STANDING = """
+name: base
+extends: squat-jump
+horizon: 3
+stances:
+  level:
+    description: On four legs
+    horizon: 2
+    policy: {kernels: 5, settle: 0.3}
+    costs: {straight: null, effort: {weight: 3}, joint_limits: {weight: 3}}
+    search: {trials: 7, population: 6}
+  upright: it has two legs
+"""
+
+
+def test_its_own_words_win_over_what_the_other_changes_for_a_stance(tmp_path: Path) -> None:
+    written(tmp_path / "base.yaml", STANDING)
+    text = """
+    name: child
+    extends: base.yaml
+    horizon: 4
+    policy: {settle: 0.2}
+    costs: {effort: {weight: 1}, joint_limits: null}
+    search: {trials: 9}
+    stances:
+      level: {search: {population: 8}}
+    """
+    base, child = load_task(str(tmp_path / "base.yaml")), load_task(written(tmp_path / "child.yaml", text))
+    assert (base.horizon, base.policy.settle, base.search.trials) == (2.0, 0.3, 7)
+    assert (child.horizon, child.policy.settle, child.search.trials) == (4.0, 0.2, 9)
+    assert (child.policy.kernels, child.search.population, child.description) == (5, 8, "On four legs")
+    assert child.costs["effort"].weight == 1
+    assert base.costs.keys() - child.costs.keys() == {"joint_limits"}
+    assert "straight" not in child.costs
+
+
+def test_a_reason_why_the_other_does_not_apply_stays_unless_it_says_otherwise(tmp_path: Path) -> None:
+    written(tmp_path / "base.yaml", STANDING.replace("level:", "sprawled:").replace("upright:", "level:"))
+    with pytest.raises(LevadeError, match="child: does not apply to hyq2max: it has two legs"):
+        load_task(written(tmp_path / "child.yaml", "name: child\nextends: base.yaml\nhorizon: 4\n"))
+    text = "name: child\nextends: base.yaml\nstances: {level: {horizon: 5}}\n"
+    assert load_task(written(tmp_path / "child.yaml", text)).horizon == 5.0
+
+
+def test_paths_in_stances_are_relative_to_the_file_that_names_them(tmp_path: Path) -> None:
+    (tmp_path / "hills").mkdir()
+    written(
+        tmp_path / "hills" / "next.yaml", "name: next\nextends: squat-jump\nstart: {settled: {posture: crouched}}\n"
+    )
+    text = "name: onward\nextends: squat-jump\nstances: {level: {policy: {goal: {like: next.yaml}}}}\n"
+    assert load_task(written(tmp_path / "hills" / "on.yaml", text)).policy.goal == "crouched"
+
+
 def test_another_optimizer_comes_without_the_settings(tmp_path: Path) -> None:
     text = "name: plain\nextends: squat-jump\nsearch: {{{}}}\n"
     search = load_task(written(tmp_path / "plain.yaml", text.format("optimizer: cma"))).search

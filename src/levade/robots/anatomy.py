@@ -198,8 +198,9 @@ def _found_legs(
     if limbs.problem or bound:
         if isinstance(problem, NoFootError):
             raise LevadeError(f"{problem}{lost and f' ({lost})'}") from None
-        reason = why_no_legs(draft.loops, bound or draft.couplings)
-        raise LevadeError(f"{problem}{reason and f'; {reason}'}") from None
+        reasons = [limbs.problem, why_no_legs(draft.loops, bound or draft.couplings)]
+        more = [reason for reason in reasons if reason and reason not in str(problem)]
+        raise LevadeError("; ".join([str(problem), *more])) from None
     if limbs.wheels:
         draft.findings.append(
             note(named("joint", limbs.wheels), "turns a wheel: locked" if len(limbs.wheels) == 1 else "turn wheels: locked",

@@ -16,14 +16,13 @@ import numpy as np
 
 from levade.arrays import Array
 from levade.errors import LevadeError
-from levade.robots.findings import some
 from levade.robots.shapes import reach, support, thickness
-from levade.robots.understanding import Leg, Tree, find_foot, level
+from levade.robots.understanding import Leg, NoFootError, Tree, find_foot, level
 
 _HAND = 0.8
 """Parts beyond a fork that reach less than this share of the limb before it belong to a hand and are not separate limbs."""
 _DEEP = 0.75
-"""Least depth below the trunk that a leg reaches, as a share of the deepest limb's."""
+"""Least depth that a leg reaches below the first joint of the deepest limb, as a share of that limb's."""
 _BELOW = 0.2
 """Least depth below the trunk that legs reach, as a share of their length."""
 _ABOVE = 0.25
@@ -52,6 +51,7 @@ class Branch:
         length: Length along its joints [m].
         start: z of its first joint [m].
         tip: Its end at zero angles [m], shape (3,).
+        wheels: Joints after its own that may turn a wheel.
     """
 
     stem: tuple[int, ...]
@@ -61,6 +61,7 @@ class Branch:
     length: float = 0.0
     start: float = 0.0
     tip: Array = field(default_factory=lambda: np.zeros(3))
+    wheels: list[int] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -99,15 +100,17 @@ def read_limbs(model: mujoco.MjModel, trunk: int, where: str, wanted: Mapping[st
     level(model, data, trunk)
     tree = Tree(model)
     branches = [branch for start in tree.starts(trunk) for branch in _branches(tree, data, start, ())]
-    wheels = _take_wheels(model, data, tree, branches) if wanted.get("wheel") != "free" else []
+    if wanted.get("wheel") != "free":
+        _take_wheels(model, data, tree, branches)
+    axles = [branch for branch in branches if not branch.joints]
     branches = [branch for branch in branches if branch.joints]
-    _measure(model, data, tree, trunk, branches)
+    _measure(model, data, tree, branches)
     pairs = _pairs(model, data, branches)
     standing = _standing(model, data, branches, pairs)
     body = _colliding(model, {b for b in range(model.nbody) if model.body_weldid[b] == model.body_weldid[trunk]})
     floor = min((float(support(model, data, g, _DOWN)[2]) for g in body), default=0.0)
     middle = float(data.subtree_com[trunk, 2])
-    solid = all(_colliding(model, tree.below(int(model.jnt_bodyid[branch.joints[-1]]))) for branch in standing)
+    solid = all(_solid(model, tree, branch) for branch in standing)
     if (
         standing
         and solid
@@ -117,14 +120,27 @@ def read_limbs(model: mujoco.MjModel, trunk: int, where: str, wanted: Mapping[st
         )
     ):
         return Limbs((), (), (), "the limbs that may be legs are arms: they hang high, or hardly reach below the trunk")
-    stray = _stray(data, branches, standing)
+    rest = [branch for branch in branches if all(branch is not one for one in standing)]
+    for branch in rest if solid else ():
+        if not _solid(model, tree, branch) and _alike(model, data, branch, standing):
+            name = model.joint(branch.joints[0]).name
+            raise NoFootError(
+                f"{where}: nothing collides at the end of the limb from {name}, which is like the legs; give it a collision"
+                " shape, preferably a sphere at the tip"
+            )
+    stray = _stray(data, rest, standing)
     if stray is not None:
         name = model.joint(stray.joints[0]).name
         return Limbs((), (), (), f"the limb from {name} reaches as deep as the legs, but is not one of them")
     if len(standing) < 2:
         return Limbs((), (), (), _census(model, branches))
+    turned = [branch for branch in rest if branch.wheels]  # a wrist, for example
+    for branch in turned:
+        branch.joints += branch.wheels
+    _measure(model, data, tree, turned)
+    rolling = [branch for branch in axles if _lowest(model, data, tree, branch.body) < floor]
+    wheels = [joint for branch in [*standing, *rolling] for joint in branch.wheels]
     legs = _named_legs(model, data, trunk, standing, where)
-    rest = [branch for branch in branches if all(branch is not one for one in standing)]
     legs += _others(model, data, tree, rest, pairs, standing, wanted)
     used = {joint for leg in legs for joint in leg.joints}
     free = mujoco.mjtJoint.mjJNT_FREE
@@ -191,13 +207,31 @@ def _colliding(model: mujoco.MjModel, bodies: set[int]) -> list[int]:
     ]
 
 
-def _take_wheels(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, branches: list[Branch]) -> list[int]:
-    """Remove wheels from their branches: last joints that turn without limit about the middle of what they carry."""
-    found = []
+def _take_wheels(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, branches: Sequence[Branch]) -> None:
+    """Take last joints that turn without limit about the middle of what they carry out of the joints of their branches."""
     for branch in branches:
         while branch.joints and _is_wheel(model, data, tree, branch.joints[-1]):
-            found.append(branch.joints.pop())
-    return found
+            branch.wheels.insert(0, branch.joints.pop())
+
+
+def _solid(model: mujoco.MjModel, tree: Tree, branch: Branch) -> bool:
+    """Tell whether anything collides at the end of a branch."""
+    return bool(_colliding(model, tree.below(int(model.jnt_bodyid[branch.joints[-1]]))))
+
+
+def _lowest(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, body: int) -> float:
+    """Return z of the lowest point of what a body carries [m]."""
+    geoms = _colliding(model, tree.below(body))
+    return min((float(support(model, data, g, _DOWN)[2]) for g in geoms), default=np.inf)
+
+
+def _alike(model: mujoco.MjModel, data: mujoco.MjData, branch: Branch, standing: Sequence[Branch]) -> bool:
+    """Tell whether the joints of a branch do the same as those of a leg."""
+    own = limb_roles(model, data, [model.joint(j).name for j in branch.joints], branch.tip)
+    return any(
+        branch.stem == leg.stem and own == limb_roles(model, data, [model.joint(j).name for j in leg.joints], leg.tip)
+        for leg in standing
+    )
 
 
 def _is_wheel(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, joint: int) -> bool:
@@ -216,7 +250,7 @@ def _is_wheel(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, joint: int
     return True
 
 
-def _measure(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, trunk: int, branches: Sequence[Branch]) -> None:
+def _measure(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, branches: Sequence[Branch]) -> None:
     """Measure, by sampling, how deep every branch reaches within its ranges, and where it ends."""
     generator = np.random.default_rng(0)
     geoms = [_colliding(model, tree.below(int(model.jnt_bodyid[branch.joints[-1]]))) for branch in branches]
@@ -288,29 +322,41 @@ def _standing(
         paired = able if len(able) > 2 else []
     if not paired:
         return []
-    lowest = min(branches[i].low for i in able)  # a deeper one without an image is a leg that lacks its partner
-    deep = [i for i in paired if branches[i].low <= (_DEEP * lowest if lowest < 0 else lowest + 1e-9)]
+    deepest = min((branches[i] for i in able), key=lambda branch: branch.low)  # one without an image lacks its partner
+    enough = deepest.start + _DEEP * (deepest.low - deepest.start) + 1e-9
+    deep = [i for i in paired if branches[i].low <= enough]
+    width = float(np.mean([abs(data.xanchor[branches[k].joints[0]][1]) for k in deep])) if deep else 0.0
     alike = [
         i
         for i in able  # spokes straight ahead and behind have no image, but are like the others
         if i not in deep and len(branches[i].joints) in {len(branches[k].joints) for k in deep}
-        and branches[i].low <= _DEEP * lowest and len(deep) > 2 and not branches[i].stem
+        and branches[i].low <= enough and not branches[i].stem
+        and (len(deep) > 2 or not _aside(data, branches[i], width))
     ]  # fmt: skip
     chosen = sorted([*deep, *alike])
     return [branches[i] for i in chosen if len(chosen) <= 8]
 
 
-def _stray(data: mujoco.MjData, branches: Sequence[Branch], standing: Sequence[Branch]) -> Branch | None:
-    """Find a limb on one side that reaches as deep as legs but is not one; an arm or a tail in the middle may do so."""
+def _stray(data: mujoco.MjData, rest: Sequence[Branch], standing: Sequence[Branch]) -> Branch | None:
+    """Find a limb that reaches as deep as legs but is not one.
+
+    An arm or a tail in the middle, which has another number of joints than the legs, may do so.
+    """
     if not standing:
         return None
-    deep = _DEEP * max(branch.low for branch in standing)
+    hips = float(np.mean([branch.start for branch in standing]))
+    deep = hips + _DEEP * (max(branch.low for branch in standing) - hips)
     width = float(np.mean([abs(data.xanchor[branch.joints[0]][1]) for branch in standing]))
-    for branch in branches:
-        leg = any(branch is one for one in standing)
-        if not leg and branch.low <= deep < 0 and abs(data.xanchor[branch.joints[0]][1]) > 0.25 * width > 0:
+    counts = {len(branch.joints) for branch in standing}
+    for branch in rest:
+        if branch.low <= deep and (_aside(data, branch, width) or len(branch.joints) in counts):
             return branch
     return None
+
+
+def _aside(data: mujoco.MjData, branch: Branch, width: float) -> bool:
+    """Tell whether a branch starts on one side, as compared with where legs start."""
+    return abs(float(data.xanchor[branch.joints[0]][1])) > 0.25 * width > 0
 
 
 def _named_legs(
@@ -485,6 +531,7 @@ def limb_roles(model: mujoco.MjModel, data: mujoco.MjData, joints: Sequence[str]
 
 def _census(model: mujoco.MjModel, branches: Sequence[Branch]) -> str:
     if not branches:
-        return "this model has no joints besides its free base"
-    counted = [f"{len(b.joints)} from {model.joint(b.joints[0]).name}" for b in branches]
-    return f"no two limbs of two to eight hinges stand symmetrically left and right of the trunk (limbs: {some(counted, 6)})"
+        return "none of its limbs can stand" if model.njnt > 1 else "this model has no joints besides its free base"
+    if len(branches) == 1:
+        return "one limb alone does not stand"
+    return "no two of its limbs that can stand are mirror images left and right of the trunk"

@@ -204,6 +204,7 @@ class PostureSearch:
         alike: tuple[list[int], list[int], Array, list[int]] | None = None,
         *,
         seed: int = 1,
+        spread: float = 0.6,
     ) -> Array:
         """Search the angles of least cost for some limbs.
 
@@ -214,6 +215,7 @@ class PostureSearch:
             tries: Trials per joint.
             alike: Which joints move alike (see `_leaders`). By default left and right ones do.
             seed: Seed of the search.
+            spread: Initial step, in quarters of the joints' ranges of at most 2 rad.
         """
         import cma
 
@@ -242,7 +244,7 @@ class PostureSearch:
             "randn": np.random.RandomState(seed).randn,
             "tolfun": 1e-6,
         }
-        es = cma.CMAEvolutionStrategy(np.zeros(len(leaders)), 0.6, options)
+        es = cma.CMAEvolutionStrategy(np.zeros(len(leaders)), spread, options)
         while not es.stop():
             asked = es.ask()
             es.tell(asked, [total(u) for u in asked])

@@ -33,6 +33,22 @@ from levade.robots.urdf import read_urdf
 from levade.robots.world import collide_as_paired, float_alone, leave_only, robot_root
 
 _UNITS = "kg and kg m2"
+_OF_ACTUATORS = (
+    *(
+        "ctrllimited",
+        "ctrlrange",
+        "forcelimited",
+        "forcerange",
+        "actlimited",
+        "actrange",
+        "gear",
+        "inheritrange",
+        "lengthrange",
+    ),
+    *("dyntype", "dynprm", "gaintype", "gainprm", "biastype", "biasprm", "actdim", "actearly", "armature", "damping"),
+    *("delay", "nsample", "interp", "cranklength"),
+)
+"""Properties of actuators for which a file may give defaults."""
 _FUSED = " The static bodies of the spec were fused before this error, and remain so."
 
 
@@ -311,11 +327,9 @@ def _strip(draft: Draft, model: mujoco.MjModel, root: str | None) -> None:
     spec = draft.spec
     for element in [*spec.sensors, *spec.actuators, *spec.keys]:
         spec.delete(element)
-    usual = spec.default.actuator
-    if usual.ctrllimited == mujoco.mjtLimited.mjLIMITED_TRUE or usual.dyntype != mujoco.mjtDyn.mjDYN_NONE:
-        plain = mujoco.MjSpec().default.actuator  # otherwise added servos would inherit the file's defaults
-        for name in ("ctrllimited", "ctrlrange", "dyntype", "dynprm", "gaintype", "gainprm", "biastype", "biasprm"):
-            setattr(usual, name, getattr(plain, name))
+    usual, plain = spec.default.actuator, mujoco.MjSpec().default.actuator
+    for name in _OF_ACTUATORS:  # otherwise added servos would inherit the file's defaults
+        setattr(usual, name, getattr(plain, name))
     if not draft.urdf:
         collide_as_paired(spec, model, root, draft.findings)
     leave_only(spec, root, draft.findings)

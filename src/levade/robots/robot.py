@@ -27,6 +27,8 @@ from levade.robots.findings import Finding
 from levade.robots.shapes import balls, support
 from levade.robots.understanding import Leg
 
+ON_TWO_LEGS = ("swayed", "one-leg", "kneeling")
+"""Postures of every robot on two legs, searched when asked for: see `levade.robots.poses`."""
 _TOES = 0.02
 """Share of the height by which soles must be ahead of the ankles to show which way the robot faces."""
 _ROLES = {"haa": "hip abduction", "hfe": "hip flexion", "kfe": "knee"}
@@ -128,6 +130,16 @@ class Robot:
                 return leg
         raise LevadeError(f"robot {self.name}: no leg {name!r}; {did_you_mean(name, [leg.name for leg in self.legs])}")
 
+    @property
+    def posture_names(self) -> tuple[str, ...]:
+        """Names of all postures, those included that are searched when asked for."""
+        more = ON_TWO_LEGS if self.stance == "upright" else ()
+        return (*self.postures, *(name for name in more if name not in self.postures))
+
+    @cached_property
+    def _poses(self) -> dict[str, Array]:
+        return {}
+
     def posture(self, posture: str | Mapping[str, float | str]) -> Array:
         """Return a posture by name, or the neutral posture with some legs or joints changed.
 
@@ -143,9 +155,16 @@ class Robot:
             LevadeError: If a name is unknown or an angle is out of range.
         """
         if isinstance(posture, str):
-            if posture not in self.postures:
-                raise LevadeError(f"robot {self.name}: no posture {posture!r}; {did_you_mean(posture, self.postures)}")
-            return self.postures[posture].copy()
+            if posture in self.postures:
+                return self.postures[posture].copy()
+            if posture not in self.posture_names:
+                hint = did_you_mean(posture, self.posture_names)
+                raise LevadeError(f"robot {self.name}: no posture {posture!r}; {hint}")
+            from levade.robots.poses import pose
+
+            if posture not in self._poses:
+                self._poses[posture] = pose(self, posture)
+            return self._poses[posture].copy()
         from levade.robots.description import per_joint
 
         angles = self.postures["neutral"].copy()

@@ -128,7 +128,8 @@ def doubt_standing(robot: Robot) -> Iterator[Finding]:
 
 def _doubt_balance(robot: Robot, height: float) -> Iterator[Finding]:
     """Warn of robots on two legs that a slight push fells."""
-    ways = {"forward": (_PUSH, 0.0), "backward": (-_PUSH, 0.0), "sideways": (0.0, _PUSH)}
+    ahead = _PUSH * robot.ahead
+    ways = {"forward": (ahead, 0.0), "backward": (-ahead, 0.0), "sideways": (0.0, _PUSH)}
     felled = []
     for way, push in ways.items():
         pushed = settle(robot, time=BALANCE_TIME, push=push)

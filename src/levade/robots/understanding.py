@@ -201,7 +201,7 @@ def find_legs(model: mujoco.MjModel, trunk: int, where: str) -> tuple[tuple[Leg,
             f"{where}: levade moves two and more legs of two to eight hinges each; {_census(model, limbs)}"
         )
     for limb in legs:
-        _check_roles(model, data, trunk, limb, where)
+        _check_roles(model, data, trunk, limb, legs, where)
     centres = np.array([data.xanchor[limb.joints].mean(axis=0) for limb in legs])
     middle = centres.mean(axis=0)
     quadrants = [
@@ -209,7 +209,7 @@ def find_legs(model: mujoco.MjModel, trunk: int, where: str) -> tuple[tuple[Leg,
         for centre in centres
     ]
     if sorted(quadrants) != sorted(LEG_NAMES):
-        turned = _turned(model, data, legs[0], np.array([data.xaxis[j] for j in legs[0].joints]))
+        turned = _turned(model, data, legs[0], legs)
         kind = FrameError if turned else LevadeError
         raise kind(
             f"{where}: its four legs are not left, right, front and hind in the frame of {model.body(trunk).name}"
@@ -305,14 +305,16 @@ def _is_serial(model: mujoco.MjModel, limb: Limb) -> bool:
     return not limb.branches and all(model.jnt_type[j] == mujoco.mjtJoint.mjJNT_HINGE for j in limb.joints)
 
 
-def _check_roles(model: mujoco.MjModel, data: mujoco.MjData, trunk: int, limb: Limb, where: str) -> None:
+def _check_roles(
+    model: mujoco.MjModel, data: mujoco.MjData, trunk: int, limb: Limb, legs: list[Limb], where: str
+) -> None:
     """Raise LevadeError if a limb's hinges are not those of a leg."""
     names = tuple(model.joint(j).name for j in limb.joints)
     named = roles(model, names)
     if named.count("hfe") == named.count("kfe") == 1:
         return
     axes = np.array([data.xaxis[j] for j in limb.joints])
-    turned = _turned(model, data, limb, axes)
+    turned = _turned(model, data, limb, legs)
     remedy = f"it seems that {turned} there: turn the model" if turned else "this limb is not such a leg"
     kind = FrameError if turned else LevadeError
     raise kind(
@@ -321,27 +323,33 @@ def _check_roles(model: mujoco.MjModel, data: mujoco.MjData, trunk: int, limb: L
     )
 
 
-def _turned(model: mujoco.MjModel, data: mujoco.MjData, limb: Limb, axes: Array) -> str:
+def _turned(model: mujoco.MjModel, data: mujoco.MjData, limb: Limb, legs: list[Limb]) -> str:
     """Describe which axes point forward and up if the limb is a leg in another frame; empty if it is not a leg."""
-    along = _role_axes(axes)
+    along = _role_axes(np.array([data.xaxis[j] for j in limb.joints]))
     left = along[-1]
     if along[-2] != left or (len(along) > 2 and along[0] == left):
         return ""
-    body = int(model.jnt_bodyid[limb.joints[-1]])
-    tips = [data.geom_xpos[g] for g in range(model.ngeom) if int(model.geom_bodyid[g]) == body and _collides(model, g)]
-    if not tips:
-        return ""
-    hang = tips[0] - data.xanchor[limb.joints[0]]
-    if int(np.argmax(np.abs(hang))) == left:
+    hangs = [_hang(model, data, leg) for leg in (limb, *legs)]
+    hang = hangs[0]
+    if hang is None or int(np.argmax(np.abs(hang))) == left:
         return ""
     # three hinges determine which way is up; a leg of two hangs down more than it reaches forward
     up = 3 - left - along[0] if len(along) > 2 else int(np.argmax(np.abs(hang)))
     forward = 3 - left - up
     if (forward, left, up) == (0, 1, 2):
         return ""
+    if any(other is not None and other[up] * hang[up] < 0 for other in hangs):  # legs that point outward, as an ant's
+        return ""
     if up == 2:
         return f"{'xyz'[forward]} is forward"
     return f"{'-' if hang[up] > 0 else ''}{'xyz'[up]} is up and {'xyz'[forward]} along the robot"
+
+
+def _hang(model: mujoco.MjModel, data: mujoco.MjData, limb: Limb) -> Array | None:
+    """Return the vector from a limb's first joint to what it carries [m], shape (3,); None if nothing collides there."""
+    body = int(model.jnt_bodyid[limb.joints[-1]])
+    tips = [data.geom_xpos[g] for g in range(model.ngeom) if int(model.geom_bodyid[g]) == body and _collides(model, g)]
+    return tips[0] - data.xanchor[limb.joints[0]] if tips else None
 
 
 def _role_axes(axes: Array) -> list[int]:
@@ -472,10 +480,6 @@ def _census(model: mujoco.MjModel, limbs: list[Limb]) -> str:
     sizes = [len(limb.joints) for limb in limbs if _is_serial(model, limb)]
     if any(sizes.count(count) > 4 for count in (2, 3)):
         return f"{text}; if four of them are its legs, name those in a robot.yaml (legs: ...)"
-    if len([size for size in sizes if size > 3]) == 4:
-        return (
-            f"{text}; if these are legs, hold the joints beyond three fixed in a robot.yaml (fixed: {{joint: angle}})"
-        )
     return text
 
 

@@ -118,10 +118,11 @@ def load_task(name_or_path: str | Path, *, robot: str | Robot | None = None, cha
     made, name = (robot, robot.name) if isinstance(robot, Robot) else (None, robot)
     path = find(str(name_or_path))
     content = read_task(path)
+    own = build(RobotChoice, content.get("robot") or {}, where=f"{path}.robot").name
     with_robot = [change for change in changes if change.partition("=")[0].startswith("robot.")]
     if name is not None or with_robot:  # first, because numbers may be in units of this robot
         content["robot"] = _other_robot(content.get("robot"), name, with_robot, where=str(path))
-    task = task_from_dict(content, where=str(path), robot=made)
+    task = written = task_from_dict(content, where=str(path), robot=made)
     rest = [change for change in changes if change not in with_robot]
     if rest:
         content = task_to_dict(task)
@@ -133,6 +134,8 @@ def load_task(name_or_path: str | Path, *, robot: str | Robot | None = None, cha
             ):
                 content["search"]["settings"] = {}
         task = _changed(content, made)
+    if task.robot.name != own:
+        stances.check_postures(task, written, own, made)
     return task
 
 

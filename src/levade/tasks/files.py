@@ -22,6 +22,9 @@ _BUILT_IN = Path(__file__).parent / "data"
 EXTENDS = "extends"
 """Key of a task file that names another task, from which it takes everything that it leaves out."""
 
+BY_STANCE = "stances"
+"""Key of a task file with what differs by how a robot stands: see `levade.tasks.stances`."""
+
 MERGED = ("scene", "physics", "policy", "costs", "success", "search", "robust", "feedback")
 """Tables of which a task that extends another one names only the keys that it changes."""
 
@@ -83,7 +86,8 @@ def read_task(path: Path, *, seen: tuple[Path, ...] = ()) -> dict[str, Any]:
     """Read the tables of a task file, completed from those of the task that it extends.
 
     A table changes the keys that it names, and a key that is null in ``costs`` or ``success`` is removed. Everything else, such
-    as a whole cost, criterion or start, replaces that of the other task.
+    as a whole cost, criterion or start, replaces that of the other task. The same holds for what the other task changes in its
+    ``stances``.
 
     Args:
         path: The file. Paths in it are relative to it; those in the result, to the working directory.
@@ -109,15 +113,37 @@ def read_task(path: Path, *, seen: tuple[Path, ...] = ()) -> dict[str, Any]:
         raise LevadeError(f"{path}: {EXTENDS}: {names}, in a circle; extend a task that does not extend this one")
     if not isinstance(content.get("name"), str):
         raise LevadeError(f"{path}: name: is missing; give the task that extends {named} a name of its own")
-    return extended(read_task(other, seen=seen), content)
+    theirs = read_task(other, seen=seen)
+    merged = extended(theirs, content)
+    if isinstance(theirs.get(BY_STANCE), Mapping):
+        merged[BY_STANCE] = _extended_stances(theirs[BY_STANCE], content)
+    return merged
 
 
-def extended(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
+def _extended_stances(theirs: Mapping[str, Any], content: dict[str, Any]) -> Any:
+    """Merge the stances of a task with one that extends it, so that what the latter says itself holds for every stance."""
+    own = content.get(BY_STANCE, {})
+    if not isinstance(own, Mapping):
+        return own  # `levade.tasks.stances` reports it
+    plain = {key: value for key, value in content.items() if key != BY_STANCE}
+    merged = dict(own)
+    for name, changes in theirs.items():
+        mine = own.get(name, {})
+        if isinstance(changes, Mapping) and isinstance(mine, Mapping):
+            both = extended(dict(changes), plain, nulls=True)
+            merged[name] = extended(both, dict(mine), nulls=True)
+        elif name not in own:
+            merged[name] = changes
+    return merged
+
+
+def extended(base: dict[str, Any], changes: dict[str, Any], *, nulls: bool = False) -> dict[str, Any]:
     """Merge the tables of a task with those of one that extends it.
 
     Args:
         base: Tables of the task.
         changes: Tables of the task that extends it.
+        nulls: Whether to keep costs and criteria that are null, because the result is itself a table of changes.
 
     Returns:
         The merged tables.
@@ -130,7 +156,7 @@ def extended(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
         table = {**{key: value for key, value in theirs.items() if key not in ours}, **ours}
         if name == "search" and "optimizer" in ours and "settings" not in ours:
             table.pop("settings", None)  # they belong to the other optimizer
-        if name in ("costs", "success"):
+        if name in ("costs", "success") and not nulls:
             table = {key: value for key, value in table.items() if value is not None}
         content[name] = table
     return content
@@ -141,7 +167,7 @@ def _is_path(text: str) -> bool:
     return Path(text).suffix in (".yaml", ".yml", ".npz") or "/" in text or "\\" in text
 
 
-def _with_folder(content: dict[str, Any], folder: Path) -> dict[str, Any]:
+def _with_folder(content: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     """Make the paths in a task file, which are relative to its folder, relative to the working directory."""
     content = dict(content)
     for part, key, name in (("scene", "terrain", "file"), ("policy", "goal", "like")):
@@ -151,6 +177,11 @@ def _with_folder(content: dict[str, Any], folder: Path) -> dict[str, Any]:
             continue
         if name == "file" or _is_beside(folder, inner[name]):
             content[part] = {**table, key: {**inner, name: str(folder / inner[name])}}
+    if isinstance(content.get(BY_STANCE), Mapping):
+        content[BY_STANCE] = {
+            name: _with_folder(changes, folder) if isinstance(changes, Mapping) else changes
+            for name, changes in content[BY_STANCE].items()
+        }
     return content
 
 

@@ -76,8 +76,8 @@ def goal_posture(choice: PolicyChoice, robot: Robot) -> Array:
             key: sum(value) / 2 if isinstance(value, tuple) else value for key, value in goal.items() if value != FREE
         }
     for value in [goal] if isinstance(goal, str) else goal.values():
-        if isinstance(value, str) and value not in robot.postures:
-            raise LevadeError(f"policy.goal: no posture {value!r}; {did_you_mean(value, [*robot.postures, FREE])}")
+        if isinstance(value, str) and value not in robot.posture_names:
+            raise LevadeError(f"policy.goal: no posture {value!r}; {did_you_mean(value, [*robot.posture_names, FREE])}")
     with located("policy.goal: "):
         return robot.posture(goal)
 

@@ -20,9 +20,9 @@ from levade.costs import Criterion
 from levade.costs.success import QUANTITIES
 from levade.engines import ENGINES
 from levade.tasks.document import TERMS
-from levade.tasks.files import EXTENDS
+from levade.tasks.files import BY_STANCE, EXTENDS
 from levade.tasks.parts import HorizonRange
-from levade.tasks.stances import ATTITUDES, KEY, LYING, STANCES
+from levade.tasks.stances import ATTITUDES, LYING, STANCES
 from levade.tasks.task import Task
 from levade.tasks.units import PLURALS, ROBOT_UNITS, UNITS, measured
 
@@ -56,7 +56,7 @@ def task_schema() -> Schema:
         "enum": list(ATTITUDES["level"]),
         "description": "Side that the robot comes to lie on, instead of roll and pitch.",
     }
-    task["properties"][KEY] = {
+    task["properties"][BY_STANCE] = {
         "type": "object",
         "description": "Stance -> changes of the task for robots that stand so; or a text that says why it does not apply.",
         "properties": {name: {"type": ["object", "string"]} for name in STANCES},

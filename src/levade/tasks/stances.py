@@ -6,17 +6,21 @@ that point outward (``sprawled``), or says in one line why the task does not app
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Callable, Iterator, Mapping
+from fnmatch import fnmatchcase
+from typing import TYPE_CHECKING, Any
 
 from levade.document import kind_of
 from levade.errors import LevadeError, did_you_mean
 from levade.robots import Robot
-from levade.tasks.files import extended
+from levade.tasks.files import BY_STANCE, extended
+
+if TYPE_CHECKING:
+    from levade.tasks.task import Task
 
 STANCES = ("level", "upright", "sprawled")
 """See `levade.robots.Robot.stance`."""
-KEY, LYING = "stances", "lying"
+LYING = "lying"
 
 ATTITUDES: dict[str, dict[str, tuple[str, str]]] = {
     "level": {
@@ -51,7 +55,7 @@ def on_robot(content: Mapping[str, Any], robot: Callable[[], Robot], where: str)
         LevadeError: As `for_stance` and `as_attitude` do.
     """
     content = dict(content)
-    if KEY in content:
+    if BY_STANCE in content:
         content = for_stance(content, robot(), where)
     start = content.get("start")
     fall = start.get("fall") if isinstance(start, Mapping) else None
@@ -75,15 +79,15 @@ def for_stance(content: Mapping[str, Any], robot: Robot, where: str) -> dict[str
         LevadeError: If a stance does not exist, or the task does not apply to such a robot.
     """
     content = dict(content)
-    stances = content.pop(KEY)
+    stances = content.pop(BY_STANCE)
     if not isinstance(stances, Mapping):
-        raise LevadeError(f"{where}.{KEY}: should be a table such as {{upright: {{...}}}}, is {kind_of(stances)}")
+        raise LevadeError(f"{where}.{BY_STANCE}: should be a table such as {{upright: {{...}}}}, is {kind_of(stances)}")
     for name, changes in stances.items():
         if name not in STANCES:
-            raise LevadeError(f"{where}.{KEY}: no stance {name!r}; {did_you_mean(str(name), STANCES)}")
+            raise LevadeError(f"{where}.{BY_STANCE}: no stance {name!r}; {did_you_mean(str(name), STANCES)}")
         if not isinstance(changes, (str, Mapping)):
             raise LevadeError(
-                f"{where}.{KEY}.{name}: should be a table of changes, or a text that says why the task does not apply, is"
+                f"{where}.{BY_STANCE}.{name}: should be a table of changes, or a text that says why the task does not apply, is"
                 f" {kind_of(changes)}"
             )
     changes = stances.get(robot.stance, {})
@@ -115,3 +119,39 @@ def as_attitude(fall: Mapping[str, Any], robot: Robot, where: str) -> dict[str, 
     if robot.ahead < 0 and side in ("back", "front"):
         table["pitch"] = attitudes["front" if side == "back" else "back"][1]
     return table
+
+
+def check_postures(task: Task, written: Task, own: str, robot: Robot | None) -> None:
+    """Check that the postures of a task file, which may be angles of its own robot's joints, mean something on another one.
+
+    Args:
+        task: The task, with the other robot.
+        written: The task before changes of single values, which are for the other robot.
+        own: Name of the robot that the task file names.
+        robot: The other robot, if it is already loaded.
+
+    Raises:
+        LevadeError: If a posture names a joint that the other robot lacks.
+    """
+    before = list(_postures(written))
+    postures = [posture for posture in _postures(task) if posture in before]
+    if not postures:
+        return
+    robot = robot or task.robot.load()
+    legs = {name for leg in robot.legs for name in (leg.name, leg.end, leg.side)}
+    for where, posture in postures:
+        for key in posture:
+            if key not in legs and not any(fnmatchcase(joint, key) for joint in robot.joint_names):
+                raise LevadeError(
+                    f"{task.name}: does not apply to {robot.name}: its postures are angles of {own}'s joints ({where}: {key});"
+                    f" give it postures of {robot.name} in a task that extends it"
+                )
+
+
+def _postures(task: Task) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    """Yield the place and the table of every posture of a task that is not just a name."""
+    start = task.start
+    named = [("start.settled.posture", start.settled and start.settled.posture)]
+    named += [("start.fall.posture", start.fall and start.fall.posture), ("policy.goal", task.policy.goal)]
+    named += [("policy.through", posture) for posture in task.policy.through]
+    yield from ((where, posture) for where, posture in named if isinstance(posture, Mapping))

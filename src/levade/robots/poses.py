@@ -1,0 +1,169 @@
+"""Postures of robots on two legs beyond standing: swayed to the left foot, on the left leg alone, and kneeling.
+
+    load_robot("mjlab:unitree_g1").posture("kneeling")
+
+They are searched when something asks for them, as the neutral posture is (`levade.robots.neutral`): the trunk is level, and
+the centre of mass is over what stands on the ground.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from levade.arrays import Array
+from levade.errors import LevadeError
+from levade.robots.neutral import PostureSearch, Sole, data_rotation
+from levade.robots.robot import Robot
+from levade.robots.shapes import support
+from levade.robots.standing import Bare
+
+_SWAY = 0.45
+"""Place of a swayed robot's centre of mass between the middle of its feet (0) and the left one (1). Servos give way further."""
+_LIFT = 0.16
+"""Height of the lifted sole over the other one, as a share of the leg's length."""
+_EXTENSION = 0.92
+"""Height of the hip over the sole that carries the robot, as a share of the leg's length."""
+_BEHIND = 0.4
+"""Place of a kneeling robot's centre of mass between its knees (0) and its toes (1)."""
+_BENT = 1.6
+"""Bend of a kneeling robot's knees at which the search begins [rad]."""
+_TRIES = 150
+_DOWN = np.array([0.0, 0.0, -1.0])
+
+
+def pose(robot: Robot, name: str) -> Array:
+    """Search a posture of a robot on two legs.
+
+    Args:
+        robot: The robot.
+        name: One of `levade.robots.robot.ON_TWO_LEGS`.
+
+    Returns:
+        Joint angles [rad], shape (joints,).
+
+    Raises:
+        LevadeError: If the robot has no such posture.
+    """
+    search = _PoseSearch(robot)
+    return {"swayed": search.swayed, "one-leg": search.one_leg, "kneeling": search.kneeling}[name]()
+
+
+class _PoseSearch(PostureSearch):
+    """Searches postures of one robot on two legs; see `PostureSearch`."""
+
+    def __init__(self, robot: Robot) -> None:
+        lower, upper = robot.limits.lower, robot.limits.upper
+        ranges = {name: (float(a), float(b)) for name, a, b in zip(robot.joint_names, lower, upper, strict=True)}
+        bare = Bare(robot.model, robot.model.body(robot.trunk).id, robot.legs, ranges)
+        super().__init__(bare, robot.limits.torque)
+        self.robot = robot
+        self.neutral_posture = robot.postures["neutral"]
+        self.left, self.right = sorted(self.soles, key=lambda sole: sole.leg.side)
+        self._put(self.neutral_posture)
+        self._step = self._centre(self.left) - self._centre(self.right)
+        joints = [self.joints[joint] for leg in self.bare.standing for joint in leg.joints]
+        self._alone: tuple[list[int], list[int], Array, list[int]] = (joints, [], np.zeros(0), [])
+
+    def swayed(self) -> Array:
+        """Search a posture on both feet, which stay where they are, with the centre of mass towards the left one."""
+        return self._search(self.neutral_posture, self.bare.standing, self._sway_cost, _TRIES, self._alone, spread=0.2)
+
+    def one_leg(self) -> Array:
+        """Search a posture on the left foot, with the right one lifted."""
+        return self._search(self.swayed(), self.bare.standing, self._lift_cost, _TRIES, self._alone, spread=0.3)
+
+    def kneeling(self) -> Array:
+        """Search a posture on both shanks and toes, with the thighs about upright."""
+        model = self.model
+        bent: list[tuple[int, int, list[int], Sole]] = []
+        for sole in self.soles:
+            joints = dict(zip(sole.leg.roles, sole.leg.joints, strict=True))
+            if not {"hfe", "kfe"} <= set(joints):
+                raise LevadeError(
+                    f"robot {self.robot.name}: has no kneeling posture: leg {sole.leg.name} has no hip and knee"
+                )
+            hip, knee = (model.joint(joints[role]).id for role in ("hfe", "kfe"))
+            shank = int(model.jnt_bodyid[knee])
+            shapes = [g for g in range(model.ngeom) if int(model.body_weldid[model.geom_bodyid[g]]) == shank]
+            shapes = [g for g in shapes if model.geom_contype[g] or model.geom_conaffinity[g]]
+            if not shapes or shank == sole.body:
+                raise LevadeError(
+                    f"robot {self.robot.name}: has no kneeling posture: nothing collides on the shank"
+                    f" {model.body(shank).name}"
+                )
+            bent.append((hip, knee, shapes, sole))
+        angles = self.neutral_posture.copy()
+        for _, knee, _, sole in bent:
+            at = [self.joints[joint] for joint in sole.leg.joints]
+            k = self.joints[model.joint(knee).name]
+            bends = -1.0 if self.neutral_posture[k] < self.zero[k] else 1.0
+            angles[at] = self.zero[at]
+            angles[k] = np.clip(bends * _BENT, self.lower[k], self.upper[k])
+
+        def cost(posture: Array) -> float:
+            return self._kneel_cost(posture, bent)
+
+        return self._search(angles, self.bare.standing, cost, 2 * _TRIES, spread=0.3)
+
+    # what it costs
+
+    def _sway_cost(self, angles: Array) -> float:
+        self._put(angles)
+        step = self._centre(self.left) - self._centre(self.right) - self._step
+        left, right = self._centre(self.left), self._centre(self.right)
+        cost = 300.0 * float(step @ step) / self.scale**2 + self._over(
+            0.5 * (left + right) + _SWAY * 0.5 * (left - right)
+        )
+        for sole in (self.left, self.right):
+            cost += self._shape_cost(sole, self._lowest(sole))
+        return cost + self._comfort(angles) + self._overlap_cost()
+
+    def _lift_cost(self, angles: Array) -> float:
+        self._put(angles)
+        low, lifted = self._lowest(self.left), self._centre(self.right)
+        hip = self.data.xanchor[self.right.first]
+        cost = 400.0 * ((self._lowest(self.right) - low) / self.scale - _LIFT) ** 2 + self._over(
+            self._centre(self.left)
+        )
+        cost += 30.0 * ((lifted[1] - hip[1]) / self.scale) ** 2
+        cost += 10.0 * ((lifted[0] - self._centre(self.left)[0]) / self.scale) ** 2
+        cost += self._shape_cost(self.left, low) + 0.3 * self._shape_cost(self.right, None)
+        return cost + self._comfort(angles) + self._clearance_cost(low)
+
+    def _kneel_cost(self, angles: Array, bent: list[tuple[int, int, list[int], Sole]]) -> float:
+        self._put(angles)
+        data, cost = self.data, 0.0
+        com = data.subtree_com[self.bare.trunk]
+        for hip, knee, shapes, sole in bent:
+            shank = min((support(self.model, data, g, _DOWN) for g in shapes), key=lambda point: point[2])
+            toes = min((support(self.model, data, g, _DOWN) for g in sole.geoms), key=lambda point: point[2])
+            thigh = data.xanchor[knee] - data.xanchor[hip]
+            length = max(float(np.linalg.norm(thigh)), 1e-9)
+            cost += 3e3 * float((shank[2] - toes[2]) / self.scale) ** 2
+            cost += 3.0 * float(thigh[0] / length) ** 2 + 30.0 * float(thigh[1] / length) ** 2
+            cost += 20.0 * max(0.0, float(thigh[2]) / length + 0.7) ** 2  # the knee is below the hip
+            off = shank[0] + _BEHIND * (toes[0] - shank[0]) - com[0]
+            cost += 0.3 * float(off / (0.02 * self.scale)) ** 2
+            cost += 50.0 * max(0.0, self._ahead * float(toes[0] - shank[0]) / length + 0.7) ** 2  # the foot is behind
+            cost += 30.0 * float((toes[1] - data.xanchor[hip][1]) / length) ** 2
+        return cost + self._comfort(angles) + self._overlap_cost()
+
+    def _over(self, place: Array) -> float:
+        """Cost of a centre of mass that is not over a place on the ground."""
+        off = self.data.subtree_com[self.bare.trunk][:2] - place[:2]
+        return 1.0 * float(off @ off) / (0.02 * self.scale) ** 2
+
+    def _shape_cost(self, sole: Sole, low: float | None) -> float:
+        """Cost of a sole that is not level, of a knee that bends backward, and of a hip at another height than it should."""
+        data, k, cost = self.data, self.soles.index(sole), 0.0
+        hip = data.xanchor[sole.lifting[0]]
+        if low is not None:
+            cost += 40.0 * ((hip[2] - low) / self.lengths[k] - _EXTENSION) ** 2
+        if len(sole.lifting) > 1:
+            middle = 0.5 * (hip[0] + self._centre(sole)[0])
+            ahead = (data.xanchor[sole.lifting[1]][0] - middle) / self.lengths[k] * self._ahead
+            cost += 20.0 * min(0.0, float(ahead)) ** 2
+        if sole.flat:
+            turned = data_rotation(data, sole.body) @ self._links[k].T @ self._flat[k]
+            cost += 60.0 * (1.0 - turned[2, 2]) + 10.0 * (1.0 - turned[0, 0])
+        return cost
