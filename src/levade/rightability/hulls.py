@@ -29,7 +29,7 @@ from levade.errors import LevadeError
 
 Indices = NDArray[np.intp]
 
-_TIPS = 64
+_TIPS = 256
 """Number of edges in a row after which a body counts as rolling on."""
 _INSIDE = 1e-5
 """How far beyond an edge the centre of mass still rests, as a share of the hull's size; rounding decides otherwise."""
