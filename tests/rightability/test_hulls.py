@@ -56,7 +56,7 @@ def test_a_regular_tetrahedron_rests_on_each_face_with_one_quarter() -> None:
 
 
 def test_a_weighted_ball_comes_to_rest_the_same_way_from_any_attitude() -> None:
-    """A ball with a flat bottom, its centre of mass close to that, and a pointed hat: whatever it is put down on, it rolls there."""
+    """A ball with a flat bottom, its centre of mass close to that, and a pointed hat: it rolls there from anywhere."""
     k = np.arange(400) + 0.5
     polar, azimuth = np.arccos(1 - 2 * k / 400), np.pi * (1 + 5**0.5) * k
     points = np.stack([np.sin(polar) * np.cos(azimuth), np.sin(polar) * np.sin(azimuth), np.cos(polar)], axis=1)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from pathlib import Path
 
 import mujoco
 import numpy as np
@@ -131,5 +132,19 @@ def test_left_and_right_are_as_likely_on_a_symmetric_robot() -> None:
 
 
 def test_no_combination_of_angles_is_refused() -> None:
-    with pytest.raises(LevadeError, match=r"angles: is 0; should be 1 or more"):
+    with pytest.raises(LevadeError, match=r"angles: is 0; should be from 1 to 100"):
         Postures.of(load_robot("hyq2max"), angles=0)
+
+
+@pytest.mark.slow
+def test_a_robot_whose_legs_never_pass_its_back_stays_there(quadruped: type, tmp_path: Path) -> None:
+    """Its feet and its centre of mass are above its back in every posture, so no step moves it off its back."""
+    narrow = type("Narrow", (quadruped,), {"ABDUCTION": (-0.2, 0.2), "FLEXION": (-0.7, 0.7), "KNEE": (0.4, 1.3)})
+    (tmp_path / "narrow.urdf").write_text(narrow().urdf())
+    (graph,) = rightability(load_robot(str(tmp_path / "narrow.urdf")), angles=9)
+    back = next(pose for pose in graph.poses() if pose.up[2] < -0.99)
+    assert (back.on, back.leads, back.moves) == ("back", 0.0, None)
+    assert 0.0 < graph.shares()["all"].leads < 1.0
+    stuck = (graph.attitude(graph.edges[:, 0])[0][:, 2] < -0.99) & (graph.moves[graph.edges[:, 0]] < 0)
+    assert stuck.any()
+    assert (graph.attitude(graph.edges[stuck, 1])[0][:, 2] < -0.99).all()

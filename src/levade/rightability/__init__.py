@@ -4,9 +4,9 @@
     found[0].shares()["back"].leads           # share of falls onto its back that lead to upright, without dynamics
     found_motions(Library.load("falls"))["back"].share
 
-The quasi-static part follows C. C. Kessens, D. C. Smith and P. R. Osteen, "A framework for autonomous self-righting of a generic
-robot on sloped planar surfaces" (ICRA 2012), and C. C. Kessens, C. T. Lennon and J. Collins, "A metric for self-rightability and
-understanding its relationship to simple morphologies" (IROS 2014). What is theirs and what is ours: docs/rightability.md.
+The quasi-static part follows C. C. Kessens and others, "A framework for autonomous self-righting of a generic robot on sloped
+planar surfaces", and C. C. Kessens, C. T. Lennon and J. Collins, "A metric for self-rightability and understanding its
+relationship to simple morphologies" (IROS 2014). What is theirs and what is ours: docs/rightability.md.
 """
 
 from __future__ import annotations

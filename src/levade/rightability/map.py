@@ -2,9 +2,9 @@
 
     draw_map(graph, Path("map.png"))
 
-The discs are those of a library's figure (`levade.library.figure`): two halves of the sphere of upward directions in trunk axes,
-in an equal-area projection. A place is the attitude in which the robot is put down, in its neutral posture. Its colour says on
-what it comes to rest, without dynamics; hatching says that joints alone do not lead from there to upright. Points are the falls
+The discs are those of a library's figure (`levade.library.figure`): two halves of the sphere of upward directions in trunk
+axes, in an equal-area projection. A place is the attitude in which the robot is put down, in its neutral posture. Its colour
+says on what it comes to rest, without dynamics; hatching says that joints alone do not lead from there to upright. Points are the falls
 of a library, where they ended. Needs matplotlib (`pip install levade[figures]`).
 """
 
@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from levade.arrays import Array
 from levade.errors import LevadeError
@@ -23,7 +24,8 @@ from levade.library.figure import disc, projected
 from levade.library.records import Method, Record
 from levade.report.figures import FORMATS, PAGE, write_figures
 from levade.report.style import LIGHT
-from levade.rightability.righting import Graph, tangent
+from levade.rightability.hulls import Indices, tangent
+from levade.rightability.righting import Graph
 
 _COLOURS = {
     "belly": "#8fd0bb",
@@ -134,7 +136,7 @@ def _directions(x: Array, y: Array, half: float) -> Array:
     return np.stack([y * sideways, -x * sideways, half * height], axis=-1)
 
 
-def _outcome(graph: Graph, up: Array) -> tuple[Array, Array]:
+def _outcome(graph: Graph, up: Array) -> tuple[Indices, NDArray[np.bool_]]:
     """On what the robot comes to rest, as an index into the colours, and whether that leads to upright."""
     flat = up.reshape(-1, 3)
     posture = np.full(len(flat), graph.postures.neutral)

@@ -32,6 +32,7 @@ ANGLES = 27
 """Default for the largest number of combinations of angles that a leg takes."""
 STRIDE = 0.35
 """[rad]: how far a joint moves at most before the robot is brought to rest again."""
+_MOST = 100
 _OVERLAP = 0.005
 """[m]: postures in which parts of the robot overlap by more are left out."""
 _DIRECTIONS = np.array([d for d in itertools.product((-1.0, 0.0, 1.0), repeat=3) if any(d)])
@@ -121,8 +122,8 @@ def on_soles(hulls: Hulls, soles: list[NDArray[np.bool_]]) -> NDArray[np.bool_]:
     """
     result = np.zeros((len(soles), hulls.normal.shape[1]), dtype=bool)
     for i, sole in enumerate(soles):
-        own = sole[hulls.corner[i]].all(axis=-1)
-        whole = np.ones(len(own), dtype=bool)
+        own = np.all(sole[hulls.corner[i]], axis=-1)
+        whole = np.ones(result.shape[1], dtype=bool)
         np.logical_and.at(whole, hulls.plane[i], own)
         result[i] = whole[hulls.plane[i]]
     return result
@@ -136,8 +137,8 @@ class _Body:
     """
 
     def __init__(self, robot: Robot, angles: int) -> None:
-        if angles < 1:
-            raise LevadeError(f"is {angles}; should be 1 or more", field="angles")
+        if not 1 <= angles <= _MOST:
+            raise LevadeError(f"is {angles}; should be from 1 to {_MOST}", field="angles")
         self.robot, self.legs = robot, robot.standing
         self.values = _values(robot, self.legs[0], angles)
         grid = list(itertools.product(*(range(len(values)) for values in self.values)))
@@ -287,7 +288,8 @@ def _points(
     model: mujoco.MjModel, data: mujoco.MjData, bodies: NDArray[np.bool_], feet: set[int], turn: Array
 ) -> tuple[Array, NDArray[np.bool_]]:
     """Corners of the bodies' collision shapes in the world, and which of them are soles'."""
-    points, soles = [np.empty((0, 3))], [np.empty(0, dtype=bool)]
+    points: list[Array] = [np.empty((0, 3))]
+    soles: list[NDArray[np.bool_]] = [np.empty(0, dtype=bool)]
     for geom in range(model.ngeom):
         if not bodies[model.geom_bodyid[geom]] or not (model.geom_contype[geom] or model.geom_conaffinity[geom]):
             continue
