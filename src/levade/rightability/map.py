@@ -4,8 +4,8 @@
 
 The discs are those of a library's figure (`levade.library.figure`): two halves of the sphere of upward directions in trunk
 axes, in an equal-area projection. A place is the attitude in which the robot is put down, in its neutral posture. Its colour
-says on what it comes to rest, without dynamics; hatching says that joints alone do not lead from there to upright. Points are the falls
-of a library, where they ended. Needs matplotlib (`pip install levade[figures]`).
+says on what it comes to rest, without dynamics; hatching says that joints alone do not lead from there to upright. Points are
+the falls of a library, where they ended. Needs matplotlib (`pip install levade[figures]`).
 """
 
 from __future__ import annotations
@@ -77,11 +77,13 @@ def draw_map(graph: Graph, path: Path, records: Sequence[Record] = ()) -> None:
 
 
 def _figure(graph: Graph, records: Sequence[Record]) -> Any:
+    from matplotlib import rcParams
     from matplotlib.colors import ListedColormap
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
-    from matplotlib.patches import Patch
+    from matplotlib.patches import Circle, Patch
 
+    rcParams["hatch.linewidth"] = 0.4  # for this figure: `write_figures` restores it
     figure = Figure(figsize=(0.75 * PAGE, 3.3), layout="constrained")
     axes = figure.subplots(1, 2)
     side = (np.arange(_CELLS) + 0.5) / _CELLS * 2.0 - 1.0
@@ -102,6 +104,9 @@ def _figure(graph: Graph, records: Sequence[Record]) -> Any:
         stuck = np.where(inside, ~leads[half], False).astype(float)
         if stuck.any():
             one.contourf(x, y, stuck, levels=[0.5, 1.5], colors="none", hatches=["/////"], zorder=1.7)
+        for angle in (30.0, 60.0):  # those of the disc are under the colours
+            radius = float(np.sqrt(1.0 - np.cos(np.radians(angle))))
+            one.add_patch(Circle((0, 0), radius, fill=False, edgecolor=LIGHT.panel, linewidth=0.5, zorder=2))
         one.set_xlim(-1.25, 1.25)
         one.set_ylim(-1.25, 1.25)
         up = np.array([record.up for record in records]).reshape(-1, 3)

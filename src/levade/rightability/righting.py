@@ -4,9 +4,10 @@
     graph.poses()                # where the robot rests in its neutral posture, how likely, and whether upright is reached
 
 A node is a posture that rests on one of the faces of its hull; on a slope, also with one of `HEADINGS` directions uphill. A
-step moves one joint of a group of legs to the next value of the grid, in strides of at most `levade.rightability.postures.STRIDE`.
-After each stride the robot comes to rest (`Hulls.settle`): it stays on its face, or tips over an edge if the centre of mass
-has left it. So it never flies, never slides and has no momentum, and torque is not limited.
+step moves one joint of a group of legs to the next value of the grid, in strides of at most
+`levade.rightability.postures.STRIDE`. After each stride the robot comes to rest (`Hulls.settle`): it stays on its face, or
+tips over an edge if the centre of mass has left it. So it never flies, never slides and has no momentum, and torque is not
+limited.
 """
 
 from __future__ import annotations
