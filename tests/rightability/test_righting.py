@@ -12,7 +12,7 @@ import pytest
 from levade.errors import LevadeError
 from levade.rightability import Postures, graphs, rightability
 from levade.rightability.hulls import Hulls, Indices
-from levade.rightability.postures import on_soles
+from levade.rightability.postures import _values, on_soles
 from levade.rightability.righting import Graph
 from levade.robots import load_robot
 
@@ -129,6 +129,18 @@ def test_left_and_right_are_as_likely_on_a_symmetric_robot() -> None:
     shares = graph.shares()
     assert shares["left"].likelihood == pytest.approx(shares["right"].likelihood, abs=0.01)
     assert shares["all"].likelihood == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(("most", "counts"), [(2, (1, 1, 1)), (3, (1, 3, 1)), (9, (1, 3, 3)), (27, (3, 3, 3))])
+def test_joints_get_both_ends_of_their_ranges_and_the_neutral_angle(most: int, counts: tuple[int, ...]) -> None:
+    """The joints with the widest ranges first."""
+    robot = load_robot("go1")
+    found = _values(robot, robot.legs[0], most)
+    assert tuple(map(len, found)) == counts
+    for values, low, high, neutral in zip(
+        found, robot.limits.lower, robot.limits.upper, robot.postures["neutral"], strict=False
+    ):
+        assert values == ([neutral] if len(values) == 1 else [low, neutral, high])
 
 
 def test_no_combination_of_angles_is_refused() -> None:

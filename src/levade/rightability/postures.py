@@ -264,8 +264,8 @@ def _values(robot: Robot, leg: Leg, most: int) -> list[list[float]]:
     lower, upper = np.where(endless, neutral - np.pi, lower), np.where(endless, neutral + np.pi, upper)
     counts = np.ones(len(neutral), dtype=int)
     while True:
-        # the first step, to both ends of the range, counts more
-        spacing = np.where(counts == 1, 1.5 * (upper - lower), (upper - lower) / np.maximum(counts - 1, 1))
+        # every joint that can gets both ends of its range before one gets more values
+        spacing = np.where(counts == 1, 1e3 * (upper - lower), (upper - lower) / np.maximum(counts - 1, 1))
         for joint in np.argsort(-spacing):
             more = counts.copy()
             more[joint] = 3 if counts[joint] == 1 else counts[joint] + 1
