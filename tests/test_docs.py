@@ -126,6 +126,13 @@ def test_get_started_step_by_step(
     assert (tmp_path / "rearing" / "report.html").is_file()
 
 
+@pytest.mark.slow
+def test_rightability_step_by_step(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("scipy", reason="hulls need scipy: pip install levade[rightability]")
+    monkeypatch.chdir(tmp_path)
+    follow("docs/rightability.md", tmp_path)
+
+
 def test_the_numbers_of_the_readme_are_those_of_the_results(monkeypatch: pytest.MonkeyPatch) -> None:
     """After new results: python benchmarks/readme.py --write."""
     monkeypatch.syspath_prepend(str(ROOT / "benchmarks"))

@@ -859,6 +859,41 @@ def _inspect_robot(
     inspect_robot(robot, picture=picture, as_json=as_json)
 
 
+@_robots.command("rightability")
+def _robot_rightability(
+    robot: Annotated[str, typer.Argument(metavar="NAME|FILE", help="A name, or a file: URDF, MJCF or robot.yaml.")],
+    slope: Annotated[
+        list[float] | None,
+        typer.Option(metavar="DEG", help="Slope of the ground [degrees]; may be repeated. Default: 0, 10, 20, 30."),
+    ] = None,
+    library: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="DIR", help="A library of this robot: also say from how many of its falls a motion was found."
+        ),
+    ] = None,
+    map: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE", help="Draw what the robot comes to lie on, over the direction of up: .png, .svg or .pdf."
+        ),
+    ] = None,
+    angles: Annotated[
+        int, typer.Option(metavar="N", help="Combinations of joint angles that each leg takes, at most.")
+    ] = 27,
+    as_json: Json = False,
+) -> None:
+    """Say from which ways to lie a robot can get up: by moving its joints slowly, and by the motions of a library.
+
+    The slow way has no momentum: the robot rests on a face of its convex hull, and tips over an edge where its centre of mass
+    has left the face. It takes tens of seconds, more with a larger N. Torque is not limited and nothing slips, so read "yes"
+    as "the shape allows it". See docs/rightability.md.
+    """
+    from levade.cli.righting import tell_rightability
+
+    tell_rightability(robot, slopes=slope, library=library, picture=map, angles=angles, as_json=as_json)
+
+
 def _print_json(content: dict[str, Any]) -> None:
     print(json.dumps(content, ensure_ascii=False))
 

@@ -57,7 +57,7 @@ def _figure(library: Library) -> Any:
         (above, up[:, 2] >= 0, "on its belly, or its feet"),
         (below, up[:, 2] < 0, "on its back"),
     ):
-        _disc(axes, f"{title} ({int(half.sum())} falls)")
+        disc(axes, f"{title} ({int(half.sum())} falls)")
         for method, (_, colour, marker, area) in _LOOK.items():
             which = half & np.array([record.method == method for record in library.records])
             axes.scatter(x[which], y[which], s=area, c=colour, marker=marker, linewidths=0.8, zorder=3)
@@ -84,7 +84,8 @@ def projected(up: Array) -> tuple[Array, Array]:
     return -up[:, 1] * scale, up[:, 0] * scale
 
 
-def _disc(axes: Any, title: str) -> None:
+def disc(axes: Any, title: str) -> None:
+    """Draw an empty disc for `projected`, with its title and the four directions around it."""
     from matplotlib.patches import Circle
 
     axes.set_title(title, loc="center")
