@@ -119,7 +119,7 @@ def page(
     return assembled(f"{provenance['task']} on {provenance['robot']}, seed {provenance['seed']}", data, "report")
 
 
-def assembled(title: str, data: Any, entry: Literal["report", "certificate", "live"]) -> str:
+def assembled(title: str, data: Any, entry: Literal["report", "certificate", "library", "live"]) -> str:
     """Build a page that needs nothing else.
 
     Args:
