@@ -165,17 +165,18 @@ function cover({ cover: few, falls }) {
   const block = el("div", { class: "block" }, el("h2", {}, "Fewest motions"),
     el("p", { class: "note" }, few.length ? `Each motion adds as many falls as it can. ${few.length === 1 ? "One is" : `${few.length} are`} enough for ${percent(few[few.length - 1].falls, all)}.` : "No motion yet."), body);
   if (!few.length) return block;
-  const x = [0, ...few.map((_, k) => k + 1)], y = [0, ...few.map((one) => (100 * one.falls) / all)];
-  const across = linearScale(0, few.length, Math.min(6, few.length));
-  createChart(body, { label: "share of falls covered by so many motions", height: 170, margin: { left: 46, right: 14 }, follow: false,
+  const x = few.map((_, k) => k + 1), y = few.map((one) => (100 * one.falls) / all);
+  const across = linearScale(0.5, few.length + 0.5, Math.min(8, few.length));
+  const low = Math.max(0, Math.min(...y) - 0.15 * Math.max(10, 100 - Math.min(...y)));
+  createChart(body, { label: "share of the falls that so many motions get up from", height: 170, margin: { left: 46, right: 14 }, follow: false,
     lines: [{ x, y, colour: "var(--accent)" }], marks: x.map((v, k) => ({ x: v, y: y[k], colour: "var(--accent)" })),
-    x: { ...across, ticks: across.ticks.filter(Number.isInteger), unit: "motions" }, y: linearScale(0, 104, 5) });
-  body.prepend(el("p", { class: "legend" }, el("span", { class: "item" }, swatch("var(--accent)"), "falls covered [%]")));
+    x: { ...across, ticks: across.ticks.filter(Number.isInteger) }, y: linearScale(low, 100 + 0.05 * (100 - low), 5) });
+  body.prepend(el("p", { class: "legend" }, el("span", { class: "item" }, swatch("var(--accent)"), "falls that one of so many motions gets up from [%]")));
   return block;
 }
 
 function lying({ faces }) {
-  const rows = faces.map(({ name, falls, works, perturbed }) => el("tr", {}, el("th", { scope: "row" }, `its ${name}`), el("td", {}, String(falls)), el("td", {}, percent(works, falls)), el("td", {}, perturbed === null ? "\u2013" : percent(perturbed, falls))));
+  const rows = [...faces].sort((a, b) => b.falls - a.falls).map(({ name, falls, works, perturbed }) => el("tr", {}, el("th", { scope: "row" }, `its ${name}`), el("td", {}, String(falls)), el("td", {}, percent(works, falls)), el("td", {}, perturbed === null ? "\u2013" : percent(perturbed, falls))));
   const heads = [["It lies on", ""], ["Falls", "number"], ["Solved", "number"], ["Robots that differ", "number"]];
   return el("div", { class: "block" }, el("h2", {}, "By what it lies on"),
     el("div", { class: "scroll" }, el("table", { class: "goals" }, el("thead", {}, el("tr", {}, heads.map(([text, cls]) => el("th", { scope: "col", class: cls }, text)))), el("tbody", {}, rows))));
@@ -187,19 +188,19 @@ function trials(falls, { rounds, starts }) {
   const most = Math.max(...falls.map((fall) => fall.trials), 10);
   const x = [], y = [];
   for (const { first, last, trials: mean } of rounds) {
-    x.push(first + 0.5, last + 1.5);
+    x.push(Math.max(first + 0.5, 0.8), last + 1.5);
     y.push(Math.max(mean, 1), Math.max(mean, 1));
   }
-  const across = linearScale(0, Math.max(starts, falls.length) + 1, 8);
+  const all = falls.length, across = logScale(0.8, 1.1 * Math.max(starts, all, 9));
   const order = Object.keys(LOOKS);
   const marks = falls.map((fall, k) => ({ x: k + 1, y: Math.max(fall.trials, 1), r: fall.look === "known" ? 2 : 3.5, colour: LOOKS[fall.look].colour, shape: LOOKS[fall.look].shape, look: fall.look }));
   marks.sort((a, b) => order.indexOf(a.look) - order.indexOf(b.look)); // the rare ones on top
   createChart(body, { label: "trials of each fall", height: 240, margin: { left: 52 }, follow: false, marks, lines: [{ x, y, colour: "var(--ink)" }],
-    x: { ...across, unit: "falls" }, y: logScale(0.8, 1.6 * most) });
+    x: { ...across, ticks: [...across.ticks.filter((v) => v < 0.7 * all), all], unit: "falls" }, y: logScale(Math.max(0.8, 0.5 * Math.min(...marks.map((mark) => mark.y))), 1.6 * most) });
   const legendOf = el("p", { class: "legend" }, el("span", { class: "item" }, swatch("var(--ink)"), "mean of a round"), Object.keys(LOOKS).filter((look) => falls.some((fall) => fall.look === look)).map((look) => el("span", { class: "item" }, key(look), LOOKS[look].words)));
   const rest = falls.filter((_, k) => k >= falls.length / 2).map((fall) => fall.trials);
-  const note = `Roll-outs that each fall took, in the order of the build. The falls of a round see the motions of the rounds before it. Mean of the last half: ${significant(rest.reduce((a, b) => a + b, 0) / rest.length)} trials a fall.`;
-  return el("section", { class: "panel", id: "trials" }, el("header", {}, el("h2", {}, "Trials per fall"), el("p", { class: "note" }, note)), el("figure", {}, el("figcaption", {}, el("span", { class: "title" }, "Trials"), legendOf), body));
+  const note = `Roll-outs that each fall took, in the order of the build; both scales are logarithmic. The falls of a round see the motions of the rounds before it. Mean of the last half: ${significant(rest.reduce((a, b) => a + b, 0) / rest.length)} trials a fall.`;
+  return el("section", { class: "panel", id: "trials" }, el("header", {}, el("h2", {}, "Trials per fall"), el("p", { class: "note" }, note)), el("figure", {}, el("figcaption", {}, el("span", { class: "title" }, "Trials", el("span", { class: "unit" }, " over falls")), legendOf), body));
 }
 
 function failures(falls, { complete }, map) {

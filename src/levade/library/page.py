@@ -39,7 +39,7 @@ _RATE = 60.0
 _PLAYED = 5
 """Number of motions that can be played on the page."""
 
-_LISTED = 12
+_LISTED = 8
 """Number of motions that the page lists. Beyond those that cover all falls, they are the ones that work from most."""
 
 _PITCH = 0.05
@@ -156,7 +156,9 @@ def placed(up: Array) -> tuple[float, Array]:
     pitch = float(min(_PITCH, np.sqrt(np.pi / (np.sqrt(0.75) * _ROOM * most))))
     rows = np.arange(-np.ceil(1.0 / (pitch * np.sqrt(0.75))), np.ceil(1.0 / (pitch * np.sqrt(0.75))) + 1)
     columns = np.arange(-np.ceil(1.0 / pitch), np.ceil(1.0 / pitch) + 1)
-    grid = np.array([(pitch * (column + row % 2 / 2), pitch * np.sqrt(0.75) * row) for row in rows for column in columns])
+    grid = np.array(
+        [(pitch * (column + row % 2 / 2), pitch * np.sqrt(0.75) * row) for row in rows for column in columns]
+    )
     grid = grid[np.hypot(grid[:, 0], grid[:, 1]) <= 1.0]
     there = np.stack(projected(up), axis=1)
     for half in (above, ~above):
@@ -224,4 +226,3 @@ def _played(library: Library) -> list[dict[str, Any]]:
             }
         )
     return found
-
