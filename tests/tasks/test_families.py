@@ -71,7 +71,8 @@ def test_where_the_example_ends_the_robot_stands_high_enough_and_in_the_neutral_
     objective, robot = make_objective(task, threads=1), task.robot.load()
     least = task.success["height"].minimum
     assert least is not None
-    goal = task.policy.goal
+    goal: dict[str, float | str] = {"*_thigh_joint": 0.8, "*_calf_joint": -1.6}
+    assert task.policy.goal == goal
     for posture, enough in ((goal, True), ("neutral", False)):
         state = start_state(objective.engine, robot, task.scene, Settled(posture))
         com = state.qpos[0, 2] + robot.embodiment.trunk_com_offset[2]

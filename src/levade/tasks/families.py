@@ -15,9 +15,9 @@ from levade.errors import LevadeError, did_you_mean
 FAMILIES: dict[str, dict[str, Any]] = {"playground": {"height": 0.5, "time": 0.5, "gain": 1.0, "fold": {}}}
 """Name -> table of ``start.fallen``, in SI units.
 
-"playground": the falls of MuJoCo Playground's get-up of Go1 (`Go1Getup`, getup.py). The trunk is released at 0.5 m, its attitude is
-uniform over all rotations, each joint is uniform over its range, and the servos hold for 0.5 s. Then the robot folds up, which
-counts as a part of getting up: until then the state is Playground's, and the robot may still move."""
+"playground": the falls of MuJoCo Playground's get-up of Go1 (`Go1Getup`, getup.py). The trunk is released at 0.5 m, its
+attitude is uniform over all rotations, each joint is uniform over its range, and the servos hold for 0.5 s. Then the robot
+folds up, which counts as a part of getting up: until then the state is Playground's, and the robot may still move."""
 
 
 def with_family(content: Mapping[str, Any], where: str) -> dict[str, Any]:
