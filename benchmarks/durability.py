@@ -119,7 +119,7 @@ def main() -> None:
         whole = contents(Path(place) / "whole")
         print(f"undisturbed: {took:.1f} s, {len(whole)} files", flush=True)
         if options.what == "kill":
-            kill(Path(place), whole, times=options.times, longest=took / 2.5, seed=options.seed)
+            kill(Path(place), whole, times=options.times, longest=took, seed=options.seed)
         else:
             disk(Path(place) / "disk", whole, sizes=options.sizes, processes=options.processes)
 

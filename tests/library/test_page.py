@@ -12,7 +12,8 @@ import pytest
 
 from levade.costs import Criterion
 from levade.errors import LevadeError
-from levade.library import Library, Record, build
+from levade.library import Falls, Library, Record, build
+from levade.library.failing import failures
 from levade.library.figure import projected
 from levade.library.page import library_data, library_page, placed, write_library
 from levade.report.packing import unpack
@@ -103,6 +104,22 @@ def test_the_first_motions_of_the_cover_are_played(library: Library) -> None:
     assert all(one["motion"]["reference"] is None for one in data["played"])
 
 
+def test_a_failure_is_played_as_it_is(library: Library) -> None:
+    """By the motion that the library answers with there; the search's own verdict on it is the page's."""
+    (failed,) = library_data(library)["failed"]
+    assert failed["fall"] == FAILED
+    record = next(one for one in library.records if one.fall == FAILED)
+    number = library.model.ranked(record.up, record.joint_position)[0][0]
+    assert failed["motions"] == [number]
+    (played,) = failures(library, most=3)
+    start = Falls(load_task(library.directory / "task.yaml"), seed=0, threads=1).objective(FAILED).state
+    np.testing.assert_array_equal(played.motion["qpos0"], start.qpos[0])
+    tilt = np.arccos(np.clip(1 - 2 * np.square(played.motion["trunk_quaternion"][-1, 1:3]).sum(), -1, 1))
+    criterion = played.motion.task.success["over"].maximum
+    assert criterion is not None
+    assert played.missed.get("over", 0.0) == pytest.approx(max(0.0, tilt - criterion), abs=1e-6)
+
+
 def test_the_same_library_gives_the_same_page_wherever_it_lies(library: Library, tmp_path: Path) -> None:
     other = tmp_path / "elsewhere"
     shutil.copytree(library.directory, other)
@@ -164,7 +181,8 @@ def test_a_failure_is_listed_and_found_on_the_map(opened: Any) -> None:
     assert opened.locator(".about").inner_text().startswith(f"Fall {FAILED}: on its ")
     assert "0 motions work from here" in opened.locator(".about").inner_text()
     assert opened.locator(".ring:visible").count() == 1
-    assert "Not reached" not in opened.locator("body").inner_text()
+    assert opened.get_by_role("radio", name=f"fall {FAILED}: fails", exact=True).is_checked()
+    assert f"No motion gets up from fall {FAILED}." in opened.locator(".said").inner_text()
     assert opened.complaints == []
 
 

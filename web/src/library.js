@@ -25,21 +25,21 @@ export function createLibrary(element, data) {
   const parts = { stage: el("div", { class: "stage" }), controls: el("div", { class: "controls" }), theme };
   const map = createMap(falls, data);
   const list = createList(data);
+  let play = () => {};
   const player = data.scene && el("div", { class: "player panel" }, parts.stage, parts.controls, el("div", { class: "which options" }, (parts.choice = el("div", { class: "layers", role: "radiogroup", "aria-label": "Motion" })), (parts.said = el("p", { class: "note said", "aria-live": "polite" }))));
   const side = el("div", { class: "panel side" }, cover(data), lying(data));
   element.replaceChildren(head(data, theme.element), el("main", {},
     el("div", { class: "top" }, map.element, list.element),
     player ? el("div", { class: "top" }, el("div", { class: "place" }, player), side) : side,
     trials(falls, data),
-    failures(falls, data, map),
+    failures(falls, data, (k) => { map.choose(k); play({ fall: falls[k].number }); map.element.scrollIntoView({ block: "nearest" }); }),
     provenance(data)));
 
   // One motion may be chosen: its falls stand out on the map. Those that the page holds can be played.
-  let play = () => {};
   list.onChoose((motion) => {
     const row = data.listed.find((one) => one.motion === motion);
     map.show(row ? unpack(row.falls) : null, row ? `${named(row)}: gets up from the ${row.works} falls that stand out.` : "");
-    if (row) play(motion);
+    if (row) play({ motion });
   });
   requestAnimationFrame(() => {
     if (data.scene) play = start(data, parts);
@@ -203,13 +203,13 @@ function trials(falls, { rounds, starts }) {
   return el("section", { class: "panel", id: "trials" }, el("header", {}, el("h2", {}, "Trials per fall"), el("p", { class: "note" }, note)), el("figure", {}, el("figcaption", {}, el("span", { class: "title" }, "Trials", el("span", { class: "unit" }, " over falls")), legendOf), body));
 }
 
-function failures(falls, { complete }, map) {
+function failures(falls, { complete }, choose) {
   const groups = [
     ["No motion works", falls.map((fall, k) => [fall, k]).filter(([fall]) => !fall.works)],
     complete ? ["A motion works on the model, but none on the robot that differs", falls.map((fall, k) => [fall, k]).filter(([fall]) => fall.works && !fall.perturbed)] : null,
   ].filter(Boolean);
   const blocks = groups.map(([title, list]) => el("div", { class: "block" }, el("h2", {}, title, el("span", { class: "total" }, String(list.length))), list.length
-    ? el("ul", { class: "failed" }, list.slice(0, MANY).map(([fall, k]) => el("li", {}, el("button", { type: "button", class: "pick", onclick: () => { map.choose(k); map.element.scrollIntoView({ block: "nearest" }); } }, `Fall ${fall.number}`), el("small", {}, `on its ${fall.face}, ${degrees(fall.tilt, 0)}; ${fall.trials.toLocaleString("en")} trials`))),
+    ? el("ul", { class: "failed" }, list.slice(0, MANY).map(([fall, k]) => el("li", {}, el("button", { type: "button", class: "pick", onclick: () => choose(k) }, `Fall ${fall.number}`), el("small", {}, `on its ${fall.face}, ${degrees(fall.tilt, 0)}; ${fall.trials.toLocaleString("en")} trials`))),
       list.length > MANY ? el("li", {}, el("small", {}, `and ${list.length - MANY} more`)) : null)
     : el("p", { class: "note" }, "None.")));
   const note = complete ? "Every motion was tried from every fall, on the model and on one robot that differs from it in masses, friction, gains and delays." : "Not every motion was tried from every fall yet: build the library again to do so.";
@@ -223,30 +223,34 @@ function provenance({ task, robot, starts, provenance: { seed, fallen, written_b
     el("p", { class: "made" }, `Made by ${writer}. Falls that the library has never seen: levade library check.`));
 }
 
-// Plays the motions of the page; returns what shows one, if the page holds it.
-function start({ scene, played, listed, folds }, { stage, controls, theme, choice, said }) {
+// Plays the motions of the page, and failures; returns what shows one, {motion} or {fall}, if the page holds it.
+function start({ scene, played, failed, listed, folds }, { stage, controls, theme, choice, said }) {
   const player = createPlayer(stage, scene, { theme: theme.current() });
   theme.onChange((name) => player.setTheme(name));
+  const before = `Before it begins, the robot has fallen${folds ? " and folded its legs" : ""}.`;
+  const all = [...played, ...failed];
   let bar = null;
-  const inputs = played.map((one, k) => {
+  const inputs = all.map(({ fall, motions: [number] }, k) => {
     const input = el("input", { type: "radio", name: "motion", onchange: () => show(k) });
-    choice.append(el("label", {}, input, el("span", {}, `motion ${one.motions[0]}`)));
+    choice.append(el("label", {}, input, el("span", {}, fall === undefined ? `motion ${number}` : `fall ${fall}: fails`)));
     return input;
   });
   function show(k) {
     inputs[k].checked = true;
-    const { motion, layers, horizon, end, motions: [number] } = played[k];
+    const { motion, layers, horizon, end, motions: [number], fall, missed } = all[k];
     player.update({ motion, layers });
     bar?.remove();
     bar = createControls(controls, player, { horizon, end });
     player.seek(0);
     const row = listed.find((one) => one.motion === number);
-    said.textContent = `Motion ${number}, from the fall that it was found for${row ? `: it gets up from ${row.works} falls` : ""}. Before it begins, the robot has fallen${folds ? " and folded its legs" : ""}.`;
+    said.textContent = fall === undefined
+      ? `Motion ${number}, from the fall that it was found for${row ? `: it gets up from ${row.works} falls` : ""}. ${before}`
+      : `No motion gets up from fall ${fall}. This is the likeliest one, ${motionName(number)}: it misses ${missed.map(({ name, error }) => `${name.replaceAll("_", " ")} by ${significant(Math.abs(error), 2)}`).join(", ")}. ${before}`;
   }
   player.onTime((t) => bar?.setTime(t));
   show(0);
-  return (motion) => {
-    const k = played.findIndex((one) => one.motions.includes(motion));
+  return ({ motion, fall }) => {
+    const k = all.findIndex((one) => (fall === undefined ? one.fall === undefined && one.motions.includes(motion) : one.fall === fall));
     if (k >= 0) show(k);
   };
 }

@@ -8,7 +8,7 @@ be under construction: the page says how far it has come.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +17,7 @@ import numpy as np
 from levade.arrays import Array
 from levade.library.asking import Library
 from levade.library.building import rounds
+from levade.library.failing import failures
 from levade.library.falls import FACES, face
 from levade.library.figure import projected
 from levade.library.records import Method, Record, fall_of, image_of, motion_path
@@ -38,6 +39,9 @@ _RATE = 60.0
 
 _PLAYED = 5
 """Number of motions that can be played on the page."""
+
+_SHOWN = 3
+"""Number of failures that can be played on the page."""
 
 _LISTED = 8
 """Number of motions that the page lists. Beyond those that cover all falls, they are the ones that work from most."""
@@ -128,6 +132,7 @@ def library_data(library: Library) -> dict[str, Any]:
         "cover": [{"motion": number, "falls": falls} for number, falls in known.cover()],
         "listed": list(_listed(library, works, perturbed if complete else None)),
         "scene": played[0]["scene"] if played else None,
+        "failed": list(_failed(library, played[0]["scene"])) if played else [],
         "played": [{key: value for key, value in one.items() if key not in ("robot", "scene")} for one in played],
         "provenance": {
             "seed": seed,
@@ -213,16 +218,27 @@ def _played(library: Library) -> list[dict[str, Any]]:
     found: list[dict[str, Any]] = []
     for fall in falls[:_PLAYED]:
         motion = Motion.load(motion_path(library.directory, fall))
-        scene = scene_data(motion, like=found[0]["scene"] if found else None, rate=_RATE)
-        found.append(
-            {
-                "motions": [fall, image_of(fall)],
-                "robot": motion.robot,
-                "scene": scene,
-                "horizon": motion.horizon,
-                "end": motion.duration,
-                "motion": {**scene["motion"], "reference": None},
-                "layers": [layer for layer in scene["layers"] if layer["name"] != "reference"],
-            }
-        )
+        found.append({"motions": [fall, image_of(fall)], **_scene(motion, found[0]["scene"] if found else None)})
     return found
+
+
+def _failed(library: Library, like: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
+    """Yield what the likeliest motion does from the first falls that no motion gets up from."""
+    for one in failures(library, most=_SHOWN):
+        missed = [{"name": name, "error": error} for name, error in one.missed.items()]
+        scene = _scene(one.motion, like)
+        del scene["scene"], scene["robot"]
+        yield {"fall": one.fall, "motions": [one.number], "missed": missed, **scene}
+
+
+def _scene(motion: Motion, like: Mapping[str, Any] | None) -> dict[str, Any]:
+    """Return a motion as the page plays it, with the shapes of another one's scene."""
+    scene = scene_data(motion, like=like, rate=_RATE)
+    return {
+        "robot": motion.robot,
+        "scene": scene,
+        "horizon": motion.horizon,
+        "end": motion.duration,
+        "motion": {**scene["motion"], "reference": None},
+        "layers": [layer for layer in scene["layers"] if layer["name"] != "reference"],
+    }
