@@ -245,7 +245,7 @@ function start({ scene, played, failed, listed, folds }, { stage, controls, them
     const row = listed.find((one) => one.motion === number);
     said.textContent = fall === undefined
       ? `Motion ${number}, from the fall that it was found for${row ? `: it gets up from ${row.works} falls` : ""}. ${before}`
-      : `No motion gets up from fall ${fall}. This is the likeliest one, ${motionName(number)}: it misses ${missed.map(({ name, error }) => `${name.replaceAll("_", " ")} by ${significant(Math.abs(error), 2)}`).join(", ")}. ${before}`;
+      : `No motion gets up from fall ${fall}. This is the likeliest one, ${motionName(number)}${missed.length ? `: it misses ${missed.map(({ name, error }) => `${name.replaceAll("_", " ")} by ${significant(Math.abs(error), 2)}`).join(", ")}` : ""}. ${before}`;
   }
   player.onTime((t) => bar?.setTime(t));
   show(0);
