@@ -179,8 +179,11 @@ def test_a_motion_that_is_chosen_marks_its_falls_and_is_played(opened: Any, libr
 def test_a_failure_is_listed_and_found_on_the_map(opened: Any) -> None:
     opened.get_by_role("button", name=f"Fall {FAILED}", exact=True).first.click()
     assert opened.locator(".about").inner_text().startswith(f"Fall {FAILED}: on its ")
-    assert "0 motions work from here" in opened.locator(".about").inner_text()
+    assert "No motion works from here." in opened.locator(".about").inner_text()
     assert opened.locator(".ring:visible").count() == 1
+    cross, dot = (opened.locator(f".disc {which}").first for which in (".cross", "circle.mark"))
+    colours = [mark.evaluate("mark => getComputedStyle(mark).stroke") for mark in (cross, dot)]
+    assert colours[0] != colours[1]  # the edge of a dot is that of the panel; a cross has no other colour
     assert opened.get_by_role("radio", name=f"fall {FAILED}: fails", exact=True).is_checked()
     assert f"No motion gets up from fall {FAILED}." in opened.locator(".said").inner_text()
     assert opened.complaints == []

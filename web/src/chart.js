@@ -272,6 +272,6 @@ export function markShape({ shape, colour, r = 3 }, x, y) {
   }
   if (shape === "triangle") return svg("path", { class: "mark", fill: colour, d: `M${x} ${y - 1.35 * r}l${1.25 * r} ${2.2 * r}h${-2.5 * r}z` });
   if (shape === "square") return svg("rect", { class: "mark", fill: colour, x: x - r, y: y - r, width: 2 * r, height: 2 * r });
-  if (shape === "cross") return svg("path", { class: "mark cross", stroke: colour, d: `M${x - r} ${y - r}l${2 * r} ${2 * r}m0 ${-2 * r}l${-2 * r} ${2 * r}` });
+  if (shape === "cross") return svg("path", { class: "mark cross", style: `stroke:${colour}`, d: `M${x - r} ${y - r}l${2 * r} ${2 * r}m0 ${-2 * r}l${-2 * r} ${2 * r}` });
   return svg("circle", { class: "mark", cx: x, cy: y, r, fill: colour });
 }

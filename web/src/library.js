@@ -15,7 +15,7 @@ const LOOKS = {
   known: { colour: "var(--front-right)", shape: "dot", words: "a known motion" },
   near: { colour: "var(--front-left)", shape: "triangle", words: "a search around a known motion" },
   cold: { colour: "var(--hind-right)", shape: "square", words: "a search from nothing" },
-  none: { colour: "var(--bad)", shape: "cross", words: "nothing" },
+  none: { colour: "var(--bad)", shape: "cross", words: "not solved" },
 };
 const MANY = 24; // failures that are listed one by one
 
@@ -52,7 +52,7 @@ function fallsOf({ falls, methods, lying }) {
   const [number, method, spent, face, tilt, above, place, works, perturbed] = ["number", "method", "trials", "face", "tilt", "above", "place", "works", "perturbed"].map(column);
   return Array.from(number, (_, k) => {
     const fall = { number: number[k], look: methods[method[k]], motion: falls.motion[k], trials: spent[k], face: lying[face[k]], tilt: tilt[k], above: above[k] === 1, x: place[2 * k], y: place[2 * k + 1], works: works[k], perturbed: perturbed && perturbed[k] };
-    return { ...fall, title: `Fall ${fall.number}: on its ${fall.face}, tilted ${degrees(fall.tilt, 0)}. Solved by ${LOOKS[fall.look].words}${fall.motion === null || fall.motion === fall.number ? "" : `, ${motionName(fall.motion)}`}, ${fall.trials} trials.` };
+    return { ...fall, title: `Fall ${fall.number}: on its ${fall.face}, tilted ${degrees(fall.tilt, 0)}. ${fall.look === "none" ? "Not solved" : `Solved by ${LOOKS[fall.look].words}`}${fall.motion === null || fall.motion === fall.number ? "" : `, ${motionName(fall.motion)}`}, ${fall.trials} trials.` };
   });
 }
 
@@ -125,8 +125,9 @@ function createMap(falls, { pitch, folds }) {
 }
 
 function words({ title, works, perturbed }) {
-  const many = (n) => (n === 1 ? "1 motion works" : `${n} motions work`);
-  return `${title} ${many(works)} from here${perturbed === null ? "" : `, ${perturbed} on robots that differ from the model`}.`;
+  if (!works) return `${title} No motion works from here.`;
+  const many = works === 1 ? "1 motion works" : `${works} motions work`;
+  return `${title} ${many} from here${perturbed === null ? "" : `, ${perturbed} on robots that differ from the model`}.`;
 }
 
 // Motions, each a button; one at a time is chosen.
