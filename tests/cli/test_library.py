@@ -74,6 +74,14 @@ def test_it_is_shown_and_drawn(built: Path, run: Run, tmp_path: Path) -> None:
     shown, library = json.loads(out), Library.load(built)
     assert (shown["done"], shown["coverage"]) == (4, library.coverage)
     assert sum(shown["methods"].values()) == 4
+    page = built / "library.html"
+    assert (shown["written"], page.is_file()) == ([], True)  # by the build
+    before = page.read_bytes()
+    page.unlink()
+    assert "To open in a browser" not in run("library", "show", str(built), "--no-report")[1]
+    assert not page.exists()
+    assert str(page) in "".join(run("library", "show", str(built))[1].split())
+    assert page.read_bytes() == before
     pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install levade[figures]")
     for place in (tmp_path / "one", tmp_path / "two"):
         status, out, _ = run("library", "show", str(built), "--figures", str(place), "--format", "svg")

@@ -261,13 +261,17 @@ function whisker(x, a, b) {
   return `M${x} ${a}V${b}M${x - 3} ${a}h6M${x - 3} ${b}h6`;
 }
 
-function markShape(mark, x, y) {
-  if (mark.shape === "star") {
+// A mark at x, y: a star, a triangle, a square, a cross or a dot, about as large as a dot of radius r.
+export function markShape({ shape, colour, r = 3 }, x, y) {
+  if (shape === "star") {
     const points = Array.from({ length: 10 }, (_, i) => {
-      const r = i % 2 ? 2.8 : 6.5, a = (Math.PI * i) / 5;
-      return `${(x + r * Math.sin(a)).toFixed(1)},${(y - r * Math.cos(a)).toFixed(1)}`;
+      const far = i % 2 ? 2.8 : 6.5, a = (Math.PI * i) / 5;
+      return `${(x + far * Math.sin(a)).toFixed(1)},${(y - far * Math.cos(a)).toFixed(1)}`;
     });
-    return svg("polygon", { class: "mark", points: points.join(" "), fill: mark.colour });
+    return svg("polygon", { class: "mark", points: points.join(" "), fill: colour });
   }
-  return svg("circle", { class: "mark", cx: x, cy: y, r: 3, fill: mark.colour });
+  if (shape === "triangle") return svg("path", { class: "mark", fill: colour, d: `M${x} ${y - 1.35 * r}l${1.25 * r} ${2.2 * r}h${-2.5 * r}z` });
+  if (shape === "square") return svg("rect", { class: "mark", fill: colour, x: x - r, y: y - r, width: 2 * r, height: 2 * r });
+  if (shape === "cross") return svg("path", { class: "mark cross", style: `stroke:${colour}`, d: `M${x - r} ${y - r}l${2 * r} ${2 * r}m0 ${-2 * r}l${-2 * r} ${2 * r}` });
+  return svg("circle", { class: "mark", cx: x, cy: y, r, fill: colour });
 }

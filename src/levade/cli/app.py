@@ -715,12 +715,21 @@ def _show_library(
         Path | None, typer.Option(metavar="DIR", help="Draw the falls and the motions that cover them, into DIR.")
     ] = None,
     format: Annotated[str, typer.Option(help="Format of the figure: pdf, svg or png.")] = "pdf",
+    report: Annotated[
+        bool | None,
+        typer.Option("--report/--no-report", help="Write library.html into DIR. Default, except with --json."),
+    ] = None,
     as_json: Json = False,
 ) -> int:
-    """Show what a library holds: its falls, how each was solved, and how few motions are enough."""
+    """Show what a library holds, and write library.html, a page to open in any browser.
+
+    The page shows how the robot lies after each fall, how each was solved, how few motions are enough, and plays some of
+    them. A build also writes it.
+    """
     from levade.cli.librarian import show_library
 
-    return show_library(library, figures=figures, format=format, as_json=as_json)
+    write = not as_json if report is None else report
+    return show_library(library, figures=figures, format=format, report=write, as_json=as_json)
 
 
 @_library.command("ask")

@@ -26,6 +26,7 @@ from levade.library.falls import FACES, face
 from levade.library.figure import draw
 from levade.library.learning import learn, save
 from levade.library.merging import merge
+from levade.library.page import write_library
 from levade.library.records import motion_path
 from levade.library.refining import refine as refined_answer
 from levade.library.storing import WHOLE, Shard
@@ -84,15 +85,24 @@ def build_library(
         )
         stopped = stopping()
     place = escape(str(directory))
+    written = [write_library(library, instead=_later(directory))] if library.records else []
     if as_json:
-        print(json.dumps({**_summary(library, directory), "starts": starts, "interrupted": stopped}))
+        summary = _summary(library, directory, written)
+        print(json.dumps({**summary, "starts": starts, "interrupted": stopped}))
     else:
         _tell_library(console, library)
+        if written:
+            console.print(f"To open in a browser: {escape(str(written[0]))}")
         if stopped:
             console.print(f"[yellow]Interrupted[/]: build again to continue. All finished falls are in {place}.")
         else:
             console.print(f"To try it on falls that it has never seen: levade library check {place}")
     return 1 if stopped else 0
+
+
+def _later(directory: Path) -> str:
+    """Say what to do when a build cannot write the page."""
+    return f"all falls are kept, and levade library show {directory} writes it later"
 
 
 def _shard(text: str) -> Shard:
@@ -166,13 +176,14 @@ def export_the_library(
     return 0
 
 
-def show_library(directory: Path, *, figures: Path | None, format: str, as_json: bool) -> int:
-    """Describe a library, and return the exit status 0."""
+def show_library(directory: Path, *, figures: Path | None, format: str, report: bool, as_json: bool) -> int:
+    """Describe a library, and return the exit status 0. ``report`` says whether to write its page."""
     library = Library.load(directory)
     console = make_console(stderr=as_json)
     written = [] if figures is None else draw(library, figures, format=format)
+    page = [write_library(library, instead="write none: --no-report")] if report else []
     if as_json:
-        print(json.dumps({**_summary(library, directory), "written": [str(path) for path in written]}))
+        print(json.dumps(_summary(library, directory, [*written, *page])))
         return 0
     _tell_library(console, library)
     for name in FACES:
@@ -183,10 +194,12 @@ def show_library(directory: Path, *, figures: Path | None, format: str, as_json:
             console.print(f"  lying on its {name}: {n} fall{'s' * (n != 1)}, {works:.1%} solved")
     for path in written:
         console.print(f"Written: {escape(str(path))}")
+    for path in page:
+        console.print(f"To open in a browser: {escape(str(path))}")
     return 0
 
 
-def _summary(library: Library, directory: Path) -> dict[str, Any]:
+def _summary(library: Library, directory: Path, written: Sequence[Path]) -> dict[str, Any]:
     """Return what ``build`` and ``show`` print as JSON."""
     return {
         "library": str(directory),
@@ -195,6 +208,7 @@ def _summary(library: Library, directory: Path) -> dict[str, Any]:
         "trials": sum(record.trials for record in library.records),
         "coverage": library.coverage,
         "cover": [{"motion": number, "falls": works} for number, works in library.knowledge.cover()],
+        "written": [str(path) for path in written],
     }
 
 

@@ -209,7 +209,9 @@ class Solver:
     def _keep(self, i: int, begun: _Begun, method: Method, motion: int | None, found: Motion | None = None) -> None:
         """Write a finished fall: first the motion, if a search found one, then the record."""
         record = Record(i, *begun.sensed, method, motion, begun.trials, begun.tried, begun.worked)
-        with storing(self._directory, then=Remedy("make room, then build again"), kept="all falls that are done"):
+        with storing(
+            self._directory, then=Remedy("make room, then build again"), kept="all falls that are done are kept"
+        ):
             if found is not None:
                 found.save(motion_path(self._directory, i))
             record.write(self._directory)

@@ -122,7 +122,7 @@ def page(
     return assembled(f"{provenance['task']} on {provenance['robot']}, seed {provenance['seed']}", data, "report")
 
 
-def assembled(title: str, data: Any, entry: Literal["report", "certificate", "live"]) -> str:
+def assembled(title: str, data: Any, entry: Literal["report", "certificate", "library", "live"]) -> str:
     """Build a self-contained page.
 
     Args:

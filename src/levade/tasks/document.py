@@ -42,6 +42,7 @@ from levade.tasks.code import (
     measure_to_dict,
     missing_code,
 )
+from levade.tasks.families import with_family
 from levade.tasks.files import find, read_task, with_goal, with_heights
 from levade.tasks.parts import Cost, RobotChoice, Search
 from levade.tasks.task import Task
@@ -196,7 +197,7 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
         return load_robot(choice.name, variant=choice.variant)
 
     measures = functools.cache(lambda: dimensions(chosen()))
-    content = stances.on_robot(content, chosen, where)
+    content = with_family(stances.on_robot(content, chosen, where), where)
     if isinstance(content.get("success"), Mapping):
         content["success"] = _with_quantities(content["success"], where)
         content["robust"] = _good_enough(content.get("robust"), content["success"], where)

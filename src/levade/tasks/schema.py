@@ -20,6 +20,7 @@ from levade.costs import Criterion
 from levade.costs.success import QUANTITIES
 from levade.engines import ENGINES
 from levade.tasks.document import TERMS
+from levade.tasks.families import FAMILIES
 from levade.tasks.files import BY_STANCE, EXTENDS
 from levade.tasks.parts import HorizonRange
 from levade.tasks.stances import ATTITUDES, LYING, STANCES
@@ -52,6 +53,7 @@ def task_schema() -> Schema:
     engine["enum"] = list(ENGINES)
     task["properties"]["hardware"] = {"anyOf": [{"type": "boolean"}, task["properties"]["hardware"]]}
     definitions["StartChoice"] |= {"minProperties": 1, "maxProperties": 1}
+    definitions["StartChoice"]["properties"]["fallen"]["anyOf"].append({"enum": list(FAMILIES)})
     definitions["Fall"]["properties"][LYING] = {
         "enum": list(ATTITUDES["level"]),
         "description": "Side that the robot comes to lie on, instead of roll and pitch.",
