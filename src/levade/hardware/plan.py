@@ -338,7 +338,7 @@ def _with_run_up(own: PolicyChoice, smooth: PolicyChoice) -> PolicyChoice:
 
 def _smooth(policy: PolicyChoice) -> PolicyChoice:
     # a straight line begins at the joints' positions; the last command of weak servos would jolt strong ones
-    if policy.initial == "interpolate":
+    if policy.initial == "interpolate" and not policy.through:
         policy = replace(policy, depart=0.0)
     policy = replace(policy, room=_REFERENCES_ROOM if policy.room is None else policy.room)
     if policy.kernels <= _KERNELS and policy.time == "normalised":
