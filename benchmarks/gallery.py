@@ -17,7 +17,7 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-from skills import CHANGES, FRONT, model
+from skills import CHANGES, model
 
 HERE = Path(__file__).parent
 RESULTS = HERE / "results" / "gallery.json"
@@ -28,7 +28,7 @@ FIRST = ("rearing", "posture-recovery", "rearing-slow", "posture-recovery-slow")
 """The paper's tasks, stated in its robot's SI; the others are in units of the robot."""
 COLOURS = 96
 FILMED = HERE / "results" / "films.json"
-FILMS = (("self-righting", "g1"), (FRONT, "g1"), ("self-righting", "hexapod"), ("squat-jump", "gymnasium's ant"))
+FILMS = (("self-righting", "g1"), ("squat-jump", "g1"), ("self-righting", "hexapod"), ("squat-jump", "gymnasium's ant"))
 """Task and robot, as in skills.py."""
 
 
