@@ -213,10 +213,9 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
             else stage
             for i, stage in enumerate(content["stages"])
         ]
+    content["hardware"] = _demands(content.get("hardware"))
     if not code:  # the task of a motion is complete, and names no files
         content["policy"] = with_goal(content.get("policy", {}), f"{where}.policy.goal")
-    content["hardware"] = _demands(content.get("hardware"))
-    if not code:
         _check_keys(content, where)
     content = dict(to_si(content, where=where, robot=measures))
     _check_horizon(content.get("horizon", 0.0), where)
