@@ -86,6 +86,7 @@ def solve_and_report(
         objective = make_objective(chosen, threads=threads)
         earlier = [Motion.load(path) for path in begin]
         guess = initial_guess(objective.policy, earlier) if earlier else None
+        _tell_other_robots(console, begin, earlier, objective.robot.name)
         go = functools.partial(run, objective, seed=seed, directory=out, initial=guess)
     _tell_need(console, objective)
     tell_warnings(console, objective.robot, objective.task.robot.name)
@@ -117,6 +118,17 @@ def solve_and_report(
         else:
             _tell(console, outcome, earlier, numerics, replayed=replayed, replaces=replaces)
     return 0 if outcome.motion.result.success else 1
+
+
+def _tell_other_robots(console: Console, paths: list[Path], earlier: list[Motion], robot: str) -> None:
+    """Print a line for each motion to begin around that another robot made."""
+    for path, motion in zip(paths, earlier, strict=True):
+        if motion.robot != robot:
+            console.print(
+                f"[yellow]--from {escape(str(path))}:[/] is a motion of {escape(motion.robot)}; its angles are taken joint by"
+                f" joint and may mean something else on {escape(robot)}",
+                soft_wrap=True,
+            )
 
 
 def _tell_need(console: Console, objective: Objective) -> None:
