@@ -161,7 +161,8 @@ MEASURED = (
 
 def _off(apart: Mapping[str, float]) -> str:
     distance = 1000 * apart["position_at_horizon"]
-    return f"{distance:.0f} mm off at the horizon" if distance >= 10 else f"{distance:.2g} mm off at the horizon"
+    number = f"{distance:.0f}" if distance >= 10 or distance < 1e-3 else f"{distance:.2g}"
+    return f"{number} mm off at the horizon"
 
 
 def _number(margin: Margin) -> str:
