@@ -217,7 +217,7 @@ def build(kind: type[T], content: Any, *, where: str) -> T:
     """
     import pydantic
 
-    _check_keys(kind, content, where)
+    check_keys(kind, content, where)
     try:
         return _adapter(kind).validate_python(content)
     except pydantic.ValidationError as error:
@@ -279,7 +279,7 @@ def kind_of(value: Any) -> str:
     return text if len(text) <= 2 * _LONGEST_SHOWN else f"{text[:30]}..."
 
 
-def _check_keys(kind: Any, content: Any, where: str) -> None:
+def check_keys(kind: Any, content: Any, where: str) -> None:
     """Refuse unknown keys of a dataclass and of those within it, and true or false for a number, which Python allows."""
     options = [kind, *typing.get_args(kind)] if _is_union(kind) else [kind]
     if isinstance(content, bool) and bool not in options and (float in options or int in options):
@@ -299,13 +299,13 @@ def _check_keys(kind: Any, content: Any, where: str) -> None:
         for key, value in content.items():
             if key not in valid:
                 raise LevadeError(f"{where}: unknown key {key!r}; {did_you_mean(str(key), valid)}")
-            _check_keys(fields[key], value, f"{where}.{key}")
+            check_keys(fields[key], value, f"{where}.{key}")
     elif origin in (tuple, list) and isinstance(content, (list, tuple)):
         for i, value in enumerate(content):
-            _check_keys(arguments[0], value, f"{where}.{i}")
+            check_keys(arguments[0], value, f"{where}.{i}")
     elif isinstance(origin, type) and issubclass(origin, Mapping) and isinstance(content, Mapping):
         for key, value in content.items():
-            _check_keys(arguments[1], value, f"{where}.{key}")
+            check_keys(arguments[1], value, f"{where}.{key}")
 
 
 def _is_union(kind: Any) -> bool:

@@ -146,3 +146,12 @@ def test_mistakes_are_one_line_and_exit_status_2(arguments: list[str], message: 
     assert (code, out) == (2, "")
     assert message in err
     assert err.count("\n") == 1
+
+
+@pytest.mark.slow
+def test_a_motion_that_fails_as_recorded_is_said_to(unmet: Path, levade) -> None:
+    code, out, _ = levade("check", unmet / "motion.npz", "--runs", "2")
+    assert code == 1
+    assert "It does not succeed even as recorded" in out
+    assert "Next: levade solve rearing --hardware" in out
+    assert "what breaks it" not in out

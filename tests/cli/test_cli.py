@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from levade.cli.display import _errors
 from levade.motions import Motion
 from levade.optimizers import OPTIMIZERS
 from levade.report.summary import summary_data
@@ -87,7 +88,7 @@ def test_help_and_version(levade) -> None:
         ),
         (
             "solve rearing --out /proc/none",
-            "/proc/none: cannot be written (No such file or directory); give another directory",
+            "/proc/none: cannot be written (No such file or directory); give another directory: --out DIR",
         ),
         ("solve rearing --out /dev/null/none", "/dev/null/none: cannot be written (Not a directory)"),
         ("show none.npz", "none.npz: no such file; give the motion.npz that levade solve wrote"),
@@ -307,3 +308,28 @@ def test_on_a_terminal_the_display_is_live_and_leaves_the_tables(tmp_path: Path)
         "Written: posture-recovery/motion.npz",
     ):
         assert word in text, word
+
+
+def test_a_line_of_progress_says_which_criteria_are_not_simulated_yet() -> None:
+    assert _errors({"pitch": 0.25, "still": float("nan")}) == "; errors: pitch +0.25; 1 criterion not simulated yet"
+    assert _errors({"up": float("nan"), "still": float("nan")}) == "; 2 criteria not simulated yet"
+    assert _errors({"pitch": 0.25}) == "; errors: pitch +0.25"
+
+
+@pytest.mark.slow
+def test_a_second_run_says_that_it_replaces_the_first_and_a_resumed_one_what_it_replays(levade, tmp_path: Path) -> None:
+    out = levade("solve", "rearing", *QUICK)[1]
+    assert "Written: rearing/motion.npz" in out
+    assert "replayed" not in out
+    assert "Replaced: rearing/motion.npz" in levade("solve", "rearing", *QUICK)[1]
+    checkpoint = tmp_path / "rearing" / "checkpoint.jsonl"
+    checkpoint.write_bytes(b"".join(checkpoint.read_bytes().splitlines(keepends=True)[:2]))
+    out = levade("solve", "--resume", "rearing")[1]
+    assert "Replaying 8 trials of the earlier run ..." in out
+    assert "16 trials, 8 of them replayed, in " in out
+
+
+@pytest.mark.slow
+def test_a_search_says_that_it_went_on_to_lower_the_cost(levade) -> None:
+    out = levade("solve", "rearing", *QUICK, *LOOSE, "--set", "search.polish=8")[1]
+    assert "Success at trial 8; it went on to lower the cost: 16 trials in " in out

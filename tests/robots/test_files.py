@@ -219,3 +219,9 @@ def test_names_that_a_terminal_would_obey_are_refused(tmp_path: Path, hidden: st
     (tmp_path / "pup\x1b[2J.xml").write_bytes((CASES / "pairs" / "pup.xml").read_bytes())
     with pytest.raises(LevadeError, match="its name holds control characters"):
         load_robot(tmp_path / "pup\x1b[2J.xml")
+
+
+def test_a_text_about_something_else_is_said_to_be_no_robot(tmp_path: Path) -> None:
+    (tmp_path / "README.md").write_text("# Pup\n\nupstream: elsewhere\n", encoding="utf-8")
+    with pytest.raises(LevadeError, match=r"README\.md: is no URDF, MJCF or robot\.yaml; give one of them"):
+        load_robot(tmp_path / "README.md")

@@ -112,7 +112,7 @@ class Certificate:
                 name,
                 one.success if judged else None,
                 ("broke down" if one.diverged else "succeeds" if one.success else "does not succeed")
-                + f"; {1000 * one.apart['position_at_horizon']:.2g} mm off at the horizon",
+                + f"; {_off(one.apart)}",
                 "success",
                 "" if judged else "not demanded",
             )
@@ -125,7 +125,7 @@ class Certificate:
             if one.success is None or one.apart is None:
                 found.append(Verdict(f"engine {name}", None, "", "success", one.reason))
                 continue
-            moved = f"; {100 * one.apart['position_at_horizon']:.2g} cm off at the horizon"
+            moved = f"; {_off(one.apart)}"
             moved += "; without the stabiliser" * (self.open_loop is not None)
             found.append(
                 Verdict(
@@ -157,6 +157,12 @@ MEASURED = (
     *("foot_force", "impact_speed", "part_force", "trunk_acceleration", "self_collision"),
 )
 """Margins with an upper bound on what is measured; the others have a lower bound on the slack."""
+
+
+def _off(apart: Mapping[str, float]) -> str:
+    distance = 1000 * apart["position_at_horizon"]
+    number = f"{distance:.0f}" if distance >= 10 or distance < 1e-3 else f"{distance:.2g}"
+    return f"{number} mm off at the horizon"
 
 
 def _number(margin: Margin) -> str:

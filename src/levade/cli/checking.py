@@ -16,6 +16,7 @@ from rich.text import Text
 
 from levade.checks import Certificate, Demands, check
 from levade.checks.perturbed import Perturbed
+from levade.cli.doubts import hardware_command
 from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console
 from levade.document import build, parse_yaml, read_yaml
@@ -77,7 +78,7 @@ def check_motion(
         if as_json:
             print(json.dumps(content, ensure_ascii=False))
         else:
-            _tell(make_console(), path, certificate, runs)
+            _tell(make_console(), path, motion, certificate, runs)
         if file is not None:
             file.write_text(json.dumps(content, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
         if leaf is not None:
@@ -130,7 +131,7 @@ def _like(default: Perturbation | Demands, name: str) -> str:
     return f"{name}={'[0.9,1.1]' if value is None else f'[{value[0]:g},{value[1]:g}]'}"
 
 
-def _tell(console: Console, path: Path, certificate: Certificate, runs: int) -> None:
+def _tell(console: Console, path: Path, motion: Motion, certificate: Certificate, runs: int) -> None:
     console.print(
         f"[bold]{escape(certificate.task)}[/] on {escape(certificate.robot)}, {escape(str(path))}"
         + (f", by the criteria of {escape(certificate.criteria)}" if certificate.criteria != certificate.task else "")
@@ -138,8 +139,9 @@ def _tell(console: Console, path: Path, certificate: Certificate, runs: int) -> 
     console.print(verdict_table(certificate))
     console.print()
     console.print(_errors(certificate.perturbed))
-    console.print()
-    console.print(_sensitivity(certificate.perturbed))
+    if certificate.perturbed.successes:  # where nothing succeeds, nothing can be compared
+        console.print()
+        console.print(_sensitivity(certificate.perturbed))
     failed = certificate.failed
     console.print()
     if certificate.interrupted:
@@ -156,6 +158,12 @@ def _tell(console: Console, path: Path, certificate: Certificate, runs: int) -> 
         )
     else:
         console.print("[green]Passes[/].")
+    recorded = certificate.numerics.get("as recorded")
+    if recorded is not None and not recorded.success:
+        console.print(
+            "It does not succeed even as recorded, without any change, so nothing here says how robust it is."
+            f" Next: {escape(hardware_command(motion, path.parent))}"
+        )
 
 
 def _table(*headings: str, right: Sequence[str] = ()) -> Table:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 from rich.console import Console, Group, RenderableType
@@ -58,12 +58,9 @@ class Display:
         now = time.perf_counter()
         if generation.stage_name != self._stage or now - self._told > _PLAIN_EVERY:
             self._stage, self._told = generation.stage_name, now
-            errors = ", ".join(
-                f"{name} {value:+.3g}" for name, value in generation.best.errors.items() if value == value
-            )
             self._console.print(
                 f"trial {generation.trials}, {escape(_stage(generation))}:"
-                f" best cost {generation.best.cost:.4g}; errors: {errors}"
+                f" best cost {generation.best.cost:.4g}{escape(_errors(generation.best.errors))}"
             )
 
     def _render(self) -> RenderableType:
@@ -102,6 +99,14 @@ def _stage(g: Generation) -> str:
     """With how many motions to start from there are, where several are looked for."""
     found = f", best of {len(g.starts)} starts holds on {max(g.starts):.0%} of models" if g.starts else ""
     return f"stage {g.stage_name}{found}"
+
+
+def _errors(errors: Mapping[str, float]) -> str:
+    """Return what a plain line says about the criteria. Those of a hold are NaN while a stage simulates none of it."""
+    known = ", ".join(f"{name} {value:+.3g}" for name, value in errors.items() if not np.isnan(value))
+    unknown = int(np.isnan(list(errors.values())).sum())
+    later = f"{unknown} {'criterion' if unknown == 1 else 'criteria'} not simulated yet"
+    return (f"; errors: {known}" if known else "") + (f"; {later}" if unknown else "")
 
 
 def _criteria(task: Task, g: Generation) -> Table:

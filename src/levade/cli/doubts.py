@@ -134,11 +134,23 @@ def _listed(names: Sequence[str]) -> str:
 
 def _next(motion: Motion, directory: Path) -> str:
     """Return the command that searches for a motion that hardware can do, or that checks this one."""
-    task, robot = motion.task_name, motion.task.robot.name
-    if task not in builtin_tasks():
+    if motion.task_name not in builtin_tasks():
         return f"levade check {shlex.quote(str(directory / 'motion.npz'))}"
-    words = ["levade", "solve", task, "--hardware"]
-    if robot != load_task(task).robot.name:
+    return hardware_command(motion, directory)
+
+
+def hardware_command(motion: Motion, directory: Path) -> str:
+    """Return the command that searches for a motion that does the same task and passes a certificate.
+
+    Args:
+        motion: The motion.
+        directory: Directory of its run.
+    """
+    task, robot = motion.task_name, motion.task.robot.name
+    own = task not in builtin_tasks()
+    file = directory / "task.yaml" if (directory / "task.yaml").is_file() else f"{task}.yaml"
+    words = ["levade", "solve", str(file) if own else task, "--hardware"]
+    if not own and robot != load_task(task).robot.name:
         words += ["--robot", robot]
     if directory == Path(task):  # the pursuit would use the directory of this run
         words += ["--out", f"{task}-hardware"]

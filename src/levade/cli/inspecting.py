@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import shlex
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -37,6 +38,7 @@ def inspect_robot(name: str, *, picture: Path | None, as_json: bool) -> None:
         console.print(part)
     if picture is not None:
         console.print(f"Written: {escape(str(picture))}")
+    console.print(f"\nNext: levade solve squat-jump --robot {escape(shlex.quote(name))}", soft_wrap=True)
 
 
 def list_robots(*, as_json: bool) -> None:
@@ -162,8 +164,8 @@ def _joints(patient: Patient) -> Table:
     robot, limits, actuation = patient.robot, patient.robot.limits, patient.robot.actuation
     table = Table(box=None, padding=(0, 2, 0, 0), header_style="bold")
     for heading, unit in (
-        ("leg", ""), ("joint", ""), ("role", ""), ("neutral", "rad"), ("range", "rad"), ("torque", "Nm"), ("to stand", ""),
-        ("speed", "rad/s"), ("kp", "Nm/rad"), ("kd", "Nm s/rad"),
+        ("leg", ""), ("joint", ""), ("role", ""), ("neutral", "rad"), ("range", "rad"), ("torque", "Nm"),
+        ("to stand", "% of torque"), ("speed", "rad/s"), ("kp", "Nm/rad"), ("kd", "Nm s/rad"),
     ):  # fmt: skip
         left = heading in ("leg", "joint", "role")
         table.add_column(f"{heading}\n[dim]{unit}[/]", justify="left" if left else "right", no_wrap=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -61,7 +62,7 @@ def _reports(motions: Mapping[Path, Motion]) -> list[Path]:
             progress_csv=progress_beside(path, motion),
             source=path.name,
             certificate=certificate_beside(path, motion),
-            instead="write none: --no-report",
+            instead=f"write one elsewhere: levade view {shlex.quote(str(path))} --out FILE.html, or none: --no-report",
         )
         for path, motion in motions.items()
     ]

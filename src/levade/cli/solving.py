@@ -26,7 +26,7 @@ from levade.search.initial import initial_guess
 from levade.search.memory import in_words, needed
 from levade.search.objective import AT_ONCE
 from levade.search.optimizing import make_attempt
-from levade.search.run import PURSUIT, Outcome, check_replaceable, check_unlocked, read_run, resume, run
+from levade.search.run import MOTION, PURSUIT, Outcome, check_replaceable, check_unlocked, read_run, resume, run
 from levade.tasks import HorizonRange, load_task
 
 if TYPE_CHECKING:
@@ -53,6 +53,7 @@ def solve_and_report(
     console = make_console(stderr=as_json)
     quiet = as_json and not console.is_terminal
     earlier: list[Motion] = []
+    replayed, replaces = 0, False
     # errors in the input are raised before the display opens
     if resume_from is not None:
         check_unlocked(resume_from)
@@ -60,6 +61,7 @@ def solve_and_report(
         seed, out = checkpoint.header.seed, resume_from
         objective = make_objective(chosen, threads=threads)
         go = functools.partial(resume, out, objective=objective)
+        replayed = sum(one.evaluation.trials for one in checkpoint.records)
         if checkpoint.damage is not None:
             console.print(f"[yellow]warning:[/] {escape(checkpoint.damage)}", soft_wrap=True)
     else:
@@ -80,13 +82,17 @@ def solve_and_report(
                 discard(out)
         else:
             check_replaceable(out)
+        replaces = (out / MOTION).exists()
         objective = make_objective(chosen, threads=threads)
         earlier = [Motion.load(path) for path in begin]
         guess = initial_guess(objective.policy, earlier) if earlier else None
+        _tell_other_robots(console, begin, earlier, objective.robot.name)
         go = functools.partial(run, objective, seed=seed, directory=out, initial=guess)
     _tell_need(console, objective)
     tell_warnings(console, objective.robot, objective.task.robot.name)
     tell_unknown_limits(console, objective.task, objective.robot.limits)
+    if replayed and not quiet:
+        console.print(f"Replaying {counted(replayed, 'trial')} of the earlier run ...")
     with ExitStack() as stack:
         stopping = stack.enter_context(stop_between("generation"))
         watch = None
@@ -110,8 +116,19 @@ def solve_and_report(
             content = {**summary(outcome, numerics), **_warm(outcome, earlier)}
             print(json.dumps(content, ensure_ascii=False), flush=True)
         else:
-            _tell(console, outcome, earlier, numerics)
+            _tell(console, outcome, earlier, numerics, replayed=replayed, replaces=replaces)
     return 0 if outcome.motion.result.success else 1
+
+
+def _tell_other_robots(console: Console, paths: list[Path], earlier: list[Motion], robot: str) -> None:
+    """Print a line for each motion to begin around that another robot made."""
+    for path, motion in zip(paths, earlier, strict=True):
+        if motion.robot != robot:
+            console.print(
+                f"[yellow]--from {escape(str(path))}:[/] is a motion of {escape(motion.robot)}; its angles are taken joint by"
+                f" joint and may mean something else on {escape(robot)}",
+                soft_wrap=True,
+            )
 
 
 def _tell_need(console: Console, objective: Objective) -> None:
@@ -164,7 +181,15 @@ def _saved(outcome: Outcome, earlier: list[Motion]) -> int | None:
     return min(took) - now if took and now is not None else None
 
 
-def _tell(console: Console, outcome: Outcome, earlier: list[Motion], numerics: Mapping[str, Numeric]) -> None:
+def _tell(
+    console: Console,
+    outcome: Outcome,
+    earlier: list[Motion],
+    numerics: Mapping[str, Numeric],
+    *,
+    replayed: int,
+    replaces: bool,
+) -> None:
     solution, directory = outcome.solution, escape(str(outcome.directory))
     for part in motion_summary(outcome.motion):
         console.print(part)
@@ -172,12 +197,15 @@ def _tell(console: Console, outcome: Outcome, earlier: list[Motion], numerics: M
         console.print(f"The search chose T = {outcome.motion.horizon:.3g} s from {outcome.motion.task.horizon}.")
     first = solution.trials_to_success
     spent = f"{solution.trials} trials in {outcome.wall:.1f} s"
+    if replayed:
+        spent = f"{solution.trials} trials, {replayed} of them replayed, in {outcome.wall:.1f} s of this run"
     if outcome.motion.met_on_the_model_only:
         console.print("All of this is met on the model, but not on enough of the robots that differ from it.")
     if solution.stopped is Stopped.INTERRUPTED:
         console.print(f"[yellow]Interrupted[/] after {spent}. To go on: levade solve --resume {directory}")
     elif outcome.motion.result.success:
-        console.print(f"[green]Success[/] at trial {first}; {spent}.")
+        went_on = "it went on to lower the cost: " if _went_on(outcome) else ""
+        console.print(f"[green]Success[/] at trial {first}; {went_on}{spent}.")
         if (saved := _saved(outcome, earlier)) is not None and first is not None:
             worth = f"{saved} saved" if saved > 0 else "none saved"
             console.print(f"The motion that it began around took {first + saved} trials: {worth}.")
@@ -200,4 +228,11 @@ def _tell(console: Console, outcome: Outcome, earlier: list[Motion], numerics: M
     if solution.diverged:
         broke = counted(solution.diverged, "trial")
         console.print(f"[yellow]{broke} diverged[/]: their simulations broke down, so they rank last.")
-    console.print(f"Written: {directory}/motion.npz, task.yaml, progress.csv, checkpoint.jsonl")
+    done = "Replaced" if replaces else "Written"
+    console.print(f"{done}: {directory}/motion.npz, task.yaml, progress.csv, checkpoint.jsonl")
+
+
+def _went_on(outcome: Outcome) -> bool:
+    """Whether the search spent trials after its first success, to lower the cost."""
+    first, polish = outcome.solution.trials_to_success, outcome.objective.task.search.polish
+    return first is not None and outcome.solution.trials > first and polish != 0

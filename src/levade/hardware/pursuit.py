@@ -157,7 +157,7 @@ def pursue(
     if not plan.goal:
         raise LevadeError(f"hardware: the task {task.name} has no success criteria to certify; add some to the task")
     check_page(directory / PAGE, instead="give another directory")
-    with storing(directory / ASKED, then=Remedy("give another directory")):
+    with storing(directory / ASKED, then=Remedy("give another directory", "elsewhere")):
         directory.mkdir(parents=True, exist_ok=True)
     if replace:
         discard(directory)

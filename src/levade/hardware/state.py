@@ -74,7 +74,7 @@ class State:
             "demands": asdict(self.demands),
             "chosen": self.chosen,
         }
-        with storing(self.directory / ASKED, then=Remedy("give another directory")):
+        with storing(self.directory / ASKED, then=Remedy("give another directory", "elsewhere")):
             write_text(self.directory / ASKED, json.dumps(content, ensure_ascii=False, indent=1) + "\n")
 
 
@@ -137,7 +137,7 @@ def discard(directory: Path) -> None:
     while is_pursuit(again(directory, number)):
         discard(again(directory, number))
         number += 1
-    with storing(directory, then=Remedy("give another directory")):
+    with storing(directory, then=Remedy("give another directory", "elsewhere")):
         for search in searches:
             (search / CHECKPOINT).unlink(missing_ok=True)
         if (directory / CERTIFICATE).exists():  # and the motion that it certifies

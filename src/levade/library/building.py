@@ -106,7 +106,7 @@ def build(
     if task.start.fallen is None and (directory / LIBRARY).is_file():  # keep its falls, even if the default has changed
         task = replace(task, start=read_library(directory)[0].start)
     falls = Falls(task, robot=robot, seed=seed, threads=threads)
-    with storing(directory, then=Remedy("give another directory")):
+    with storing(directory, then=Remedy("give another directory", "elsewhere")):
         for name in (FALLS, MOTIONS):
             (directory / name).mkdir(parents=True, exist_ok=True)
     with locked(directory, "library"):

@@ -70,7 +70,7 @@ def merge(shards: Sequence[Path], directory: Path, *, robot: Robot | None = None
             raise LevadeError(f"{place}: is shard {of}, and so is {seen[of.number]}; give each shard once")
         seen[of.number] = place
     starts = max(read_starts(place) for place in shards)
-    with storing(directory, then=Remedy("give another directory")):
+    with storing(directory, then=Remedy("give another directory", "elsewhere")):
         for name in (FALLS, MOTIONS):
             (directory / name).mkdir(parents=True, exist_ok=True)
     falls = Falls(task, robot=robot, seed=seed, threads=1)

@@ -84,7 +84,7 @@ def begin(directory: Path, falls: Falls, seed: int, starts: int, shard: Shard = 
             )
         if read_shard(directory) != shard:
             raise LevadeError(f"{directory}: holds shard {read_shard(directory)} of a library; merge shards first")
-    with storing(place, then=Remedy("give another directory")):
+    with storing(place, then=Remedy("give another directory", "elsewhere")):
         write_text(directory / TASK, task_to_yaml(falls.task))
         mirror = None if falls.mirror is None else falls.mirror.to_json()
         fold = "" if falls.fold is None else f"fold: {json.dumps(falls.fold.tolist())}\n"

@@ -45,6 +45,18 @@ def is_model(path: Path) -> bool:
     return head.replace(b"\0", b"").lstrip().startswith(b"<")
 
 
+def is_other_text(path: Path) -> bool:
+    """Tell whether a file is a text without ``model:``, which every description has, and so is about something else."""
+    try:
+        content = path.read_bytes()[:_LARGEST]
+        content.decode("utf-8")
+    except (OSError, UnicodeError):
+        return False
+    return (
+        b"\0" not in content and not is_pointer(content) and re.search(rb"^\W*model\W*:", content, re.MULTILINE) is None
+    )
+
+
 def read_xml(path: Path) -> str:
     """Read an XML file.
 

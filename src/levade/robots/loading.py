@@ -15,7 +15,7 @@ from levade.errors import LevadeError, did_you_mean
 from levade.robots.actuation import DCMotor
 from levade.robots.anatomy import understand
 from levade.robots.driving import SERVO, find_actuation, find_limits
-from levade.robots.files import is_model
+from levade.robots.files import is_model, is_other_text
 from levade.robots.inertias import survive_text
 from levade.robots.packages import find_package_robot, package_robots
 from levade.robots.posing import pose
@@ -178,7 +178,12 @@ def _describe(path: Path) -> RobotForm:
     from levade.robots.description import RobotForm, read_description
 
     if path.suffix.lower() not in _MODELS and not is_model(path):
-        return read_description(path)
+        try:
+            return read_description(path)
+        except LevadeError:
+            if path.suffix.lower() in (".yaml", ".yml") or not is_other_text(path):
+                raise
+            raise LevadeError(f"{path}: is no URDF, MJCF or robot.yaml; give one of them") from None
     beside = path.with_name("robot.yaml")
     if beside.is_file() and not is_model(beside):
         form = read_description(beside)

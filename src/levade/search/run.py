@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import errno
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -49,6 +49,7 @@ _SAVE_EVERY = 5.0
 """Least time between motions that are written on the way [s]."""
 
 _REPLACE, _ELSEWHERE = Remedy("replace it", "replace"), Remedy("write elsewhere", "elsewhere")
+_ANOTHER_DIRECTORY = Remedy("give another directory", "elsewhere")
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +111,7 @@ def run(
                 raise NotADirectoryError(errno.ENOTDIR, "Is not a directory")
             directory.mkdir(parents=True, exist_ok=True)
             stack.enter_context(locked(directory, "run"))
-            _check_files(directory)
+            _check_files(directory, (_ANOTHER_DIRECTORY,))
             write_text(directory / TASK, task_to_yaml(task, code=True))
             file = checkpoints.begin(directory, header)
         except OSError as error:
@@ -118,9 +119,11 @@ def run(
             if new:
                 with suppress(OSError):
                     directory.rmdir()
-            raise LevadeError(f"{directory}: cannot be written ({error.strerror}); give another directory") from None
+            raise LevadeError(
+                f"{directory}: cannot be written ({error.strerror})", remedies=(_ANOTHER_DIRECTORY,)
+            ) from None
         stack.enter_context(closing(file))
-        with storing(directory / MOTION, then=Remedy("give another directory")):
+        with storing(directory / MOTION, then=_ANOTHER_DIRECTORY):
             (directory / MOTION).unlink(missing_ok=True)  # only now: a full disk costs no earlier motion
         return _Run(objective, header, directory, file).go([], initial, observe, steer)
 
@@ -262,15 +265,13 @@ def _check_is_run(directory: Path) -> None:
         )
 
 
-def _check_files(directory: Path) -> None:
+def _check_files(directory: Path, remedies: Sequence[Remedy] = ()) -> None:
     """Raise LevadeError if the run would have to replace something that is no regular file."""
     for name in (TASK, CHECKPOINT, PROGRESS, MOTION):
         try:
             writing.check_replaceable(directory / name)
         except OSError as error:
-            raise LevadeError(
-                f"{directory / name}: cannot be written ({error.strerror}); give another directory"
-            ) from None
+            raise LevadeError(f"{directory / name}: cannot be written ({error.strerror})", remedies=remedies) from None
 
 
 class _Run:

@@ -29,7 +29,7 @@ from levade.costs import (
     TorqueLimitExcess,
 )
 from levade.costs.success import QUANTITIES
-from levade.document import CONTROL, build, kind_of, parse_yaml, read_text
+from levade.document import CONTROL, build, check_keys, kind_of, parse_yaml, read_text
 from levade.errors import LevadeError, did_you_mean
 from levade.optimizers import ALIASES, canonical
 from levade.robots import Dimensions, Robot, dimensions, load_robot
@@ -214,9 +214,10 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
             else stage
             for i, stage in enumerate(content["stages"])
         ]
+    content["hardware"] = _demands(content.get("hardware"))
     if not code:  # the task of a motion is complete, and names no files
         content["policy"] = with_goal(content.get("policy", {}), f"{where}.policy.goal")
-    content["hardware"] = _demands(content.get("hardware"))
+        _check_keys(content, where)
     content = dict(to_si(content, where=where, robot=measures))
     _check_horizon(content.get("horizon", 0.0), where)
     if not code:
@@ -237,6 +238,21 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
     if optimizer is not None:
         task = dataclasses.replace(task, search=dataclasses.replace(task.search, optimizer=optimizer))
     return task
+
+
+def _check_keys(content: Mapping[str, Any], where: str) -> None:
+    """Refuse unknown keys before units, because whether a value takes a unit depends on its key."""
+    known = {key: value for key, value in content.items() if key not in ("costs", "horizon", "scene")}
+    if isinstance(content.get("horizon"), Mapping):
+        known["horizon"] = content["horizon"]
+    scene = content.get("scene")
+    if isinstance(scene, Mapping) and isinstance(terrain := scene.get("terrain"), Mapping) and "file" in terrain:
+        scene = {key: value for key, value in scene.items() if key != "terrain"}  # `with_heights` checks it
+    check_keys(Task, known if scene is None else {**known, "scene": scene}, where)
+    costs = content.get("costs")
+    for name, cost in costs.items() if isinstance(costs, Mapping) else ():
+        if isinstance(cost, Mapping) and isinstance(cost["term"], str) and cost["term"] in TERMS:
+            _check_cost_keys(cost, f"{where}.costs.{name}")
 
 
 def _with_quantities(success: Mapping[str, Any], where: str) -> dict[str, Any]:
@@ -460,11 +476,15 @@ def _cost(name: str, content: Any, *, where: str, code: bool) -> Cost:
     term, weight = content.pop("term"), _weight(content.pop("weight", None), where)
     if not isinstance(term, str) or term not in TERMS:
         raise LevadeError(f"{where}: no term {term!r}; {did_you_mean(str(term), TERMS)}")
-    valid = [field.name for field in dataclasses.fields(TERMS[term])]
-    for key in content:
-        if key not in valid:
-            raise LevadeError(f"{where}: unknown key {key!r}; {did_you_mean(str(key), [*valid, 'term', 'weight'])}")
+    _check_cost_keys({"term": term, **content}, where)
     return Cost(build(TERMS[term], content, where=where), weight)
+
+
+def _check_cost_keys(content: Mapping[str, Any], where: str) -> None:
+    valid = [*(field.name for field in dataclasses.fields(TERMS[content["term"]])), "term", "weight"]
+    for key in content:
+        if key not in valid and key != KEY:
+            raise LevadeError(f"{where}: unknown key {key!r}; {did_you_mean(str(key), valid)}")
 
 
 def _weight(weight: Any, where: str) -> float:
