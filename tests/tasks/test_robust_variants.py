@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from levade.checks import numerics, other_engines, perturbed
@@ -42,8 +44,9 @@ def test_a_variant_has_the_robot_scene_start_and_five_times_the_budget_of_its_no
 @pytest.mark.parametrize("name", sorted(set(VARIANTS) - OWN_CRITERIA))
 def test_a_variant_asks_for_the_same_motion(name: str) -> None:
     variant, nominal = load_task(name), load_task(name.removesuffix("-robust"))
-    for key in ("policy", "success"):
-        assert getattr(variant, key) == getattr(nominal, key), key
+    where_it_begins = {"initial": nominal.policy.initial, "through": nominal.policy.through}
+    assert replace(variant.policy, **where_it_begins) == nominal.policy
+    assert variant.success == nominal.success
     if isinstance(nominal.horizon, HorizonRange):
         assert nominal.horizon.begin == pytest.approx(variant.horizon)
     else:
