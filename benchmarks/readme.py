@@ -87,8 +87,8 @@ def robots() -> str:
     return (
         f"**Your robot.** The same `self-righting` works for every seed on {len(able)} of {len(per_robot)} quadrupeds, after "
         f"{medians[0]:.0f} to {medians[-1]:.0f} trials (medians). It gets the humanoid G1 up from its back and its front for "
-        f"{len(up)} of {len(humanoid)} seeds, after {median(up):.0f} trials (median). Nothing in it is tuned to a robot "
-        "([robots](docs/robots.md))."
+        f"{len(up)} of {len(humanoid)} seeds, after {median(up):.0f} trials (median). Its settings for two legs are from "
+        "other seeds ([robots](docs/robots.md))."
     )
 
 

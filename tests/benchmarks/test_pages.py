@@ -25,6 +25,12 @@ def test_every_task_has_a_section_with_a_picture_or_says_that_it_has_none(script
     """python benchmarks/gallery.py --tasks NAME makes one."""
     page = ROOT / "docs" / "gallery.md"
     sections = {part.split("\n", 1)[0]: part for part in page.read_text(encoding="utf-8").split("\n## ")[1:]}
+    films = re.findall(r"!\[[^]]*\]\((.*?)\)", sections.pop("Other kinds of robots"))
+    assert len(films) == 4
+    for film in films:
+        content = (page.parent / film).read_bytes()
+        assert content.startswith(b"GIF89a")
+        assert len(content) < 700_000
     assert set(sections) == set(script("gallery").names())
     for section in sections.values():
         pictures = re.findall(r"!\[[^]]*\]\((.*?)\)", section)
