@@ -43,7 +43,14 @@ _HIDDEN = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udff
 
 
 def hides(name: str) -> bool:
-    """Whether a name holds what a terminal takes for a command or another order of letters, or what is no text."""
+    """Tell whether a name holds what a terminal takes for a command or another order of letters, or what is no text.
+
+    Args:
+        name: The name.
+
+    Returns:
+        True if it holds any such character.
+    """
     return _HIDDEN.search(name) is not None
 
 
@@ -66,6 +73,12 @@ def read_yaml(path: Path, *, like: str = "") -> dict[str, Any]:
 
 def read_text(path: Path) -> str:
     """Read the text of a file.
+
+    Args:
+        path: The file, in UTF-8.
+
+    Returns:
+        Its text.
 
     Raises:
         LevadeError: If it cannot be read, or is far larger than a document.
@@ -210,10 +223,19 @@ def _loader() -> Any:
 
 
 def build(kind: type[T], content: Any, *, where: str) -> T:
-    """An instance of a dataclass from plain tables, lists and scalars.
+    """Make an instance of a dataclass from plain tables, lists and scalars.
 
-    Raises LevadeError, one line that starts with ``where`` and the path of the key: unknown keys (with the nearest
-    valid one), missing keys, values of a wrong type, and what the dataclasses themselves refuse.
+    Args:
+        kind: The dataclass.
+        content: The table, such as `read_yaml` returns it.
+        where: What error messages start with. The path of the key follows.
+
+    Returns:
+        The instance.
+
+    Raises:
+        LevadeError: If a key is unknown (the message has the nearest valid one) or missing, a value has a wrong type,
+            or the dataclass itself refuses a value. The message is one line.
     """
     import pydantic
 
@@ -240,7 +262,14 @@ _CLASS = re.compile(r"([A-Z][a-z]+){2,}")
 
 
 def first_mistake(error: Any) -> str:
-    """Say the first mistake of a pydantic.ValidationError in one line: the path of its key, what is wrong, what is there."""
+    """Say the first mistake of a pydantic.ValidationError in one line.
+
+    Args:
+        error: The pydantic.ValidationError.
+
+    Returns:
+        The path of the key, what is wrong, and what is there.
+    """
     # pydantic tries each alternative of a union, and names it in the path; the one that it got furthest with was meant
     tags = ("str", "bool", "float", "int")
     paths = [
@@ -266,6 +295,12 @@ def kind_of(value: Any) -> str:
     """Say what a value is, for a message: itself if it is short, else how it begins.
 
     The text never holds a line end or a command to a terminal.
+
+    Args:
+        value: Any value of a document.
+
+    Returns:
+        The text, such as "a list".
     """
     names = {type(None): "empty", dict: "a table", list: "a list", bool: "true or false"}
     if type(value) in names:
@@ -280,7 +315,17 @@ def kind_of(value: Any) -> str:
 
 
 def check_keys(kind: Any, content: Any, where: str) -> None:
-    """Refuse unknown keys of a dataclass and of those within it, and true or false for a number, which Python allows."""
+    """Refuse unknown keys of a dataclass and of those within it, and true or false for a number, which Python allows.
+
+    Args:
+        kind: Type that is expected: a dataclass, a container of them, a union or a plain type.
+        content: Plain tables, lists and scalars.
+        where: What error messages start with. The path of the key follows.
+
+    Raises:
+        LevadeError: If a key is unknown, something else is where a table should be, or true or false where a number
+            should.
+    """
     options = [kind, *typing.get_args(kind)] if _is_union(kind) else [kind]
     if isinstance(content, bool) and bool not in options and (float in options or int in options):
         raise LevadeError(f"{where}: should be a number, is {kind_of(content)}")

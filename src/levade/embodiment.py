@@ -64,30 +64,53 @@ class JointLimits:
     assumed_torque: tuple[int, ...] = ()
 
     def torque_at(self, joint_position: Array) -> Array:
-        """Torque limit [Nm] at (..., joints) [rad], same shape: the constant limit lowered by the linkage curves."""
+        """Compute the torque limit at joint angles: the constant limit lowered by the linkage curves.
+
+        Args:
+            joint_position: Joint angles [rad], shape (..., joints).
+
+        Returns:
+            Torque limits [Nm], shape (..., joints).
+        """
         limit = np.broadcast_to(self.torque, joint_position.shape).copy()
         for joint, curve in self.torque_curves.items():
             np.minimum(limit[..., joint], curve(joint_position[..., joint]), out=limit[..., joint])
         return limit
 
     def angle_left(self, joint_position: Array) -> Array:
-        """Compute the slack to the nearer end of the range [rad], negative beyond it, infinite without a range.
+        """Compute the slack to the nearer end of the range.
 
-        Shape (..., joints).
+        Args:
+            joint_position: Joint angles [rad], shape (..., joints).
+
+        Returns:
+            Slack [rad], shape (..., joints). It is negative beyond the range, and infinite without one.
         """
         return np.minimum(joint_position - self.lower, self.upper - joint_position)
 
     def speed_left(self, joint_velocity: Array) -> Array:
-        """Compute the slack to the speed limit, as a share of it, negative beyond it; 1 without a limit.
+        """Compute the slack to the speed limit, as a share of the limit.
 
-        Shape (..., joints).
+        Args:
+            joint_velocity: Joint velocities [rad/s], shape (..., joints).
+
+        Returns:
+            Shares, shape (..., joints). A share is negative beyond the limit, and 1 without one.
         """
         return 1 - np.abs(joint_velocity) / self.velocity
 
     def torque_speed_left(self, joint_torque: Array, joint_velocity: Array) -> Array:
-        """Compute ``1 - |torque| / stall_torque - |speed| / no_load_speed`` while driving; else 1, and without such a line.
+        """Compute ``1 - |torque| / stall_torque - |speed| / no_load_speed`` of driving joints.
 
-        If the torque lags behind the speed, a drive can be beyond its line, and this is negative. Shape (..., joints).
+        It is 1 for a joint that does not drive, and without such a line. If the torque lags behind the speed, a drive
+        can be beyond its line, and this is negative.
+
+        Args:
+            joint_torque: Joint torques [Nm], shape (..., joints).
+            joint_velocity: Joint velocities [rad/s], shape (..., joints).
+
+        Returns:
+            Shares of the line that are left, shape (..., joints).
         """
         if self.stall_torque is None or self.no_load_speed is None:
             return np.ones_like(joint_torque)
@@ -121,7 +144,14 @@ class LegGeometry:
     stands: bool = True
 
     def foot_position(self, joint_position: Array) -> Array:
-        """(..., joints) [rad], all of the robot's, to (..., 3) [m]: the foot's centre in the trunk frame."""
+        """Compute the foot's centre in the trunk frame.
+
+        Args:
+            joint_position: Angles of all joints of the robot [rad], shape (..., joints).
+
+        Returns:
+            Positions [m], shape (..., 3).
+        """
         place = np.broadcast_to(self.foot, (*joint_position.shape[:-1], 3))
         for joint, anchor, axis in zip(self.joints[::-1], self.anchors[::-1], self.axes[::-1], strict=True):
             half = 0.5 * joint_position[..., joint, None]

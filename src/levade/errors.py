@@ -61,6 +61,12 @@ def one_line(text: str) -> str:
 
     >>> one_line("joint \x1b[31mknee")
     'joint \\x1b[31mknee'
+
+    Args:
+        text: Any text.
+
+    Returns:
+        One line of printable characters.
     """
     if len(text) > _LONGEST:
         text = f"{text[: _LONGEST - 300]} ... {text[-300:]}"
@@ -70,10 +76,17 @@ def one_line(text: str) -> str:
 
 
 def did_you_mean(name: str, valid: Iterable[str]) -> str:
-    """The tail of an "unknown name" message: the nearest valid name, or all of them when none is near.
+    """Return the tail of an "unknown name" message: the nearest valid name, or all of them when none is near.
 
     >>> did_you_mean("rearin", ["rearing", "posture-recovery"])
     'did you mean rearing?'
+
+    Args:
+        name: The unknown name.
+        valid: The valid names.
+
+    Returns:
+        The hint.
     """
     names = sorted(valid)
     near = difflib.get_close_matches(name, names, n=1, cutoff=0.6)
@@ -82,7 +95,14 @@ def did_you_mean(name: str, valid: Iterable[str]) -> str:
 
 @contextmanager
 def located(where: str) -> Iterator[None]:
-    """Make errors begin with the key of the task that they are about, such as ``policy.``."""
+    """Make errors begin with the key of the task that they are about.
+
+    Args:
+        where: What the message of an error within the context starts with, such as ``policy.``.
+
+    Raises:
+        LevadeError: If one is raised within the context. Its message begins with ``where``.
+    """
     try:
         yield
     except LevadeError as error:

@@ -87,7 +87,14 @@ class Feedback:
         return steps
 
     def reordered(self, order: Sequence[int]) -> Feedback:
-        """Return the same stabiliser with the joints in another order."""
+        """Return the same stabiliser with the joints in another order.
+
+        Args:
+            order: Present index of each joint in the new order, shape (joints,).
+
+        Returns:
+            The stabiliser, its gains and reference in the new order.
+        """
         joints = self.gain.shape[1]
         index = np.asarray(order)
         sense = np.concatenate([np.arange(6), 6 + index, 6 + joints + index])
@@ -95,7 +102,14 @@ class Feedback:
         return replace(self, gain=self.gain[:, index][:, :, columns], reference=self.reference[..., sense])
 
     def along(self, reference: Array) -> Feedback:
-        """Return the same gains for the sensed values of other motions, shape (ticks, sensed) or (n, ticks, sensed)."""
+        """Return the same gains for other motions.
+
+        Args:
+            reference: Expected sensed values, shape (ticks, sensed) or (n, ticks, sensed).
+
+        Returns:
+            The stabiliser with this reference.
+        """
         return replace(self, reference=reference)
 
     def arrays(self) -> dict[str, Array]:
@@ -104,7 +118,15 @@ class Feedback:
 
     @classmethod
     def of(cls, meta: Mapping[str, Any], arrays: Mapping[str, Array]) -> Feedback:
-        """Read a stabiliser from a motion file's ``meta`` and arrays."""
+        """Read a stabiliser from a motion file.
+
+        Args:
+            meta: The file's ``meta["feedback"]``, with the rate [Hz] and the bound [rad].
+            arrays: The file's arrays, with those of `ARRAYS`.
+
+        Returns:
+            The stabiliser.
+        """
         return cls(
             arrays["feedback_gain"], arrays["feedback_reference"], 1.0 / float(meta["rate"]), float(meta["bound"])
         )
@@ -148,7 +170,14 @@ def sensed(quaternion: Array, rate: Array, joint_position: Array, joint_velocity
 
 
 def names(joints: Sequence[str]) -> list[str]:
-    """Name each sensed value."""
+    """Name each sensed value.
+
+    Args:
+        joints: Names of the joints.
+
+    Returns:
+        6 + 2 joints names, such as "up/x", in the order of `sensed`.
+    """
     return [
         *(f"up/{axis}" for axis in "xyz"),
         *(f"rate/{axis}" for axis in "xyz"),
@@ -176,7 +205,17 @@ class SensorErrors:
     joint_noise: float = 0.1
 
     def draw(self, runs: int, ticks: int, joints: int, *, seed: int | Sequence[int]) -> Array:
-        """Draw errors that are added to sensed values, shape (runs, ticks, 6 + 2 joints)."""
+        """Draw errors that are added to sensed values.
+
+        Args:
+            runs: Number of runs.
+            ticks: Ticks of each run.
+            joints: Joints of the robot.
+            seed: Seed of the random numbers.
+
+        Returns:
+            Errors in the units of the sensed values, shape (runs, ticks, 6 + 2 joints).
+        """
         generator = np.random.default_rng(seed)
         constant = np.array([self.attitude] * 3 + [self.rate] * 3 + [self.joint] * joints + [0.0] * joints)
         changing = np.array([0.0] * 3 + [self.rate_noise] * 3 + [0.0] * joints + [self.joint_noise] * joints)

@@ -60,7 +60,15 @@ def locked(directory: Path, what: str) -> Iterator[None]:
 
 
 def check_unlocked(directory: Path, what: str) -> None:
-    """Raise TakenError if a process holds the lock of a directory."""
+    """Check that no process holds the lock of a directory.
+
+    Args:
+        directory: The directory. Without a lock file it is unlocked.
+        what: Kind of the writer, such as "run", for the message.
+
+    Raises:
+        TakenError: If a process holds the lock.
+    """
     path = directory / LOCK
     if fcntl is None:
         return

@@ -17,31 +17,68 @@ _CONJUGATE = np.array([1.0, -1.0, -1.0, -1.0])
 
 
 def rotate(quaternion: Array, vector: Array) -> Array:
-    """Rotate vectors (..., 3) by unit quaternions (..., 4); leading shapes broadcast."""
+    """Rotate vectors by unit quaternions; leading shapes broadcast.
+
+    Args:
+        quaternion: Unit quaternions, w-x-y-z, shape (..., 4).
+        vector: Vectors in any unit, shape (..., 3).
+
+    Returns:
+        Rotated vectors in the same unit, shape (..., 3).
+    """
     w, u = quaternion[..., :1], quaternion[..., 1:]
     t = 2.0 * cross(u, vector)
     return vector + w * t + cross(u, t)
 
 
 def multiply(first: Array, second: Array) -> Array:
-    """Hamilton product of quaternions (..., 4): the rotation ``second``, then ``first``."""
+    """Compute the Hamilton product of quaternions: the rotation ``second``, then ``first``.
+
+    Args:
+        first: Quaternions, w-x-y-z, shape (..., 4).
+        second: Quaternions, w-x-y-z, shape (..., 4); leading shapes broadcast.
+
+    Returns:
+        Products, shape (..., 4).
+    """
     w, u, x, v = first[..., :1], first[..., 1:], second[..., :1], second[..., 1:]
     return np.concatenate([w * x - np.sum(u * v, axis=-1, keepdims=True), w * v + x * u + np.cross(u, v)], axis=-1)
 
 
 def conjugate(quaternion: Array) -> Array:
-    """The inverse rotations, (..., 4)."""
+    """Return the inverse rotations.
+
+    Args:
+        quaternion: Unit quaternions, w-x-y-z, shape (..., 4).
+
+    Returns:
+        Unit quaternions, shape (..., 4).
+    """
     return quaternion * _CONJUGATE
 
 
 def exponential(vector: Array) -> Array:
-    """Rotation vectors [rad], (..., 3), to quaternions (..., 4)."""
+    """Turn rotation vectors into quaternions.
+
+    Args:
+        vector: Rotation vectors [rad], shape (..., 3).
+
+    Returns:
+        Unit quaternions, w-x-y-z, shape (..., 4).
+    """
     half = np.linalg.norm(vector, axis=-1, keepdims=True) / 2
     return np.concatenate([np.cos(half), np.sinc(half / np.pi) / 2 * vector], axis=-1)
 
 
 def log(quaternion: Array) -> Array:
-    """Quaternions (..., 4) to rotation vectors [rad], (..., 3), no longer than pi. The inverse of `exponential`."""
+    """Turn quaternions into rotation vectors. The inverse of `exponential`.
+
+    Args:
+        quaternion: Unit quaternions, w-x-y-z, shape (..., 4).
+
+    Returns:
+        Rotation vectors [rad], shape (..., 3), no longer than pi.
+    """
     quaternion = np.where(quaternion[..., :1] < 0, -quaternion, quaternion)
     sine = np.linalg.norm(quaternion[..., 1:], axis=-1, keepdims=True)
     angle = 2 * np.arctan2(sine, quaternion[..., :1])
@@ -49,9 +86,17 @@ def log(quaternion: Array) -> Array:
 
 
 def cross(a: Array, b: Array) -> Array:
-    """Cross product of (..., 3) and (..., 3); leading shapes broadcast.
+    """Compute cross products; leading shapes broadcast.
 
-    The bits of numpy's own, whose care for axes takes several times as long as the products of a generation.
+    The result has the bits of numpy's own, whose care for axes takes several times as long as the products of a
+    generation.
+
+    Args:
+        a: Vectors, shape (..., 3).
+        b: Vectors, shape (..., 3).
+
+    Returns:
+        Products, shape (..., 3).
     """
     (a0, a1, a2), (b0, b1, b2) = components(a), components(b)
     first = np.asarray(a1 * b2 - a2 * b1)
@@ -63,12 +108,26 @@ def cross(a: Array, b: Array) -> Array:
 
 
 def components(values: Array) -> tuple[Array, ...]:
-    """(..., k) to k views (...)."""
+    """Return the components along the last axis, as views.
+
+    Args:
+        values: Values, shape (..., k).
+
+    Returns:
+        k views, shape (...) each.
+    """
     return tuple(values[..., i] for i in range(values.shape[-1]))
 
 
 def rotation_matrix(quaternion: Array) -> Array:
-    """(..., 4) unit quaternions, w-x-y-z, to (..., 3, 3) matrices that take trunk axes to world axes."""
+    """Compute rotation matrices, which take trunk axes to world axes.
+
+    Args:
+        quaternion: Trunk frame to world, unit quaternions, w-x-y-z, shape (..., 4).
+
+    Returns:
+        Matrices, shape (..., 3, 3).
+    """
     w, x, y, z = components(quaternion)
     return np.stack(
         [
@@ -81,10 +140,16 @@ def rotation_matrix(quaternion: Array) -> Array:
 
 
 def roll_pitch_yaw(quaternion: Array) -> Array:
-    """(..., 4) quaternions, w-x-y-z, to (..., 3) intrinsic z-y-x angles [rad]: roll, pitch, yaw.
+    """Compute intrinsic z-y-x angles.
 
-    Pitch is in [-pi/2, pi/2], roll and yaw in (-pi, pi]. At pitch = +-pi/2 roll and yaw are not unique; costs and
+    Pitch is from -pi/2 to pi/2, roll and yaw from -pi to pi. At pitch = +-pi/2 roll and yaw are not unique; costs and
     success criteria therefore measure orientation as `levade.costs.orientation` says, not by subtracting these angles.
+
+    Args:
+        quaternion: Unit quaternions, w-x-y-z, shape (..., 4).
+
+    Returns:
+        Roll, pitch and yaw [rad], shape (..., 3).
     """
     w, x, y, z = components(quaternion)
     roll = np.arctan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))

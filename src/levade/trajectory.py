@@ -65,7 +65,14 @@ class JointReference:
         return replace(self, position=position, velocity=velocity, before=before, horizons=horizons)
 
     def repeated(self, n: int) -> JointReference:
-        """Repeat a reference of one trial for n trials. A reference of n trials is returned unchanged."""
+        """Repeat a reference of one trial for n trials. A reference of n trials is returned unchanged.
+
+        Args:
+            n: Number of trials.
+
+        Returns:
+            A reference of n trials. Repeated arrays are read-only views.
+        """
         if len(self.position) == n:
             return self
         shape = (n, *self.position.shape[1:])
@@ -196,7 +203,14 @@ class Trajectories:
         return replace(self, **arrays, reference=reference, body_contact_force=forces, begin=begin)
 
     def alone(self, trial: int) -> Trajectories:
-        """Select one trial, without the rows before it begins."""
+        """Select one trial, without the rows before it begins.
+
+        Args:
+            trial: Index of the trial, from 0.
+
+        Returns:
+            Trajectories of one trial, which begins in row 0.
+        """
         one = self[trial : trial + 1]
         if one.begin is None:
             return one
@@ -229,7 +243,14 @@ class Trajectories:
         return (self.horizon_steps - begin) * self.timestep
 
     def counted(self, rows: slice) -> NDArray[np.bool_] | None:
-        """Tell which of the rows belong to each trial, shape (n, rows). None if all do."""
+        """Tell which of the rows belong to each trial.
+
+        Args:
+            rows: Rows to look at.
+
+        Returns:
+            True where a row belongs to the trial, shape (n, rows). None if all do.
+        """
         if self.begin is None:
             return None
         return np.arange(*rows.indices(self.steps)) >= self.begin[:, None]
@@ -265,21 +286,53 @@ class Trajectories:
         return np.arange(1, self.steps + 1) * self.timestep
 
     def trunk_com_position(self, rows: slice | int = slice(None)) -> Array:
-        """Compute the trunk's centre of mass in the world (the paper's x_B) [m], shape (n, rows, 3), for the given rows."""
+        """Compute the trunk's centre of mass in the world (the paper's x_B).
+
+        Args:
+            rows: Rows to compute. All by default. A single row leaves out the rows' dimension.
+
+        Returns:
+            Positions [m], shape (n, rows, 3).
+        """
         return self.trunk_position[:, rows] + rotate(self.trunk_quaternion[:, rows], self.trunk_com_offset)
 
     def trunk_com_velocity(self, rows: slice | int = slice(None)) -> Array:
-        """Compute the velocity of the trunk's centre of mass in world axes [m/s], shape (n, rows, 3), for the given rows."""
+        """Compute the velocity of the trunk's centre of mass in world axes.
+
+        Args:
+            rows: Rows to compute. All by default. A single row leaves out the rows' dimension.
+
+        Returns:
+            Velocities [m/s], shape (n, rows, 3).
+        """
         lever = cross(self.trunk_angular_velocity[:, rows], self.trunk_com_offset)
         return self.trunk_linear_velocity[:, rows] + rotate(self.trunk_quaternion[:, rows], lever)
 
     def sole_height(self, leg: LegGeometry, rows: slice | int = slice(None)) -> Array:
-        """Compute the lowest point of a leg's foot over z = 0 [m], shape (n, rows), for the given rows."""
+        """Compute the lowest point of a leg's foot over z = 0.
+
+        Args:
+            leg: One of the robot's legs.
+            rows: Rows to compute. All by default. A single row leaves out the rows' dimension.
+
+        Returns:
+            Heights [m], shape (n, rows).
+        """
         foot = rotate(self.trunk_quaternion[:, rows], leg.foot_position(self.joint_position[:, rows]))
         return self.trunk_position[:, rows][..., 2] + foot[..., 2] - leg.sole
 
     def trunk_clearance(self, rows: slice | int = slice(None)) -> Array:
-        """Compute the trunk's lowest point over z = 0 [m], shape (n, rows), for the given rows."""
+        """Compute the trunk's lowest point over z = 0.
+
+        Args:
+            rows: Rows to compute. All by default. A single row leaves out the rows' dimension.
+
+        Returns:
+            Heights [m], shape (n, rows).
+
+        Raises:
+            ValueError: If the embodiment has no ``trunk_balls``.
+        """
         balls = self.embodiment.trunk_balls
         up = rotate(conjugate(self.trunk_quaternion[:, rows]), np.array([0.0, 0.0, 1.0]))
         below = np.einsum("...c,kc->...k", up, balls[:, :3]) - balls[:, 3]  # in one order for any number of rows

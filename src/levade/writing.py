@@ -34,6 +34,9 @@ _KINDS = (
 def check_replaceable(path: Path) -> None:
     """Check that a path is free or a regular file.
 
+    Args:
+        path: The path. A link in its place is not followed.
+
     Raises:
         OSError: If it is anything else; the text says what.
     """
@@ -73,20 +76,46 @@ def replacing(path: Path) -> Iterator[Path]:
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write a text as UTF-8 with line ends as they are, or leave the file that is there. Raises OSError as `replacing`."""
+    """Write a text as UTF-8 with line ends as they are, or leave the file that is there.
+
+    Args:
+        path: A free path, or a regular file to replace.
+        text: The whole text of the file.
+
+    Raises:
+        OSError: As `replacing`.
+    """
     with replacing(path) as partial:
         partial.write_text(text, encoding="utf-8", newline="")
 
 
 def growing(path: Path) -> IO[str]:
-    """Put an empty file at a path and open it, to be written line by line. Raises OSError as `replacing`."""
+    """Put an empty file at a path and open it, to be written line by line.
+
+    Args:
+        path: A free path, or a regular file to replace.
+
+    Returns:
+        The open file, for text in UTF-8 with line ends as they are.
+
+    Raises:
+        OSError: As `replacing`.
+    """
     with replacing(path) as partial:
         file = partial.open("w", encoding="utf-8", newline="")
     return file
 
 
 def append(path: Path, content: bytes) -> None:
-    """Append to a regular file in one write. It is created if it does not exist. Raises OSError as `replacing`."""
+    """Append to a regular file in one write. It is created if it does not exist.
+
+    Args:
+        path: A free path, or a regular file.
+        content: Bytes to append.
+
+    Raises:
+        OSError: If the path is no regular file, or cannot be written.
+    """
     check_replaceable(path)  # opening a pipe would wait for its reader
     descriptor = os.open(path, os.O_WRONLY | os.O_APPEND | os.O_CREAT | _NO_LINK | _BINARY, 0o666)
     try:

@@ -184,7 +184,15 @@ def report(results: Sequence[Result], directory: Path, *, format: str = "pdf") -
 
 
 def in_order(results: Iterable[Result], wanted: Sequence[Case]) -> list[Result]:
-    """Sort results: those of the given cases first, in their order, then the others by name."""
+    """Sort results: those of the given cases first, in their order, then the others by name.
+
+    Args:
+        results: Results to sort.
+        wanted: Cases that come first, in their order.
+
+    Returns:
+        The sorted results.
+    """
     place = {case.key: number for number, case in enumerate(wanted)}
     return sorted(results, key=lambda result: (place.get(result.key, len(place)), result.key))
 

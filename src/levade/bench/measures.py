@@ -119,6 +119,12 @@ def grouped(results: Iterable[Result]) -> dict[tuple[str, str], dict[str, list[R
     """Group results as task and robot -> optimizer -> runs, all in the order in which they come.
 
     Runs of an optimizer and of its alias form one group, under the name that comes first.
+
+    Args:
+        results: Results of runs.
+
+    Returns:
+        Task and robot -> name of the optimizer -> its results.
     """
     names: dict[str, str] = {}
     groups: dict[tuple[str, str], dict[str, list[Result]]] = {}
@@ -129,7 +135,14 @@ def grouped(results: Iterable[Result]) -> dict[tuple[str, str], dict[str, list[R
 
 
 def summarise(results: Iterable[Result]) -> list[Summary]:
-    """Summarise results: one summary for each task, robot and optimizer."""
+    """Summarise results: one summary for each task, robot and optimizer.
+
+    Args:
+        results: Results of runs.
+
+    Returns:
+        The summaries, in the order in which their first results come.
+    """
     summaries = []
     for (task, robot), optimizers in grouped(results).items():
         for optimizer, runs in optimizers.items():

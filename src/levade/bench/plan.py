@@ -123,7 +123,14 @@ def read_plan(path: Path) -> Plan:
 
 
 def plan_to_yaml(plan: Plan) -> str:
-    """Return the text of a plan's file."""
+    """Return the text of a plan's file.
+
+    Args:
+        plan: The plan.
+
+    Returns:
+        YAML text with every field of the plan.
+    """
     import yaml
 
     content = json.loads(json.dumps(dataclasses.asdict(plan)))

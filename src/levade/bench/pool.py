@@ -38,7 +38,19 @@ _FOR_THE_PARENT = (signal.SIGINT, signal.SIGTERM)
 def run_cases(
     cases: Sequence[Case], *, processes: int, waiting: Callable[[], object] | None = None
 ) -> Iterator[tuple[Case, Result]]:
-    """Yield each case with its result, as they finish: see `Pool.each`."""
+    """Yield each case with its result, as they finish: see `Pool.each`.
+
+    Args:
+        cases: Cases to run.
+        processes: Largest number of processes at a time.
+        waiting: Called about once a second while there is no result.
+
+    Yields:
+        Pairs of a case and its result.
+
+    Raises:
+        LevadeError: If a case raises one, or a process dies.
+    """
     with Pool(run_case, min(processes, len(cases))) as pool:
         yield from pool.each(cases, waiting=waiting)
 

@@ -28,7 +28,15 @@ _ENDS = {
 
 
 def rows(summaries: Sequence[Summary], *, short: bool = False) -> list[tuple[str, ...]]:
-    """Make cells under `HEADINGS`, or `SHORT_HEADINGS`, from summaries of one task and robot."""
+    """Make cells under `HEADINGS`, or `SHORT_HEADINGS`, from summaries of one task and robot.
+
+    Args:
+        summaries: Summaries of one task and robot.
+        short: Whether the cells are for `SHORT_HEADINGS`, with fewer columns.
+
+    Returns:
+        The cells of one row per summary.
+    """
     if short:
         return [
             (
@@ -55,7 +63,14 @@ def rows(summaries: Sequence[Summary], *, short: bool = False) -> list[tuple[str
 
 
 def by_case(summaries: Sequence[Summary]) -> dict[tuple[str, str], list[Summary]]:
-    """Group summaries as task and robot -> its summaries."""
+    """Group summaries as task and robot -> its summaries.
+
+    Args:
+        summaries: Summaries of any tasks and robots.
+
+    Returns:
+        Task and robot -> summaries, in the order in which they come.
+    """
     found: dict[tuple[str, str], list[Summary]] = {}
     for summary in summaries:
         found.setdefault((summary.task, summary.robot), []).append(summary)
@@ -63,7 +78,15 @@ def by_case(summaries: Sequence[Summary]) -> dict[tuple[str, str], list[Summary]
 
 
 def legend(summaries: Sequence[Summary], *, short: bool = False) -> str:
-    """Say what the columns mean, in a sentence or two."""
+    """Say what the columns mean, in a sentence or two.
+
+    Args:
+        summaries: Summaries in the table. Their ends of a run are named.
+        short: Whether it is for the table under `SHORT_HEADINGS`, which has no quartiles.
+
+    Returns:
+        The text, on one line.
+    """
     ends = " or ".join(dict.fromkeys(_ENDS[summary.until] for summary in summaries))
     return (
         "Trials to success: median of all runs (least – most), ∞ for a run without success. ERT: expected running time, what"
@@ -73,7 +96,14 @@ def legend(summaries: Sequence[Summary], *, short: bool = False) -> str:
 
 
 def markdown(summaries: Sequence[Summary]) -> str:
-    """Return all tables, with headings."""
+    """Return all tables as Markdown, with headings.
+
+    Args:
+        summaries: Summaries of any tasks and robots.
+
+    Returns:
+        A table per task and robot, then the legend. "no results" if there are no summaries.
+    """
     parts = []
     for (task, robot), mine in by_case(summaries).items():
         parts.append(f"## {task} on {robot}\n\n| {' | '.join(HEADINGS)} |\n|{'---|' * len(HEADINGS)}")
@@ -82,14 +112,29 @@ def markdown(summaries: Sequence[Summary]) -> str:
 
 
 def interval(value: Interval, *, unit: float = 1.0) -> str:
-    """Write a value and its limits in a unit, as in 310 [250 – 402]. It is ∞ without a success."""
+    """Write a value and its limits in a unit, as in 310 [250 – 402]. It is ∞ without a success.
+
+    Args:
+        value: Value with its low and high limit.
+        unit: Number by which value and limits are divided.
+
+    Returns:
+        The text.
+    """
     if math.isinf(value.value):
         return "∞"
     return f"{number(value.value / unit)} [{number(value.low / unit)} – {number(value.high / unit)}]"
 
 
 def number(value: float) -> str:
-    """Write a number with three digits, a whole number with all digits, or ∞."""
+    """Write a number with three digits, a whole number with all digits, or ∞.
+
+    Args:
+        value: The number, which may be infinite.
+
+    Returns:
+        The text.
+    """
     if math.isinf(value):
         return "∞"
     if abs(value) >= 100 or value == int(value):

@@ -42,9 +42,24 @@ def bench_and_report(
     format: str,
     as_json: bool,
 ) -> int:
-    """Run a comparison and print its results. Returns the exit status: 0 if every case has been run, else 1.
+    """Run a comparison and print its results.
 
-    ``options`` holds fields of `Plan`, None where the option was not given.
+    Args:
+        file: File of the plan. None takes the plan of the directory, or one from the options.
+        options: Field of `Plan` -> value. None where the option was not given.
+        changes: Changes of every task, as ``path=value``.
+        add: Other results.csv files to report as well.
+        directory: Directory to write, or to continue in.
+        processes: Runs at a time (0: one per core).
+        force: Whether to begin again, without the results in the directory.
+        format: Format of the figures: "pdf", "svg" or "png".
+        as_json: Whether to print one JSON object.
+
+    Returns:
+        The exit status: 0 if every case has been run, else 1.
+
+    Raises:
+        LevadeError: If an option, a file or a directory is not usable.
     """
     console = make_console(stderr=as_json)
     if format not in FORMATS:

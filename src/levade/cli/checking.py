@@ -48,9 +48,25 @@ def check_motion(
     threads: int,
     as_json: bool,
 ) -> int:
-    """Check a motion and print its certificate. Returns the exit status: 0 if it meets every demand, else 1.
+    """Check a motion and print its certificate.
 
     Ctrl-C ends the check and keeps the finished runs. The parameters are the options of the command.
+
+    Args:
+        path: File of the motion.
+        runs: Number of perturbed runs.
+        seed: Seed of the perturbations.
+        divide: Number by which the time step of the perturbed runs is divided.
+        perturb: Changes of the default ranges: files, or ``name=range``.
+        demand: Changes of the default demands: files, or ``name=value``.
+        criteria: Task that gives the success criteria. None for the motion's own.
+        out: File for the certificate, as JSON. None writes none.
+        page: File for the certificate, as a page. None writes none.
+        threads: Number of engine threads (0: one per core).
+        as_json: Whether to print one JSON object.
+
+    Returns:
+        The exit status: 0 if the motion meets every demand, else 1.
     """
     motion = Motion.load(path)
     perturbation = changed(Perturbation(), perturb, option="--perturb")

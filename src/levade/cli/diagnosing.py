@@ -64,7 +64,14 @@ class Finding:
 
 
 def diagnose(*, as_json: bool) -> int:
-    """Print what was found. Returns the exit status: 1 if levade cannot work."""
+    """Print what was found.
+
+    Args:
+        as_json: Whether to print one JSON object.
+
+    Returns:
+        The exit status: 1 if levade cannot work, else 0.
+    """
     findings = [*packages(), *engines(), *computer(), *extras()]
     broken = any(finding.state == "broken" for finding in findings)
     if as_json:

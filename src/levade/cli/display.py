@@ -45,7 +45,11 @@ class Display:
             self._live.__exit__(None, None, None)
 
     def update(self, generation: Generation) -> None:
-        """Take in a generation; drawing it happens elsewhere, a few times a second."""
+        """Take in a generation; drawing it happens elsewhere, a few times a second.
+
+        Args:
+            generation: The generation, as the search reports it.
+        """
         if self._latest is None and not self._quiet:  # from here on the input is known to be right
             robot = escape(self._task.robot.name)
             budget = self._task.search.trials

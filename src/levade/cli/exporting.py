@@ -34,7 +34,26 @@ def export_motion(
     certificate: Path | None,
     as_json: bool,
 ) -> int:
-    """Write a motion in a format. Returns the exit status: 0 if it was written."""
+    """Write a motion in a format.
+
+    Args:
+        path: File of the motion.
+        to: Name of the format.
+        directory: Directory to write. None for one next to the motion.
+        rate: Rows per second [Hz]. None for the format's own rate.
+        reference: What to send: "measured" or "commanded".
+        hold: Whether to go on after the horizon.
+        kp: Position gain of all joints [Nm/rad]. None for the simulation's gains.
+        kd: Velocity gain of all joints [Nm s/rad]. None for the simulation's gains.
+        certificate: File of a certificate. The motion is only written if it belongs to the motion and passes.
+        as_json: Whether to print one JSON object.
+
+    Returns:
+        The exit status: 0.
+
+    Raises:
+        LevadeError: If no format is given, the directory looks like a file, or the certificate does not pass.
+    """
     if to is None:
         raise LevadeError(f"export {path}: no format given; add --to {', '.join(FORMATS)}")
     if directory is not None and directory.suffix in _FILES:

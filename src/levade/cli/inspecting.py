@@ -22,7 +22,16 @@ from levade.robots.findings import Finding, counted, some
 
 
 def inspect_robot(name: str, *, picture: Path | None, as_json: bool) -> None:
-    """Print how a robot is understood. Raises LevadeError if it is refused, before a picture is drawn."""
+    """Print how a robot is understood.
+
+    Args:
+        name: Name of the robot, or its file.
+        picture: File for a picture of the robot, as .png. None draws none.
+        as_json: Whether to print one JSON object.
+
+    Raises:
+        LevadeError: If the robot is refused, before a picture is drawn.
+    """
     robot = load_robot(name)
     findings = inspect(robot)
     if picture is not None:
@@ -42,7 +51,11 @@ def inspect_robot(name: str, *, picture: Path | None, as_json: bool) -> None:
 
 
 def list_robots(*, as_json: bool) -> None:
-    """Print the built-in robots, then those of installed packages."""
+    """Print the built-in robots, then those of installed packages.
+
+    Args:
+        as_json: Whether to print one JSON object.
+    """
     from levade.robots import builtin_robots
     from levade.robots.packages import package_robots
 
@@ -66,7 +79,13 @@ def list_robots(*, as_json: bool) -> None:
 
 
 def tell_warnings(console: Console, robot: Robot, name: str) -> None:
-    """Print a line if there are warnings. It names the limits that are assumed."""
+    """Print a line if there are warnings. It names the limits that are assumed.
+
+    Args:
+        console: Console to print on.
+        robot: The robot.
+        name: Name or file of the robot, for the suggested command.
+    """
     number = sum(finding.kind == "warning" for finding in inspect(robot))
     if number:
         made_up = [

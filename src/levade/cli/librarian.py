@@ -56,7 +56,23 @@ def build_library(
     shard: str | None,
     as_json: bool,
 ) -> int:
-    """Build a library, and return the exit status: 0 if every fall is done, otherwise 1."""
+    """Build a library.
+
+    Args:
+        task: Name of the task of each motion, or its file.
+        robot: Name of the robot, or its file. None for the task's own.
+        starts: Number of falls in all.
+        seed: Seed of the falls and of the searches.
+        out: Directory to write. None for one named after the task.
+        changes: Changes of the task, as ``path=value``.
+        threads: Number of engine threads (0: one per core).
+        jobs: Number of processes at a time.
+        shard: Part to build, as ``I/N``. None for the whole library.
+        as_json: Whether to print one JSON object.
+
+    Returns:
+        The exit status: 0 if every fall is done, otherwise 1.
+    """
     part = WHOLE if shard is None else _shard(shard)
     loaded = load_task(task, robot=robot, changes=changes)
     directory = out or Path(f"{loaded.name}-library")
@@ -113,7 +129,16 @@ def _shard(text: str) -> Shard:
 
 
 def merge_libraries(shards: list[Path], *, out: Path, as_json: bool) -> int:
-    """Merge shards, and return the exit status 0."""
+    """Merge shards.
+
+    Args:
+        shards: Directories of the shards of one library.
+        out: Directory of the library.
+        as_json: Whether to print one JSON object.
+
+    Returns:
+        The exit status: 0.
+    """
     merged = merge(shards, out)
     if as_json:
         print(
@@ -130,7 +155,15 @@ def merge_libraries(shards: list[Path], *, out: Path, as_json: bool) -> int:
 
 
 def learn_library(directory: Path, *, as_json: bool) -> int:
-    """Learn which motion works from where, and return the exit status 0."""
+    """Learn which motion works from where.
+
+    Args:
+        directory: Directory of a library.
+        as_json: Whether to print one JSON object.
+
+    Returns:
+        The exit status: 0.
+    """
     found = learn(Library.load(directory))
     save(found, directory)
     if as_json:
@@ -154,7 +187,17 @@ def export_the_library(
     rate: float | None,
     as_json: bool,
 ) -> int:
-    """Export a library for a robot, and return the exit status 0."""
+    """Export a library for a robot.
+
+    Args:
+        directory: Directory of the library.
+        out: Directory to write. None for one next to the library.
+        rate: Rows per second [Hz]. None for the simulation's rate.
+        as_json: Whether to print one JSON object.
+
+    Returns:
+        The exit status: 0.
+    """
     place = out or directory.with_name(f"{directory.resolve().name}-robot")
     console = make_console(stderr=as_json)
     words = [] if rate is None else ["--rate", f"{rate:g}"]
@@ -177,7 +220,18 @@ def export_the_library(
 
 
 def show_library(directory: Path, *, figures: Path | None, format: str, report: bool, as_json: bool) -> int:
-    """Describe a library, and return the exit status 0. ``report`` says whether to write its page."""
+    """Describe a library.
+
+    Args:
+        directory: Directory of the library.
+        figures: Directory for the figure. None draws none.
+        format: Format of the figure: "pdf", "svg" or "png".
+        report: Whether to write the library's page.
+        as_json: Whether to print one JSON object.
+
+    Returns:
+        The exit status: 0.
+    """
     library = Library.load(directory)
     console = make_console(stderr=as_json)
     written = [] if figures is None else draw(library, figures, format=format)
@@ -230,7 +284,19 @@ def _tell_library(console: Console, library: Library) -> None:
 def check_the_library(
     directory: Path, *, starts: int, seed: int, refine: str | None, threads: int, as_json: bool
 ) -> int:
-    """Check a library, and return the exit status: 0 if all falls were tried, 1 if interrupted."""
+    """Check a library.
+
+    Args:
+        directory: Directory of the library.
+        starts: Number of falls to try.
+        seed: Seed of these falls.
+        refine: Time to improve each answer that does not work, such as "1s". None does not improve answers.
+        threads: Number of engine threads (0: one per core).
+        as_json: Whether to print one JSON object.
+
+    Returns:
+        The exit status: 0 if all falls were tried, 1 if interrupted.
+    """
     library, time_left = Library.load(directory), None if refine is None else _seconds(refine)
     console = make_console(stderr=as_json)
     with stop_between("part") as stopping:
@@ -272,7 +338,18 @@ def _seconds(text: str) -> float:
 
 
 def ask_library(directory: Path, *, state: Path, reference: Path | None, refine: str | None, as_json: bool) -> int:
-    """Ask a library, and return the exit status: 1 if the answer was refined but still fails on the model, otherwise 0."""
+    """Ask a library.
+
+    Args:
+        directory: Directory of the library.
+        state: File of the robot's attitude and joint angles, as JSON or YAML.
+        reference: File for the references of the joints, as CSV. None writes none.
+        refine: Time to improve the answer in simulation, such as "1s". None does not improve it.
+        as_json: Whether to print one JSON object.
+
+    Returns:
+        The exit status: 1 if the answer was refined but still fails on the model, otherwise 0.
+    """
     library = Library.load(directory)
     first = library.ask([0.0, 0.0, 1.0], np.zeros(library.knowledge.joint_position.shape[1]))
     names = first.motion.joint_names

@@ -27,7 +27,14 @@ class Output:
         return getattr(self._stream, name)
 
     def write(self, text: str) -> int:
-        """Write a text, or drop it."""
+        """Write a text, or drop it.
+
+        Args:
+            text: The text.
+
+        Returns:
+            Number of characters of the text, including dropped ones.
+        """
         if not self._gone:
             try:
                 self._stream.write(text)

@@ -39,7 +39,14 @@ class Pictures:
 
 
 def labels(paths: Sequence[Path]) -> list[str]:
-    """Return a short name for each motion: that of its file, or of its directory if all files have the same name."""
+    """Return a short name for each motion: that of its file, or of its directory if all files have the same name.
+
+    Args:
+        paths: Files of the motions.
+
+    Returns:
+        The names, in the same order. They are the paths if the short names are not unique.
+    """
     stems = [path.stem for path in paths]
     if len(set(stems)) < len(stems):
         stems = [path.resolve().parent.name for path in paths]
@@ -47,7 +54,18 @@ def labels(paths: Sequence[Path]) -> list[str]:
 
 
 def draw(motions: Mapping[Path, Motion], wanted: Pictures) -> list[Path]:
-    """Draw the pictures that are wanted. Returns the files that were written."""
+    """Draw the pictures that are wanted.
+
+    Args:
+        motions: File -> motion.
+        wanted: What the options ask to draw.
+
+    Returns:
+        The files that were written.
+
+    Raises:
+        LevadeError: If a video of several motions is wanted.
+    """
     several, names = len(motions) > 1, labels(list(motions))
     camera = _camera(wanted.camera)
     if wanted.video is not None and several:
@@ -86,7 +104,15 @@ def draw(motions: Mapping[Path, Motion], wanted: Pictures) -> list[Path]:
 
 
 def progress_beside(path: Path, motion: Motion) -> Path | None:
-    """Return progress.csv of the motion's search, if it is next to the motion and belongs to this search."""
+    """Return progress.csv of the motion's search, if it is next to the motion and belongs to this search.
+
+    Args:
+        path: File of the motion.
+        motion: The motion.
+
+    Returns:
+        Path of progress.csv, or None.
+    """
     progress = path.parent / "progress.csv"
     try:
         last = progress.read_text(encoding="utf-8").splitlines()[-1].split(",")

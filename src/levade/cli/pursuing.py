@@ -35,9 +35,26 @@ def pursue_and_report(
     threads: int,
     as_json: bool,
 ) -> int:
-    """Pursue a motion for hardware and print what was found. Returns the exit status: 0 if its certificate passes, else 1.
+    """Pursue a motion for hardware and print what was found.
 
     With ``robust``, the certificate demands nothing of limits. The parameters are the options of the command.
+
+    Args:
+        task: Name of the task, or its file. Not used with ``resume_from``.
+        robot: Name of the robot, or its file. None for the task's own.
+        seed: Seed of the searches.
+        changes: Changes of the task, as ``path=value``.
+        directory: Directory to write. None for one named after the task.
+        resume_from: Directory of an interrupted pursuit to continue. None for a new one.
+        force: Whether to replace an interrupted run in the directory.
+        minutes: Time for all searches together [min]. None for no limit.
+        robust: Whether to demand only that perturbed robots succeed.
+        demand: Changes of the demands: files, or ``name=value``.
+        threads: Number of engine threads (0: one per core).
+        as_json: Whether to print one JSON object.
+
+    Returns:
+        The exit status: 0 if the certificate passes, else 1.
     """
     console = make_console(stderr=as_json)
     before: Demands | None = None

@@ -17,9 +17,16 @@ from levade.motions import Motion
 
 
 def show_motions(paths: Sequence[Path], pictures: Pictures, *, report: bool, as_json: bool) -> int:
-    """Summarise motions. Returns the exit status: 0 if all of them meet their success criteria, else 1.
+    """Summarise motions.
 
-    ``report`` says whether to write a page for each.
+    Args:
+        paths: Files of the motions.
+        pictures: What to draw of them.
+        report: Whether to write a page for each.
+        as_json: Whether to print one JSON object.
+
+    Returns:
+        The exit status: 0 if all of them meet their success criteria, else 1.
     """
     motions = {path: Motion.load(path) for path in paths}
     if as_json:
@@ -47,7 +54,14 @@ def _listed(paths: Sequence[Path]) -> str:
 
 
 def report_path(motion: Path) -> Path:
-    """Return the path of a motion's page: report.html next to motion.npz, best-report.html next to best.npz."""
+    """Return the path of a motion's page: report.html next to motion.npz, best-report.html next to best.npz.
+
+    Args:
+        motion: File of the motion.
+
+    Returns:
+        Path of the page. It need not exist.
+    """
     return motion.with_name("report.html" if motion.stem == "motion" else f"{motion.stem}-report.html")
 
 

@@ -48,7 +48,25 @@ def solve_and_report(
     watching: Watching | None,
     as_json: bool,
 ) -> int:
-    """Search for a motion and print the result. Returns the exit status: 0 if the success criteria hold, else 1."""
+    """Search for a motion and print the result.
+
+    Args:
+        task: Name of the task, or its file. Not used with ``resume_from``.
+        robot: Name of the robot, or its file. None for the task's own.
+        seed: Seed of the search.
+        changes: Changes of the task, as ``path=value``.
+        begin: Files of motions. The search begins around the best one.
+        after: File of a motion at whose end the task starts. None for the task's own start.
+        directory: Directory to write. None for one named after the task.
+        resume_from: Directory of an interrupted run to continue. None for a new one.
+        force: Whether to replace an interrupted run in the directory.
+        threads: Number of engine threads (0: one per core).
+        watching: Options of the page to watch the search on. None for no page.
+        as_json: Whether to print one JSON object.
+
+    Returns:
+        The exit status: 0 if the success criteria hold, else 1.
+    """
     # with --json, standard output is only for the one object
     console = make_console(stderr=as_json)
     quiet = as_json and not console.is_terminal
@@ -144,7 +162,15 @@ def _tell_need(console: Console, objective: Objective) -> None:
 
 
 def summary(outcome: Outcome, numerics: Mapping[str, Numeric]) -> dict[str, object]:
-    """Return the object that ``solve --json`` prints. ``numerics`` holds the results with other numerics."""
+    """Return the object that ``solve --json`` prints.
+
+    Args:
+        outcome: Outcome of the search.
+        numerics: Name -> result with other numerics.
+
+    Returns:
+        The object. Times are in seconds.
+    """
     solution, motion, result = outcome.solution, outcome.motion, outcome.motion.result
     return {
         "task": motion.task_name,

@@ -32,9 +32,26 @@ def stabilise_motion(
     threads: int,
     as_json: bool,
 ) -> int:
-    """Add a stabiliser to a motion. Returns the exit status: 0 if it is written, 1 if the motion is better without.
+    """Add a stabiliser to a motion.
 
     Ctrl-C keeps the best stabiliser so far.
+
+    Args:
+        path: File of the motion.
+        out: File to write. None for MOTION-stabilised.npz next to the motion.
+        rate: Measurements per second [Hz].
+        bound: Largest correction of a joint's reference [rad].
+        runs: Number of perturbed runs that choose the stabiliser.
+        seed: Seed of these runs.
+        perturb: Changes of the default ranges: files, or ``name=range``.
+        threads: Number of engine threads (0: one per core).
+        as_json: Whether to print one JSON object.
+
+    Returns:
+        The exit status: 0 if the motion is written, 1 if it is better without.
+
+    Raises:
+        LevadeError: If the file cannot be written.
     """
     motion = Motion.load(path)
     place = out if out is not None else path.with_name(f"{path.stem}-stabilised.npz")

@@ -17,29 +17,64 @@ _WIDE = 200
 
 
 def make_console(*, stderr: bool = False) -> Console:
-    """Make a console to print on: styled on a terminal, plain and unwrapped in a pipe."""
+    """Make a console to print on: styled on a terminal, plain and unwrapped in a pipe.
+
+    Args:
+        stderr: Whether to print on standard error instead of standard output.
+
+    Returns:
+        The console.
+    """
     console = Console(stderr=stderr, highlight=False, soft_wrap=True)
     return console if console.is_terminal else Console(stderr=stderr, highlight=False, soft_wrap=True, width=_WIDE)
 
 
 def quantity_unit(quantity: str) -> str:
-    """Return the SI unit of a success quantity."""
+    """Return the SI unit of a success quantity.
+
+    Args:
+        quantity: Name of the quantity.
+
+    Returns:
+        The unit, as text.
+    """
     return unit_of(quantity)
 
 
 def signed(value: float) -> str:
-    """Write a number with four digits and a sign, so that columns line up."""
+    """Write a number with four digits and a sign, so that columns line up.
+
+    Args:
+        value: The number.
+
+    Returns:
+        The text. From 1000 it has three significant digits instead of four decimals.
+    """
     return f"{value:+.4f}" if abs(value) < 1000 else f"{value:+.3g}"
 
 
 def motion_summary(motion: Motion) -> Iterator[RenderableType]:
-    """Make the tables of a motion: goal against result, and peaks against the limits."""
+    """Make the tables of a motion: goal against result, and peaks against the limits.
+
+    Args:
+        motion: The motion.
+
+    Yields:
+        The tables, one by one.
+    """
     yield goal_table(motion)
     yield peak_table(motion)
 
 
 def goal_table(motion: Motion) -> Table:
-    """Make a table with a row per success criterion."""
+    """Make a table with a row per success criterion.
+
+    Args:
+        motion: The motion.
+
+    Returns:
+        The table. Its values are in SI units.
+    """
     table = Table(box=None, padding=(0, 2, 0, 0), header_style="bold")
     for heading in ("criterion", "goal", "result", "error", "allowed", ""):
         justify = "left" if heading in ("criterion", "") else "right"
@@ -71,7 +106,14 @@ def goal_table(motion: Motion) -> Table:
 
 
 def peak_table(motion: Motion) -> Table:
-    """Make a table of the joints nearest to their limits, or furthest beyond, in torque, speed and range."""
+    """Make a table of the joints nearest to their limits, or furthest beyond, in torque, speed and range.
+
+    Args:
+        motion: The motion.
+
+    Returns:
+        The table, with a row each for torque [Nm], speed [rad/s] and angle [rad].
+    """
     limits, names = motion.embodiment.limits, motion.joint_names
     table = Table(box=None, padding=(0, 2, 0, 0), header_style="bold")
     for heading in ("peak", "joint", "value", "limit", "share"):

@@ -24,7 +24,18 @@ from levade.viewer.subjects import Found, find
 
 
 def view(name: str, *, out: Path | None, host: str | None, port: int | None, browse: bool) -> None:
-    """Serve the page of a motion, robot or task until Ctrl-C, or write it."""
+    """Serve the page of a motion, robot or task until Ctrl-C, or write it.
+
+    Args:
+        name: Name of a built-in robot or task, or a file.
+        out: File for the page. None serves it instead.
+        host: Address to serve at. None for this machine only.
+        port: Port to serve at. None or 0 for a free one.
+        browse: Whether to open the page in the browser.
+
+    Raises:
+        LevadeError: If a file is given together with an address or a port, or the name is unknown.
+    """
     if out is not None and (host is not None or port is not None):
         raise LevadeError(f"--out {out}: writes the page instead of serving it; leave out --host and --port")
     console = make_console()

@@ -39,7 +39,21 @@ class Watching:
 
 
 def options(watch: bool, host: str | None, port: int | None, browse: bool, keep: bool) -> Watching | None:
-    """Return the options of the page, or None without --watch. Raises LevadeError if others are given without it."""
+    """Return the options of the page.
+
+    Args:
+        watch: Whether to show the page.
+        host: Address to serve at. None if not given.
+        port: Port to serve at (0: a free one). None if not given.
+        browse: Whether to open the page in the browser.
+        keep: Whether to serve the page after the search has ended, until Ctrl-C.
+
+    Returns:
+        The options, or None without --watch.
+
+    Raises:
+        LevadeError: If other options are given without --watch.
+    """
     given = {"--watch-host": host, "--watch-port": port, "--open": browse or None, "--keep-open": keep or None}
     named = [name for name, value in given.items() if value is not None]
     if named and not watch:
@@ -59,7 +73,19 @@ def watched(
     directory: Path,
     interrupted: Callable[[], bool],
 ) -> Iterator[Watch]:
-    """Serve the page of a run within the context, and print its address. With ``keep`` it stays until Ctrl-C."""
+    """Serve the page of a run within the context, and print its address. With ``keep`` it stays until Ctrl-C.
+
+    Args:
+        chosen: Options of the page.
+        console: Console for the address and for messages.
+        objective: Objective of the search.
+        seed: Seed of the search.
+        directory: Directory of the run.
+        interrupted: Tells whether the keyboard asks to end.
+
+    Yields:
+        The watch, which takes the generations and the outcome.
+    """
     from levade.viewer.pages import watch_page
     from levade.viewer.scenes import LiveScenes
     from levade.viewer.server import Server
@@ -82,7 +108,13 @@ def watched(
 
 
 def tell_where(console: Console, server: Server, what: str) -> None:
-    """Print the page's address, and a warning if other machines can reach it."""
+    """Print the page's address, and a warning if other machines can reach it.
+
+    Args:
+        console: Console to print on.
+        server: Server of the page.
+        what: Words before the address.
+    """
     console.print(f"{what} [link={server.url}]{escape(server.url)}[/link]")
     if server.public:
         console.print(

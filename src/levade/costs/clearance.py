@@ -14,13 +14,27 @@ from levade.trajectory import Trajectories
 
 
 def clearance_of(looking: Iterable[object]) -> float | None:
-    """Return the largest clearance of terms and criteria [m]. None if none of them measures distances."""
+    """Return the largest clearance of terms and criteria.
+
+    Args:
+        looking: Terms and criteria. Those without a ``clearance`` measure no distances.
+
+    Returns:
+        The largest clearance [m]. None if none of them measures distances.
+    """
     asked = [getattr(one, "clearance", None) for one in looking]
     return max((clearance for clearance in asked if clearance is not None), default=None)
 
 
 def self_distance(trajectories: Trajectories, rows: slice) -> Array:
-    """Least distance between two parts of the robot [m], shape (n, rows).
+    """Return the least distance between two parts of the robot.
+
+    Args:
+        trajectories: The n trials.
+        rows: Rows to return.
+
+    Returns:
+        Distances [m], shape (n, rows), negative where parts overlap.
 
     Raises:
         LevadeError: If it was not recorded.

@@ -21,7 +21,17 @@ HIGHEST = 1e11
 
 
 def within(values: Array, bound: float) -> Array:
-    """Clip values to +-bound; NaN stays. `numpy.clip` takes several times as long for the few values of a generation."""
+    """Clip values to +-bound; NaN stays.
+
+    `numpy.clip` takes several times as long for the few values of a generation.
+
+    Args:
+        values: Values, any shape.
+        bound: Largest magnitude of the result, in the unit of the values.
+
+    Returns:
+        Clipped values, same shape.
+    """
     return np.minimum(np.maximum(values, -bound), bound)
 
 

@@ -90,29 +90,55 @@ class Orientation:
 
 
 def wrap(angle: Array) -> Array:
-    """Wrap angles [rad] to [-pi, pi)."""
+    """Wrap angles to one turn around zero.
+
+    Args:
+        angle: Angles [rad], any shape.
+
+    Returns:
+        Angles [rad], same shape, from -pi to less than pi.
+    """
     return (angle + math.pi) % (2 * math.pi) - math.pi
 
 
 def geodesic(a: Array, b: Array) -> Array:
-    """Compute the angle of the rotation between the attitudes of two quaternions [rad], 0 to pi, shape (..., 4) each.
+    """Compute the angle of the rotation between the attitudes of two quaternions.
 
-    It is exact near 0 and near pi: the norm of the rotation vector log(B'A). Half that angle lies between the quaternions as
-    vectors, up to their sign.
+    It is exact near 0 and near pi: the norm of the rotation vector log(B'A). Half that angle lies between the
+    quaternions as vectors, up to their sign.
+
+    Args:
+        a: Unit quaternions, w-x-y-z, shape (..., 4).
+        b: Unit quaternions, w-x-y-z, shape (..., 4); leading shapes broadcast.
+
+    Returns:
+        Angles [rad], shape (...), from 0 to pi.
     """
     difference, total = np.linalg.norm(a - b, axis=-1), np.linalg.norm(a + b, axis=-1)
     return 4.0 * np.arctan2(np.minimum(difference, total), np.maximum(difference, total))
 
 
 def angle_between(a: Array, b: Array) -> Array:
-    """Compute the angle between unit vectors, shape (..., 3) each [rad], 0 to pi, exact near 0 and near pi."""
+    """Compute the angle between unit vectors. It is exact near 0 and near pi.
+
+    Args:
+        a: Unit vectors, shape (..., 3).
+        b: Unit vectors, shape (..., 3); leading shapes broadcast.
+
+    Returns:
+        Angles [rad], shape (...), from 0 to pi.
+    """
     return 2.0 * np.arctan2(np.linalg.norm(a - b, axis=-1), np.linalg.norm(a + b, axis=-1))
 
 
 def world_up(quaternion: Array) -> Array:
-    """Return the world's up in trunk axes, shape (..., 3), for quaternions, shape (..., 4).
+    """Return the world's up in trunk axes. It is the third row of the rotation matrix.
 
-    It is the third row of the rotation matrix.
+    Args:
+        quaternion: Trunk frame to world, unit quaternions, w-x-y-z, shape (..., 4).
+
+    Returns:
+        Unit vectors, shape (..., 3).
     """
     w, x, y, z = components(quaternion)
     up = np.empty((*quaternion.shape[:-1], 3))
@@ -123,16 +149,29 @@ def world_up(quaternion: Array) -> Array:
 
 
 def nose(quaternion: Array) -> Array:
-    """Return the trunk's x axis in the world, shape (..., 3): the first column of the rotation matrix, from shape (..., 4)."""
+    """Return the trunk's x axis in the world. It is the first column of the rotation matrix.
+
+    Args:
+        quaternion: Trunk frame to world, unit quaternions, w-x-y-z, shape (..., 4).
+
+    Returns:
+        Unit vectors, shape (..., 3).
+    """
     w, x, y, z = components(quaternion)
     return np.stack([1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)], axis=-1)
 
 
 def pitch_past_vertical(quaternion: Array) -> Array:
-    """Compute the pitch [rad] in [-pi, pi), counted past the vertical if the trunk's top looks down, from shape (..., 4).
+    """Compute the pitch, counted past the vertical if the trunk's top looks down.
 
-    It is the z-y-x pitch while abs(roll) <= pi/2. A robot that rears past the vertical goes continuously from -89 to -91
-    degrees. The pitch only jumps where the trunk rolls past its side. Upside down and level is +-pi.
+    It is the z-y-x pitch while abs(roll) <= pi/2. A robot that rears past the vertical goes continuously from -89 to
+    -91 degrees. The pitch only jumps where the trunk rolls past its side. Upside down and level is +-pi.
+
+    Args:
+        quaternion: Trunk frame to world, unit quaternions, w-x-y-z, shape (..., 4).
+
+    Returns:
+        Pitch [rad], shape (...), from -pi to less than pi. Nose up is negative.
     """
     up = world_up(quaternion)
     upright = _zyx_pitch(up)
@@ -144,7 +183,16 @@ def _zyx_pitch(up: Array) -> Array:
 
 
 def quaternion_from_roll_pitch_yaw(roll: float, pitch: float, yaw: float) -> Array:
-    """Return the quaternion w-x-y-z, shape (4,), of intrinsic z-y-x angles [rad]."""
+    """Return the quaternion of intrinsic z-y-x angles.
+
+    Args:
+        roll: Roll [rad].
+        pitch: Pitch [rad]. Nose up is negative.
+        yaw: Yaw [rad].
+
+    Returns:
+        Unit quaternion, w-x-y-z, shape (4,).
+    """
     (cr, cp, cy), (sr, sp, sy) = ([f(a / 2) for a in (roll, pitch, yaw)] for f in (math.cos, math.sin))
     return np.array(
         [

@@ -19,7 +19,18 @@ Over = Literal["horizon", "all"]
 
 
 def rows_at(trajectories: Trajectories, at: At) -> slice:
-    """Return the rows of a terminal term, one for "horizon" and "end". Raises LevadeError for "hold" if there is none."""
+    """Return the rows of a terminal term, one for "horizon" and "end".
+
+    Args:
+        trajectories: The trials.
+        at: When the term counts, see `At`.
+
+    Returns:
+        The rows.
+
+    Raises:
+        LevadeError: If ``at`` is unknown, or is "hold" and the motion ends at its horizon.
+    """
     if at == "horizon":
         return slice(trajectories.horizon_steps - 1, trajectories.horizon_steps)
     if at == "end":
@@ -32,7 +43,18 @@ def rows_at(trajectories: Trajectories, at: At) -> slice:
 
 
 def rows_over(trajectories: Trajectories, over: Over) -> slice:
-    """Return the rows of a running term."""
+    """Return the rows of a running term.
+
+    Args:
+        trajectories: The trials.
+        over: What the term integrates over, see `Over`.
+
+    Returns:
+        The rows, from the first on.
+
+    Raises:
+        LevadeError: If ``over`` is unknown.
+    """
     if over not in ("horizon", "all"):
         raise LevadeError(f"over: {over!r} is unknown; horizon or all")
     return slice(0, trajectories.horizon_steps if over == "horizon" else trajectories.steps)
@@ -58,7 +80,16 @@ def integral(rate: Array, trajectories: Trajectories, rows: slice) -> Array:
 
 
 def mean_in(values: Array, trajectories: Trajectories, rows: slice) -> Array:
-    """Average values, shape (n, rows), over the rows that belong to each trial. Returns shape (n,)."""
+    """Average values over the rows that belong to each trial.
+
+    Args:
+        values: Values at the rows, shape (n, rows).
+        trajectories: The n trials.
+        rows: Their rows.
+
+    Returns:
+        Means in the unit of the values, shape (n,).
+    """
     counted = trajectories.counted(rows)
     if counted is None:
         return mean_over_rows(values)
@@ -85,19 +116,42 @@ def squared_distance(values: Array, target: tuple[float | None, ...], tolerance:
 
 
 def beyond(squared: Array, tolerance: float) -> Array:
-    """Turn squared distances into squares of the excess over a tolerance."""
+    """Turn squared distances into squares of the excess over a tolerance.
+
+    Args:
+        squared: Squared distances, any shape.
+        tolerance: Distance that costs nothing, in the unit of the distances.
+
+    Returns:
+        Squared excesses, same shape; 0 within the tolerance.
+    """
     if tolerance == 0:
         return squared
     return np.maximum(0.0, np.sqrt(squared) - tolerance) ** 2
 
 
 def mean_over_rows(values: Array) -> Array:
-    """Average over rows: (n, rows) to (n,)."""
+    """Average over rows.
+
+    Args:
+        values: Values, shape (n, rows).
+
+    Returns:
+        Means in the unit of the values, shape (n,).
+    """
     return np.ascontiguousarray(values).mean(axis=1)
 
 
 def check_target(term: str, **target: float | None) -> None:
-    """Raise LevadeError unless at least one target is given, and all given targets are finite."""
+    """Check that at least one target is given, and that all given targets are finite.
+
+    Args:
+        term: Name of the term, for the message.
+        **target: Required values by the names of their keys; None for one that is free.
+
+    Raises:
+        LevadeError: If no target is given, or one is not finite.
+    """
     if all(value is None for value in target.values()):
         raise LevadeError(f"{term}: no target; give at least one of {', '.join(target)}")
     for name, value in target.items():
@@ -106,6 +160,14 @@ def check_target(term: str, **target: float | None) -> None:
 
 
 def check_tolerance(term: str, tolerance: float) -> None:
-    """Raise LevadeError unless the tolerance is finite and not negative."""
+    """Check that a tolerance is finite and not negative.
+
+    Args:
+        term: Name of the term, for the message.
+        tolerance: Tolerance, in the unit of the term's distances.
+
+    Raises:
+        LevadeError: If the tolerance is negative or not finite.
+    """
     if not (math.isfinite(tolerance) and tolerance >= 0):
         raise LevadeError(f"{term}.tolerance: {tolerance} should be 0 or more")

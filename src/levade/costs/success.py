@@ -86,7 +86,14 @@ else:
 
 
 def unit_of(quantity: str) -> str:
-    """Return the unit of a quantity, built in or a `Measure`."""
+    """Return the unit of a quantity.
+
+    Args:
+        quantity: A built-in quantity or a `Measure`.
+
+    Returns:
+        Its unit, such as "rad".
+    """
     return quantity.unit if isinstance(quantity, Measure) else QUANTITIES[quantity]
 
 
@@ -176,17 +183,29 @@ class Criterion:
         return unit_of(self.quantity).endswith("/s")
 
     def error(self, trajectories: Trajectories) -> Array:
-        """Compute signed errors in the quantity's SI unit, shape (n,).
+        """Compute signed errors.
 
-        An error is value - target, wrapped for angles. For bounds it is the excess beyond the bound, and 0 inside. It is always
-        finite: `levade.costs.DIVERGED` for trials that diverged.
+        An error is value - target, wrapped for angles. For bounds it is the excess beyond the bound, and 0 inside. It
+        is always finite: `levade.costs.DIVERGED` for trials that diverged.
+
+        Args:
+            trajectories: The n trials.
+
+        Returns:
+            Errors in the quantity's SI unit, shape (n,).
         """
         return self.judge(trajectories)[0]
 
     def judge(self, trajectories: Trajectories) -> tuple[Array, Array]:
-        """Compute `error`, and the slack of each trial to the nearer bound at its worst instant [SI], shape (n,) each.
+        """Compute `error`, and the slack of each trial to the nearer bound at its worst instant.
 
         The slack is negative beyond a bound, and NaN for a broken trial or a target.
+
+        Args:
+            trajectories: The n trials.
+
+        Returns:
+            Errors and slacks in the quantity's SI unit, shape (n,) each.
         """
         with np.errstate(all="ignore"):  # of broken trials, see below
             value = self._values(trajectories)
@@ -199,15 +218,37 @@ class Criterion:
             return np.where(bad, DIVERGED, within(error, DIVERGED)), np.where(bad, np.nan, room)
 
     def holds(self, trajectories: Trajectories) -> NDArray[np.bool_]:
-        """Tell whether each trial meets the criterion, shape (n,). A trial that diverged does not."""
+        """Tell whether each trial meets the criterion. A trial that diverged does not.
+
+        Args:
+            trajectories: The n trials.
+
+        Returns:
+            True for each trial that meets it, shape (n,).
+        """
         return self.met(self.error(trajectories))
 
     def met(self, error: Array) -> NDArray[np.bool_]:
-        """Tell whether errors, as `error` returns them, are within the tolerance. Beyond a bound no error is allowed."""
+        """Tell whether errors are within the tolerance. Beyond a bound no error is allowed.
+
+        Args:
+            error: Errors as `error` returns them, in the quantity's SI unit, any shape.
+
+        Returns:
+            True for each error within the tolerance, same shape.
+        """
         return np.abs(error) <= (self.tolerance or 0.0)
 
     def deviations(self, trajectories: Trajectories, rows: slice | None = None) -> Array:
-        """Compute signed errors at the criterion's instants, or at given rows instead, shape (n, rows)."""
+        """Compute signed errors at the criterion's instants, or at given rows instead.
+
+        Args:
+            trajectories: The n trials.
+            rows: Rows to compute at. None for the criterion's instants.
+
+        Returns:
+            Errors in the quantity's SI unit, shape (n, rows).
+        """
         return self._deviation(self._values(trajectories, rows))
 
     def _deviation(self, value: Array) -> Array:
@@ -236,7 +277,21 @@ def _worst(deviation: Array) -> Array:
 
 
 def quantity_values(quantity: AnyQuantity, trajectories: Trajectories, rows: slice, legs: Legs = "all") -> Array:
-    """Compute a quantity in its SI unit, as `Criterion` describes, shape (n, rows)."""
+    """Compute a quantity in its SI unit, as `Criterion` describes.
+
+    Args:
+        quantity: A built-in quantity or a `Measure`.
+        trajectories: The n trials.
+        rows: Rows to compute at.
+        legs: Legs of a quantity of the feet, see `Legs`. Other quantities ignore them.
+
+    Returns:
+        Values in the quantity's SI unit, shape (n, rows).
+
+    Raises:
+        LevadeError: If the trunk's shape or the distances between parts are needed and not known, a leg is unknown, or
+            a measure returns another shape.
+    """
     if isinstance(quantity, Measure):
         return _measured(quantity, trajectories, rows)
     if quantity in OF_FEET:
@@ -303,7 +358,18 @@ def _margin(quantity: str, trajectories: Trajectories, rows: slice) -> Array:
 
 
 def chosen_legs(trajectories: Trajectories, legs: Legs) -> list[LegGeometry]:
-    """Return the legs that a criterion or a term names. Raises LevadeError for an unknown name."""
+    """Return the legs that a criterion or a term names.
+
+    Args:
+        trajectories: Trials of the robot.
+        legs: The names, see `Legs`.
+
+    Returns:
+        The legs' geometry, in the robot's leg order.
+
+    Raises:
+        LevadeError: If a name is unknown, or there are no names.
+    """
     names = (legs,) if isinstance(legs, str) else legs
     standing = [leg for leg in trajectories.legs if leg.stands]
     valid = {name for leg in standing for name in ("all", leg.end, leg.side)} | {leg.name for leg in trajectories.legs}
@@ -321,12 +387,28 @@ def chosen_legs(trajectories: Trajectories, legs: Legs) -> list[LegGeometry]:
 
 
 def errors(criteria: Mapping[str, Criterion], trajectories: Trajectories) -> dict[str, Array]:
-    """Compute the error of each criterion: name -> errors, shape (n,). See `Criterion.error`."""
+    """Compute the error of each criterion. See `Criterion.error`.
+
+    Args:
+        criteria: Name -> criterion.
+        trajectories: The n trials.
+
+    Returns:
+        Name -> errors in the SI unit of the criterion's quantity, shape (n,).
+    """
     return {name: criterion.error(trajectories) for name, criterion in criteria.items()}
 
 
 def success(criteria: Mapping[str, Criterion], trajectories: Trajectories) -> NDArray[np.bool_]:
-    """Tell whether each trial meets every criterion, shape (n,). Without criteria, every trial does that did not diverge."""
+    """Tell whether each trial meets every criterion. Without criteria, every trial does that did not diverge.
+
+    Args:
+        criteria: Name -> criterion.
+        trajectories: The n trials.
+
+    Returns:
+        True for each successful trial, shape (n,).
+    """
     met = ~trajectories.diverged
     for criterion in criteria.values():
         met = met & criterion.holds(trajectories)

@@ -56,7 +56,11 @@ _NEAREST = 1  # of contact sensors' ways to choose among contacts
 
 
 def forget_clearance(spec: mujoco.MjSpec) -> None:
-    """Remove what `measure_clearance` added, if it did."""
+    """Remove what `measure_clearance` added, if it did.
+
+    Args:
+        spec: Robot and scene; it is changed.
+    """
     number = next((one for one in spec.numerics if one.name == _NAME), None)
     if number is None:
         return
@@ -79,7 +83,17 @@ def _widen(spec: mujoco.MjSpec, clearance: float) -> None:
 
 
 def with_clearance(xml: str, assets: Mapping[str, bytes], trunk: str, clearance: float) -> mujoco.MjModel:
-    """Compile a model with another clearance than its text has."""
+    """Compile a model with another clearance than its text has.
+
+    Args:
+        xml: MJCF text of robot and scene.
+        assets: File name in ``xml`` -> content.
+        trunk: Name of the body that holds all other bodies of the robot.
+        clearance: Distance from which parts count as apart [m]; 0 to measure only depths.
+
+    Returns:
+        The compiled model.
+    """
     spec = mujoco.MjSpec.from_string(xml, assets=dict(assets))
     forget_clearance(spec)
     measure_clearance(spec, trunk, clearance)
@@ -87,13 +101,27 @@ def with_clearance(xml: str, assets: Mapping[str, bytes], trunk: str, clearance:
 
 
 def clearance_in(model: mujoco.MjModel) -> float | None:
-    """Return the clearance of a model [m]. None if it measures no distances."""
+    """Return the clearance of a model [m]. None if it measures no distances.
+
+    Args:
+        model: Robot and scene.
+
+    Returns:
+        The clearance [m], or None.
+    """
     number = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_NUMERIC, _NAME)
     return None if number < 0 else float(model.numeric_data[model.numeric_adr[number]])
 
 
 def sensor_address(model: mujoco.MjModel) -> int | None:
-    """Return the address of the sensor in sensordata. None if there is none."""
+    """Return the address of the sensor in sensordata. None if there is none.
+
+    Args:
+        model: Robot and scene.
+
+    Returns:
+        Index of the sensor's first value, or None.
+    """
     sensor = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SENSOR, _NAME)
     return None if sensor < 0 else int(model.sensor_adr[sensor])
 

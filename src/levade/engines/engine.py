@@ -265,7 +265,14 @@ class Engine(ABC):
 
 
 def broke_down(time: float) -> LevadeError:
-    """Return the error for a robot whose simulation breaks down while it settles for a time [s]."""
+    """Return the error for a robot whose simulation breaks down while it settles for a time [s].
+
+    Args:
+        time: Duration of the settling [s].
+
+    Returns:
+        The error, to be raised.
+    """
     return LevadeError(
         f"start: the simulation broke down within {time} s; a smaller physics.timestep or lower gains may help"
     )

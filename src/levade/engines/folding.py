@@ -20,7 +20,18 @@ from levade.trajectory import JointReference
 
 
 def fold_posture(robot: Robot, fold: Fold) -> Array:
-    """Return the folded posture of a robot [rad], shape (joints,). Raises LevadeError if there is none."""
+    """Return the folded posture of a robot.
+
+    Args:
+        robot: The robot.
+        fold: How to fold it up. Only its posture matters here.
+
+    Returns:
+        Joint angles [rad], shape (joints,).
+
+    Raises:
+        LevadeError: If the robot has no such posture.
+    """
     with located("start.fallen.fold.posture: "):
         if fold.posture == "tucked" and "tucked" not in robot.postures:
             return tucked(robot)

@@ -52,6 +52,13 @@ class Layout(Addresses):
     def of_model(cls, model: mujoco.MjModel, embodiment: Embodiment) -> Layout:
         """Look up a robot in a model whose actuators are named after its joints and which has `add_contact_sensors`.
 
+        Args:
+            model: Robot and scene.
+            embodiment: The robot.
+
+        Returns:
+            Addresses of the robot in the model.
+
         Raises:
             KeyError: If the model lacks one of the names.
         """
@@ -148,7 +155,14 @@ class Layout(Addresses):
         )
 
     def addresses(self, record: Sequence[str]) -> list[int]:
-        """Return the addresses in sensordata of what a roll-out records."""
+        """Return the addresses in sensordata of what a roll-out records.
+
+        Args:
+            record: What is recorded: `FOOT_CONTACT_FORCE`, `levade.engines.SELF_DISTANCE`, and names of bodies.
+
+        Returns:
+            Index of the first value of each sensor. Names without a sensor have none.
+        """
         found = [self.body_sensors[name] for name in record if name in self.body_sensors]
         if FOOT_CONTACT_FORCE in record:
             found += self.foot_sensors
@@ -157,11 +171,26 @@ class Layout(Addresses):
         return found
 
     def foot_forces(self, sensordata: Array) -> Array:
-        """Forces on the feet [N], shape (n, steps, feet, 3), in world axes."""
+        """Return the forces on the feet, in world axes.
+
+        Args:
+            sensordata: MuJoCo's sensor values, shape (n, steps, nsensordata).
+
+        Returns:
+            Forces [N], shape (n, steps, feet, 3).
+        """
         return np.stack([-sensordata[..., a : a + 3] for a in self.foot_sensors], axis=2)
 
     def force_on(self, body: str, sensordata: Array) -> Array:
-        """Magnitude of the scene's force on a body [N], shape (n, steps)."""
+        """Compute the magnitude of the scene's force on a body.
+
+        Args:
+            body: Name of the body, a key of ``body_sensors``.
+            sensordata: MuJoCo's sensor values, shape (n, steps, nsensordata).
+
+        Returns:
+            Magnitude of the force [N], shape (n, steps).
+        """
         address = self.body_sensors[body]
         return np.linalg.norm(sensordata[..., address : address + 3], axis=-1)
 
@@ -206,7 +235,12 @@ def sole(model: mujoco.MjModel, foot: str) -> list[int]:
 
 
 def remove_contact_sensors(spec: mujoco.MjSpec, feet: Sequence[str]) -> None:
-    """Take away what `add_contact_sensors` added."""
+    """Take away what `add_contact_sensors` added.
+
+    Args:
+        spec: The robot, with or without its scene; it is changed.
+        feet: Geom names of the feet.
+    """
     names = {foot + _FOOT_SENSOR for foot in feet} | {body.name + _BODY_SENSOR for body in spec.bodies[1:]}
     for sensor in [sensor for sensor in spec.sensors if sensor.name in names]:
         spec.delete(sensor)

@@ -42,7 +42,16 @@ class Lean:
 
     @classmethod
     def of(cls, model: mujoco.MjModel, xml: str, assets: Mapping[str, bytes]) -> Lean:
-        """The lean model of one that was compiled from a text, and perhaps changed since: it has the changes, too."""
+        """Make the lean model of one that was compiled from a text, and perhaps changed since: it has the changes, too.
+
+        Args:
+            model: The whole model.
+            xml: MJCF text from which it was compiled.
+            assets: File name in ``xml`` -> content.
+
+        Returns:
+            The model to step: the whole one where its visual shapes cannot go.
+        """
         there = (model.geom_contype | model.geom_conaffinity) != 0
         if there.all():
             return cls(model, np.arange(model.ngeom))
@@ -58,7 +67,15 @@ class Lean:
         return cls(lean, kept)
 
     def fields(self, name: str, values: Array) -> Array:
-        """What a field of n versions of the whole model is in the lean one, from shape (n, ...)."""
+        """Return what a field of n versions of the whole model is in the lean one.
+
+        Args:
+            name: Name of the field in `mujoco.MjModel`.
+            values: Its values in each version of the whole model, shape (n, ...).
+
+        Returns:
+            Its values in each version of the lean model, shape (n, ...). Shapes that are not in it are left out.
+        """
         return values[:, self.kept] if name.startswith("geom_") else values
 
 

@@ -68,7 +68,14 @@ class Models:
 
     @classmethod
     def stacked(cls, models: Sequence[Models]) -> Models:
-        """Join the versions of several, in sequence. All have the same fields."""
+        """Join the versions of several, in sequence. All have the same fields.
+
+        Args:
+            models: Versions to join, at least one item.
+
+        Returns:
+            All the versions.
+        """
         fields = {name: np.concatenate([one.fields[name] for one in models]) for name in models[0].fields}
         return cls(fields, np.concatenate([one.delay for one in models]))
 
@@ -105,6 +112,13 @@ def with_free_frames(model: mujoco.MjModel, layout: Layout) -> mujoco.MjModel:
     """Copy a model so that the frames of the scene's geoms and of the trunk's inertia may be changed.
 
     MuJoCo does not compute frames that coincide with their body's, and the last bits of a simulation depend on it.
+
+    Args:
+        model: The model; it is not changed.
+        layout: Addresses of the robot in it.
+
+    Returns:
+        The copy.
     """
     model = copy.deepcopy(model)
     model.geom_sameframe[model.geom_bodyid == 0] = _NONE

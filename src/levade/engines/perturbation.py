@@ -227,7 +227,16 @@ class Perturbation:
         return self._drawn(lambda generator, size: generator.random((n, size)), _sizes(model, joints), seed)
 
     def nominal(self, model: mujoco.MjModel, joints: int, *, n: int = 1) -> Sample:
-        """Return n runs in which nothing is perturbed."""
+        """Return n runs in which nothing is perturbed.
+
+        Args:
+            model: The nominal model.
+            joints: Number of joints.
+            n: Number of runs.
+
+        Returns:
+            The sample.
+        """
         sizes = _sizes(model, joints)
         return Sample({name: np.full((n, size), PARAMETERS[name].nominal) for name, size in sizes.items()})
 
@@ -301,24 +310,54 @@ class Sample:
 
 
 def joined(samples: list[Sample]) -> Sample:
-    """Join the runs of several samples, in sequence."""
+    """Join the runs of several samples, in sequence.
+
+    Args:
+        samples: Samples of the same robot and scene, at least one.
+
+    Returns:
+        One sample of all runs.
+    """
     return Sample({name: np.concatenate([s.values[name] for s in samples]) for name in samples[0].values})
 
 
 def ground(model: mujoco.MjModel) -> list[int]:
-    """List the geoms on which the robot stands where there is no obstacle. With gaps, these are platforms."""
+    """List the geoms on which the robot stands where there is no obstacle. With gaps, these are platforms.
+
+    Args:
+        model: Robot and scene.
+
+    Returns:
+        Indices of the geoms, in ascending order.
+    """
     names = {i: model.geom(i).name for i in range(model.ngeom) if model.geom_bodyid[i] == 0}
     return [i for i, name in names.items() if name == GROUND or name.startswith(PLATFORM)]
 
 
 def obstacles(model: mujoco.MjModel) -> list[int]:
-    """List the geoms of the scene that are not ground."""
+    """List the geoms of the scene that are not ground.
+
+    Args:
+        model: Robot and scene.
+
+    Returns:
+        Indices of the geoms, in ascending order.
+    """
     level = ground(model)
     return [i for i in range(model.ngeom) if model.geom_bodyid[i] == 0 and i not in level]
 
 
 def labels(model: mujoco.MjModel, joint_names: tuple[str, ...], name: str) -> list[str]:
-    """Name each number of a parameter: joint names, axes, obstacles; one empty text for a single number."""
+    """Name each number of a parameter: joint names, axes, obstacles; one empty text for a single number.
+
+    Args:
+        model: Robot and scene.
+        joint_names: Names of the joints, in order.
+        name: Name of the parameter, a key of `PARAMETERS`.
+
+    Returns:
+        A name for each number, in the order of the sample's columns.
+    """
     return {
         "model": [""],
         "axis": ["x", "y", "z"],

@@ -59,7 +59,13 @@ class Stance:
         self._geoms = np.array(geoms, dtype=int)
 
     def perturb(self, qpos: Array, qvel: Array, values: Mapping[str, Array]) -> None:
-        """Change states in place, shape (n, nq) and (n, nv), by a sample's values. All of them begin as the start."""
+        """Change states in place by a sample's values. All of them begin as the start.
+
+        Args:
+            qpos: Positions in the model's order, shape (n, nq); they are changed.
+            qvel: Velocities in the model's order, shape (n, nv); they are changed.
+            values: Parameter -> its values, shape (n, numbers), as in `levade.engines.Sample`.
+        """
         layout = self._layout
         position = slice(layout.root_qpos, layout.root_qpos + 3)
         attitude = slice(layout.root_qpos + 3, layout.root_qpos + 7)

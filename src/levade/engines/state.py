@@ -50,12 +50,26 @@ class State:
         return State(**{name: values[rows] for name, values in self._arrays().items()})
 
     def repeated(self, n: int) -> State:
-        """Repeat a state of one row for n trials. A state of n rows is returned unchanged."""
+        """Repeat a state of one row for n trials. A state of n rows is returned unchanged.
+
+        Args:
+            n: Number of trials.
+
+        Returns:
+            The state, n rows.
+        """
         return self if len(self) == n else self[np.zeros(n, dtype=np.intp)]
 
     @classmethod
     def stacked(cls, states: Sequence[State]) -> State:
-        """Join the rows of several states, in sequence."""
+        """Join the rows of several states, in sequence.
+
+        Args:
+            states: States of the same robot, at least one.
+
+        Returns:
+            One state with all rows.
+        """
         parts = [state._arrays() for state in states]
         return cls(**{one.name: np.concatenate([part[one.name] for part in parts]) for one in fields(cls)})
 

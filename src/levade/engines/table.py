@@ -52,6 +52,17 @@ class EngineKind:
     ) -> Any:
         """Make an engine. The arguments are those of `levade.engines.Engine`.
 
+        Args:
+            xml: MJCF text of robot, scene, actuators and contact sensors.
+            assets: File name in ``xml`` -> content.
+            embodiment: The robot, a `levade.embodiment.Embodiment`.
+            physics: Numerical settings, a `levade.engines.Physics`.
+            threads: Number of threads or processes (0: one per core).
+            model: The compiled model, a `mujoco.MjModel`. None compiles ``xml``.
+
+        Returns:
+            The engine, a `levade.engines.Engine`.
+
         Raises:
             LevadeError: If a library is missing, or the engine cannot simulate the model.
         """
@@ -102,6 +113,13 @@ def engine_kind(name: str) -> EngineKind:
 
 
 def no_feedback(name: str) -> LevadeError:
-    """Return the error for an engine that cannot simulate feedback."""
+    """Return the error for an engine that cannot simulate feedback.
+
+    Args:
+        name: Name of the engine.
+
+    Returns:
+        The error, to be raised.
+    """
     able = " or ".join(kind.name for kind in ENGINES.values() if kind.feedback)
     return LevadeError(f"feedback: the engine {name} does not simulate it yet; use the engine {able}")

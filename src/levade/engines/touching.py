@@ -12,6 +12,14 @@ def may_touch(model: mujoco.MjModel, one: int, other: int) -> bool:
     """Tell whether MuJoCo looks for contact between two geoms.
 
     Their masks decide. Geoms of one body, or of a body and its parent, do not touch.
+
+    Args:
+        model: Robot and scene.
+        one: Index of a geom.
+        other: Index of another geom.
+
+    Returns:
+        Whether the two may touch.
     """
     affine = (model.geom_contype[one] & model.geom_conaffinity[other]) or (
         model.geom_contype[other] & model.geom_conaffinity[one]
@@ -27,7 +35,16 @@ def may_touch(model: mujoco.MjModel, one: int, other: int) -> bool:
 
 
 def friction_between(model: mujoco.MjModel, one: int, other: int) -> float:
-    """Return the coefficient of sliding friction: that of the geom with higher priority, otherwise the larger one."""
+    """Return the coefficient of sliding friction: that of the geom with higher priority, otherwise the larger one.
+
+    Args:
+        model: Robot and scene.
+        one: Index of a geom.
+        other: Index of another geom.
+
+    Returns:
+        The coefficient. It is 0 if the contact has no friction.
+    """
     priority = model.geom_priority[one] - model.geom_priority[other]
     deciding = [one] if priority > 0 else [other] if priority < 0 else [one, other]
     if max(model.geom_condim[geom] for geom in deciding) == 1:

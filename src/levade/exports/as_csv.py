@@ -21,7 +21,14 @@ XYZ, WXYZ = ("x", "y", "z"), ("w", "x", "y", "z")
 
 
 def columns(samples: Samples) -> dict[str, Array]:
-    """Return the name of each column -> its values, shape (rows,)."""
+    """Return the name of each column -> its values.
+
+    Args:
+        samples: The rows.
+
+    Returns:
+        Name -> values, shape (rows,), in the order of the table.
+    """
     table = {"time": samples.time}
     for i, joint in enumerate(samples.joints.names):
         for name in ("position", "velocity", "torque"):
@@ -42,7 +49,12 @@ def columns(samples: Samples) -> dict[str, Array]:
 
 
 def write_table(path: Path, table: dict[str, Array]) -> None:
-    """Write columns with all their digits. Reading the numbers gives the same bits."""
+    """Write columns with all their digits. Reading the numbers gives the same bits.
+
+    Args:
+        path: File to write.
+        table: Name of each column -> its values, shape (rows,).
+    """
     with path.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(table)
@@ -50,7 +62,15 @@ def write_table(path: Path, table: dict[str, Array]) -> None:
 
 
 def write(content: Content, directory: Path) -> list[str]:
-    """Write motion.csv, and next to it meta.json and player.py."""
+    """Write motion.csv, and next to it meta.json and player.py. A stabiliser adds feedback.npz.
+
+    Args:
+        content: What is exported.
+        directory: Directory to write into; it exists.
+
+    Returns:
+        An empty list: there are no notes for the user.
+    """
     table, feedback = directory / "motion.csv", directory / FEEDBACK
     write_table(table, columns(content.playing))
     belongs = [table.read_bytes()]
@@ -64,26 +84,57 @@ def write(content: Content, directory: Path) -> list[str]:
 
 
 def write_feedback(path: Path, feedback: Feedback) -> None:
-    """Write a stabiliser's arrays for numpy. The same arrays give the same bytes."""
+    """Write a stabiliser's arrays for numpy. The same arrays give the same bytes.
+
+    Args:
+        path: File to write.
+        feedback: The stabiliser.
+    """
     path.write_bytes(packed({"gain": feedback.gain, "reference": feedback.reference}))
 
 
 def write_player(directory: Path) -> None:
-    """Write player.py, a copy of the module."""
+    """Write player.py, a copy of the module.
+
+    Args:
+        directory: Directory to write into; it exists.
+    """
     write_script("player.py", directory / "player.py")
 
 
 def write_script(name: str, place: Path) -> None:
-    """Write a script of this room that runs on its own. If it imports the player, the player must be next to it."""
+    """Write a script of this room that runs on its own. If it imports the player, the player must be next to it.
+
+    Args:
+        name: File name of the script in `levade.exports`.
+        place: File to write.
+    """
     source = resources.files("levade.exports").joinpath(name).read_text(encoding="utf-8")
     place.write_text(source.replace("from levade.exports import player\n", "import player\n"), encoding="utf-8")
 
 
 def write_json(path: Path, content: object, *, indent: int | None = None) -> None:
-    """Write a JSON file. Numbers have all their digits."""
+    """Write a JSON file. Numbers have all their digits.
+
+    Args:
+        path: File to write.
+        content: Content that JSON can hold.
+        indent: Spaces by which each level is indented. None writes one line.
+    """
     path.write_text(to_json(content, indent=indent) + "\n", encoding="utf-8")
 
 
 def to_json(content: object, *, indent: int | None = None) -> str:
-    """Return strict JSON: it has no NaN or infinity."""
+    """Return strict JSON: it has no NaN or infinity.
+
+    Args:
+        content: Content that JSON can hold.
+        indent: Spaces by which each level is indented. None gives one line.
+
+    Returns:
+        JSON.
+
+    Raises:
+        ValueError: If a number is NaN or infinite.
+    """
     return json.dumps(content, ensure_ascii=False, allow_nan=False, indent=indent)

@@ -10,7 +10,15 @@ from levade.exports.player import canonical, checksum
 
 
 def write(content: Content, directory: Path) -> list[str]:
-    """Write motion.json, and player.py, which reads it."""
+    """Write motion.json, and player.py, which reads it.
+
+    Args:
+        content: What is exported.
+        directory: Directory to write into; it exists.
+
+    Returns:
+        An empty list: there are no notes for the user.
+    """
     samples = content.samples
     meta = describe(content, samples)
     document = {

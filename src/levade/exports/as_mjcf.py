@@ -23,7 +23,14 @@ ROBOT, SCENE = "robot.xml", "scene.xml"
 
 
 def check(motion: Motion) -> None:
-    """Raise LevadeError for file names that would leave the directory, or replace the models."""
+    """Check that no file name would leave the directory, or replace the models.
+
+    Args:
+        motion: The motion.
+
+    Raises:
+        LevadeError: If a file name would.
+    """
     for name in motion.assets:
         parts = PurePosixPath(name).parts
         leads_away = PureWindowsPath(name).anchor or PurePosixPath(name).anchor or ".." in parts or "\\" in name
@@ -32,7 +39,15 @@ def check(motion: Motion) -> None:
 
 
 def write(content: Content, directory: Path) -> list[str]:
-    """Write mjcf/robot.xml, mjcf/scene.xml, the files that they need, and the files for playing."""
+    """Write mjcf/robot.xml, mjcf/scene.xml, the files that they need, and the files for playing.
+
+    Args:
+        content: What is exported.
+        directory: Directory to write into; it exists.
+
+    Returns:
+        An empty list: there are no notes for the user.
+    """
     motion, folder = content.motion, directory / "mjcf"
     folder.mkdir()
     for name, data in motion.assets.items():

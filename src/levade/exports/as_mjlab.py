@@ -25,7 +25,15 @@ RATE = 50.0
 
 
 def write(content: Content, directory: Path) -> list[str]:
-    """Write reference.npz and reference.csv, and the files for playing."""
+    """Write reference.npz and reference.csv, and the files for playing.
+
+    Args:
+        content: What is exported.
+        directory: Directory to write into; it exists.
+
+    Returns:
+        An empty list: there are no notes for the user.
+    """
     samples, model = content.samples, content.model
     names, position, velocity = _all_joints(content)
     links = links_of(model)

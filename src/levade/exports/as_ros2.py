@@ -43,7 +43,14 @@ _KEPT = ("/robot_description", "/joint_trajectory")
 
 
 def check(motion: Motion) -> None:
-    """Raise LevadeError if mcap is missing."""
+    """Check that mcap is installed.
+
+    Args:
+        motion: The motion; its content does not matter.
+
+    Raises:
+        LevadeError: If mcap is missing.
+    """
     try:
         import mcap.writer  # noqa: F401
     except ImportError:
@@ -51,7 +58,15 @@ def check(motion: Motion) -> None:
 
 
 def write(content: Content, directory: Path) -> list[str]:
-    """Write the bag, the YAML, and the files for playing."""
+    """Write the bag, the YAML, and the files for playing.
+
+    Args:
+        content: What is exported.
+        directory: Directory to write into; it exists.
+
+    Returns:
+        An empty list: there are no notes for the user.
+    """
     bag = directory / "bag"
     bag.mkdir()
     counts = _write_bag(content, bag / "bag_0.mcap")
@@ -69,7 +84,14 @@ def _in_a_line(value: object) -> str:
 
 
 def nanoseconds(samples: Samples) -> list[int]:
-    """Return the time of each row from the start [ns]."""
+    """Return the time of each row from the start.
+
+    Args:
+        samples: The rows.
+
+    Returns:
+        Times [ns], one for each row.
+    """
     return np.rint(samples.time * NANO).astype(np.int64).tolist()
 
 

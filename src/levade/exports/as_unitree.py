@@ -93,6 +93,16 @@ def write(content: Content, directory: Path) -> list[str]:
     """Write unitree.csv, and motion.csv with meta.json and player.py, all in Unitree's order and under its names.
 
     Held joints have no columns in motion.csv, as in other formats; unitree.csv has all motors.
+
+    Args:
+        content: What is exported.
+        directory: Directory to write into; it exists.
+
+    Returns:
+        Notes for the user, such as where the robot differs from Unitree's.
+
+    Raises:
+        LevadeError: If the robot's joints do not fit Unitree's motors: see `motors`.
     """
     order = motors(content.motion)
     names, still = content.samples.joints.names, held(content.motion)

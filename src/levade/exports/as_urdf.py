@@ -15,7 +15,15 @@ from levade.exports.urdf import mesh_bytes, mesh_files, urdf
 
 
 def write(content: Content, directory: Path) -> list[str]:
-    """Write robot.urdf, its meshes, and the files for playing."""
+    """Write robot.urdf, its meshes, and the files for playing.
+
+    Args:
+        content: What is exported.
+        directory: Directory to write into; it exists.
+
+    Returns:
+        An empty list: there are no notes for the user.
+    """
     files = mesh_files(content.model)
     for mesh, file in files.items():
         (directory / file).parent.mkdir(exist_ok=True)

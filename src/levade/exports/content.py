@@ -62,7 +62,15 @@ class Content:
 
 
 def provenance(motion: Motion, command: str | None) -> dict[str, Any]:
-    """Describe where a motion comes from, what it meets, and how well it does, as JSON."""
+    """Describe where a motion comes from, what it meets, and how well it does, as JSON.
+
+    Args:
+        motion: The motion.
+        command: The command line that exports it. None if there is none.
+
+    Returns:
+        JSON. The scene is without the heights of a terrain, which are in the motion.
+    """
     from levade.version import __version__
 
     scene = task_to_dict(motion.task, code=True)["scene"]
@@ -85,7 +93,14 @@ def provenance(motion: Motion, command: str | None) -> dict[str, Any]:
 
 
 def surroundings(motion: Motion) -> str:
-    """Describe what the motion meets besides flat ground, in words. Empty for nothing."""
+    """Describe what the motion meets besides flat ground, in words. Empty for nothing.
+
+    Args:
+        motion: The motion.
+
+    Returns:
+        Words such as "2 boxes and terrain", or an empty text.
+    """
     scene = motion.task.scene
     count = lambda what, plural, items: [f"{len(items)} {what if len(items) == 1 else plural}"] * bool(items)  # noqa: E731
     parts = count("box", "boxes", scene.boxes) + count("gap", "gaps", scene.gaps)
@@ -95,7 +110,14 @@ def surroundings(motion: Motion) -> str:
 
 
 def held(motion: Motion) -> dict[str, float]:
-    """Return joints that the simulation holds without a command -> their positions [rad], for slides [m]."""
+    """Return joints that the simulation holds without a command -> their positions [rad], for slides [m].
+
+    Args:
+        motion: The motion.
+
+    Returns:
+        Name of the joint -> its position. Empty in files of early versions.
+    """
     return dict(motion.held)
 
 

@@ -68,7 +68,14 @@ class Frames:
 
 
 def links_of(model: mujoco.MjModel) -> list[Link]:
-    """List the robot's links, parents before children, in the model's order of bodies. The scene has no bodies."""
+    """List the robot's links, parents before children, in the model's order of bodies. The scene has no bodies.
+
+    Args:
+        model: Robot and scene.
+
+    Returns:
+        The links.
+    """
     links: list[Link] = []
     of_body: dict[int, int] = {}
     for body in range(1, model.nbody):
@@ -142,7 +149,17 @@ def frames_of(links: list[Link], samples: Samples) -> Frames:
 
 
 def body_frames(links: list[Link], frames: Frames) -> Frames:
-    """Return the frames of the model's bodies, as in MuJoCo and in its order. Relative values remain those of the links."""
+    """Return the frames of the model's bodies, as in MuJoCo and in its order.
+
+    Relative values remain those of the links.
+
+    Args:
+        links: The links, from `links_of`.
+        frames: Frames of all of them, from `frames_of`.
+
+    Returns:
+        Frames of the bodies, shape (rows, bodies, ...) each.
+    """
     index = [i for i, link in enumerate(links) if link.body is not None]
     shift = np.array([links[i].shift for i in index])
     quaternion, w = frames.quaternion[:, index], frames.angular_velocity[:, index]

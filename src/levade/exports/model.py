@@ -61,7 +61,15 @@ class Drive:
 
 
 def drive_of(model: mujoco.MjModel, joint: str) -> Drive | None:
-    """Read a joint's actuator from the model. None unless it has a single pid or dcmotor."""
+    """Read a joint's actuator from the model. None unless it has a single pid or dcmotor.
+
+    Args:
+        model: The compiled model.
+        joint: Name of the joint.
+
+    Returns:
+        The actuator, or None.
+    """
     at_joint = model.actuator_trntype == mujoco.mjtTrn.mjTRN_JOINT
     driving = np.flatnonzero((model.actuator_trnid[:, 0] == model.joint(joint).id) & at_joint)
     if len(driving) != 1:
@@ -88,10 +96,17 @@ def drive_of(model: mujoco.MjModel, joint: str) -> Drive | None:
 
 
 def holding_torque(motion: Motion, model: mujoco.MjModel) -> Array:
-    """Compute the torques of the joints at the start, within their limits, if nothing accelerates [Nm], shape (joints,).
+    """Compute the torques of the joints at the start, within their limits, if nothing accelerates.
 
-    They come from inverse dynamics. A standing robot still moves a little, and that counts: it decides the friction of its
-    feet.
+    They come from inverse dynamics. A standing robot still moves a little, and that counts: it decides the friction of
+    its feet.
+
+    Args:
+        motion: The motion.
+        model: Its compiled model.
+
+    Returns:
+        Torques [Nm], shape (joints,).
     """
     data = mujoco.MjData(model)
     data.qpos[:], data.qvel[:], data.qacc[:] = motion["qpos0"], motion["qvel0"], 0.0

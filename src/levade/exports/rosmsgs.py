@@ -101,7 +101,14 @@ class _Bytes:
 
 
 def string(text: str) -> bytes:
-    """Encode a std_msgs/msg/String."""
+    """Encode a std_msgs/msg/String.
+
+    Args:
+        text: The text.
+
+    Returns:
+        The message in CDR.
+    """
     out = _Bytes()
     out.text(text)
     return bytes(out.data)

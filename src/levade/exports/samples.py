@@ -109,7 +109,15 @@ class Samples:
     analytic: bool
 
     def reordered(self, order: Sequence[int], names: Sequence[str]) -> Samples:
-        """Return the same samples with the joints in another order and under other names."""
+        """Return the same samples with the joints in another order and under other names.
+
+        Args:
+            order: Index of each joint in these samples, in the new order.
+            names: New name of each joint, in the new order.
+
+        Returns:
+            The reordered samples.
+        """
         index = list(order)
         arrays = {name: getattr(self.joints, name)[index] for name in Joints.__dataclass_fields__ if name != "names"}
         joints = Joints(names=tuple(names), **arrays)

@@ -121,6 +121,12 @@ def never_touch(model: mujoco.MjModel) -> list[list[str]]:
     """List pairs of links that have colliding shapes and pass through each other, by name, in the order of the links.
 
     They include links that are fixed to each other.
+
+    Args:
+        model: Robot and scene.
+
+    Returns:
+        Pairs of link names.
     """
     pairs = _pairs(model)
     shapes: dict[int, list[int]] = {}
@@ -139,7 +145,15 @@ def never_touch(model: mujoco.MjModel) -> list[list[str]]:
 
 
 def start_depth(motion: Motion, model: mujoco.MjModel) -> dict[str, float]:
-    """Map each foot to its depth in the scene at the start [m], 0 without contact. Soft contact lets feet sink in."""
+    """Map each foot to its depth in the scene at the start, 0 without contact. Soft contact lets feet sink in.
+
+    Args:
+        motion: The motion.
+        model: Its compiled model.
+
+    Returns:
+        Name of the foot's geom -> depth [m].
+    """
     data = mujoco.MjData(model)
     data.qpos[:] = motion["qpos0"]
     mujoco.mj_kinematics(model, data)

@@ -63,14 +63,29 @@ def urdf(model: mujoco.MjModel, joints: Joints, name: str, *, meshes: Mapping[in
 
 
 def mesh_files(model: mujoco.MjModel) -> dict[int, str]:
-    """Choose a file for each mesh that the robot's shapes use: mesh -> path next to the URDF."""
+    """Choose a file for each mesh that the robot's shapes use.
+
+    Args:
+        model: Robot and scene.
+
+    Returns:
+        Index of the mesh in the model -> path next to the URDF.
+    """
     used = {int(model.geom_dataid[geom]) for geom in range(model.ngeom) if _is_mesh(model, geom)}
     plain = {mesh: re.sub(r"[^A-Za-z0-9_-]", "_", model.mesh(mesh).name) for mesh in sorted(used)}
     return {mesh: f"meshes/{i}-{name}.stl" for i, (mesh, name) in enumerate(plain.items())}
 
 
 def mesh_bytes(model: mujoco.MjModel, mesh: int) -> bytes:
-    """Return a mesh of the model as binary STL [m], in MuJoCo's frame of the mesh."""
+    """Return a mesh of the model as binary STL, in MuJoCo's frame of the mesh.
+
+    Args:
+        model: Robot and scene.
+        mesh: Index of the mesh in the model.
+
+    Returns:
+        Binary STL, lengths in [m].
+    """
     first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
     face, faces = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])
     corners = model.mesh_vert[first : first + count][model.mesh_face[face : face + faces]]
@@ -82,7 +97,15 @@ def mesh_bytes(model: mujoco.MjModel, mesh: int) -> bytes:
 
 
 def shape_name(model: mujoco.MjModel, geom: int) -> str:
-    """Return a name for a geom of the robot: its own, or that of its body with a number."""
+    """Return a name for a geom of the robot: its own, or that of its body with a number.
+
+    Args:
+        model: Robot and scene.
+        geom: Index of the geom.
+
+    Returns:
+        The name.
+    """
     body = int(model.geom_bodyid[geom])
     return model.geom(geom).name or f"{model.body(body).name or f'body{body}'}_shape{geom - model.body_geomadr[body]}"
 

@@ -178,7 +178,14 @@ class Playable(Protocol):
     """Can be played from a fall: a motion, or weights."""
 
     def decisions(self, policy: JointPolicy) -> Array:
-        """Return the weights for a policy, shape (1, d)."""
+        """Return the weights for a policy.
+
+        Args:
+            policy: The policy.
+
+        Returns:
+            Weights, shape (1, d).
+        """
         ...
 
 

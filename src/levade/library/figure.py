@@ -85,7 +85,12 @@ def projected(up: Array) -> tuple[Array, Array]:
 
 
 def disc(axes: Any, title: str) -> None:
-    """Draw an empty disc for `projected`, with its title and the four directions around it."""
+    """Draw an empty disc for `projected`, with its title and the four directions around it.
+
+    Args:
+        axes: The matplotlib axes to draw on. They are scaled to the disc, and their frame is hidden.
+        title: Title above the disc.
+    """
     from matplotlib.patches import Circle
 
     axes.set_title(title, loc="center")

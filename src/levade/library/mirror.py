@@ -89,11 +89,25 @@ class Mirror:
         return {"joints": self.joints.tolist(), "signs": self.signs.astype(int).tolist()}
 
     def up(self, up: Array) -> Array:
-        """Mirror directions in trunk axes, shape (..., 3)."""
+        """Mirror directions in trunk axes.
+
+        Args:
+            up: Directions, such as upwards, shape (..., 3).
+
+        Returns:
+            The mirrored directions, shape (..., 3).
+        """
         return up * _SIDEWAYS
 
     def posture(self, joint_position: Array) -> Array:
-        """Mirror joint angles [rad], shape (..., joints)."""
+        """Mirror joint angles.
+
+        Args:
+            joint_position: Joint angles [rad], shape (..., joints).
+
+        Returns:
+            Angles of the mirrored posture [rad], shape (..., joints).
+        """
         return joint_position[..., self.joints] * self.signs
 
     def decisions(self, policy: JointPolicy, decisions: Array) -> Array | None:

@@ -114,20 +114,50 @@ Number = TypeVar("Number", int, NDArray[np.intp])
 
 
 def image_of(motion: Number) -> Number:
-    """Return the number of a motion's mirror image; for an image, the number of the original."""
+    """Return the number of a motion's mirror image; for an image, the number of the original.
+
+    Args:
+        motion: Number of a motion, or an array of numbers of any shape. It is negative for a mirror image.
+
+    Returns:
+        The other number, or an array of the same shape.
+    """
     return -1 - motion
 
 
 def fall_of(motion: int) -> int:
-    """Return the number of the fall for which a motion was found; for a mirror image, that of the original."""
+    """Return the number of the fall for which a motion was found; for a mirror image, that of the original.
+
+    Args:
+        motion: Number of a motion. It is negative for a mirror image.
+
+    Returns:
+        Number of the fall, from 0.
+    """
     return max(motion, image_of(motion))
 
 
 def record_path(directory: Path, fall: int) -> Path:
-    """Return the path of a fall's record."""
+    """Return the path of a fall's record.
+
+    Args:
+        directory: Directory of the library.
+        fall: Number of the fall, from 0.
+
+    Returns:
+        Path of the JSON file. It need not exist.
+    """
     return directory / FALLS / f"{fall:06}.json"
 
 
 def motion_path(directory: Path, motion: int) -> Path:
-    """Return the path of a motion's file; for a mirror image, that of the original."""
+    """Return the path of a motion's file; for a mirror image, that of the original.
+
+    Args:
+        directory: Directory of the library.
+        motion: Number of the motion. It is negative for a mirror image.
+
+    Returns:
+        Path of the .npz file. It need not exist.
+    """
     return directory / MOTIONS / f"{fall_of(motion):06}.npz"

@@ -56,7 +56,18 @@ def end_of(motion: Motion) -> GivenState:
 
 
 def after(task: Task, motion: Motion) -> Task:
-    """Return the task with the end of a motion as its start."""
+    """Return the task with the end of a motion as its start.
+
+    Args:
+        task: The task.
+        motion: The motion after which it begins.
+
+    Returns:
+        The task with its new start.
+
+    Raises:
+        LevadeError: If the motion has no such end: see `end_of`.
+    """
     return replace(task, start=StartChoice(state=end_of(motion)))
 
 

@@ -18,7 +18,15 @@ Lines = tuple[Array, Array] | tuple[None, None]
 
 
 def robot_facts(embodiment: Embodiment, legs: Sequence[Leg]) -> dict[str, Any]:
-    """Describe a robot for ``meta``: ``trunk``, ``legs``, ``limits``, ``trunk_com_offset`` and ``trunk_balls``."""
+    """Describe a robot for ``meta``: ``trunk``, ``legs``, ``limits``, ``trunk_com_offset`` and ``trunk_balls``.
+
+    Args:
+        embodiment: The robot as simulations and costs describe it.
+        legs: Its legs, in the order of ``embodiment.legs``.
+
+    Returns:
+        JSON.
+    """
     return {
         "trunk": embodiment.trunk,
         "legs": {
@@ -45,7 +53,14 @@ def robot_facts(embodiment: Embodiment, legs: Sequence[Leg]) -> dict[str, Any]:
 
 
 def legs_of(meta: Mapping[str, Any]) -> tuple[Leg, ...]:
-    """Read the robot's legs."""
+    """Read the robot's legs.
+
+    Args:
+        meta: The file's ``meta``.
+
+    Returns:
+        The legs, without the roles of their joints.
+    """
     return tuple(
         Leg(
             name,
@@ -97,7 +112,15 @@ def embodiment_of(meta: Mapping[str, Any], joint_names: tuple[str, ...], lines: 
 
 
 def actuator_lines(model: mujoco.MjModel, joint_names: Sequence[str]) -> Lines:
-    """Read the torque–speed lines of a model's actuators; infinite for an actuator without one."""
+    """Read the torque–speed lines of a model's actuators; infinite for an actuator without one.
+
+    Args:
+        model: The compiled model, whose actuators have the names of the joints.
+        joint_names: Names of the joints, in order.
+
+    Returns:
+        Stall torque [Nm] and no-load speed [rad/s], shape (joints,) each. None for both if no actuator has a line.
+    """
     lines = np.full((2, len(joint_names)), np.inf)
     for i, name in enumerate(joint_names):
         actuator = model.actuator(name).id

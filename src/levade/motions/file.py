@@ -157,7 +157,14 @@ def read(path: str | Path) -> Content:
 
 
 def finite(values: Array) -> list[float | None]:
-    """Return a list for JSON, which has no infinity: None stands for no limit."""
+    """Return a list for JSON, which has no infinity: None stands for no limit.
+
+    Args:
+        values: Numbers, shape (n,).
+
+    Returns:
+        The n numbers, with None for each that is not finite.
+    """
     return [float(value) if np.isfinite(value) else None for value in values]
 
 

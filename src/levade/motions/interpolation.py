@@ -91,7 +91,16 @@ def hermite_rate(interval: Index, share: Array, values: Array, rates: Array, tim
 
 
 def linear(interval: Index, share: Array, values: Array) -> Array:
-    """Interpolate values, shape (instants, n), linearly. Returns shape (rows, n)."""
+    """Interpolate values linearly.
+
+    Args:
+        interval: Interval of each time, shape (rows,).
+        share: Share of the interval that has passed, from 0 to 1, shape (rows,).
+        values: Values at the instants, shape (instants, n).
+
+    Returns:
+        Values at the times, shape (rows, n).
+    """
     s = share[:, None]
     return (1 - s) * values[interval] + s * values[interval + 1]
 

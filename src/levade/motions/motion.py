@@ -290,7 +290,14 @@ class Motion:
             )
 
     def addresses(self, model: mujoco.MjModel) -> Addresses:
-        """Look up the trunk and the joints in the motion's model."""
+        """Look up the trunk and the joints in the motion's model.
+
+        Args:
+            model: The compiled model, from `compiled`.
+
+        Returns:
+            Their addresses in MuJoCo's vectors.
+        """
         return Addresses.of(model, self.trunk, self.joint_names)
 
     # what the robot did
@@ -373,7 +380,14 @@ class Motion:
         )
 
     def meets(self, criterion: str) -> bool:
-        """Whether the motion meets a criterion of its task on the model, by the numbers in its file."""
+        """Tell whether the motion meets a criterion of its task on the model, by the numbers in its file.
+
+        Args:
+            criterion: Name of the criterion in the task.
+
+        Returns:
+            Whether its error is within the tolerance, which is 0 if the criterion has none.
+        """
         return abs(self.result.errors[criterion]) <= (self.task.success[criterion].tolerance or 0.0)
 
     @property
@@ -402,7 +416,14 @@ class Motion:
         return self.meta.get("feedback")
 
     def with_task(self, task: Task) -> Motion:
-        """Return the same motion with another task of the same robot, scene and costs in its file."""
+        """Return the same motion with another task of the same robot, scene and costs in its file.
+
+        Args:
+            task: The task.
+
+        Returns:
+            The motion with the task.
+        """
         meta = {**self.meta, "task": task_to_dict(task, code=True)}
         return Motion(meta, self.model_xml, self.arrays, self.assets, None if self.source_task is None else task)
 

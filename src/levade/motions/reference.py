@@ -46,7 +46,14 @@ class ReferenceCurve:
 
     @classmethod
     def of(cls, motion: Motion) -> ReferenceCurve:
-        """Return the curve of a motion, with its policy if that is known and gives the recorded rows."""
+        """Return the curve of a motion, with its policy if that is known and gives the recorded rows.
+
+        Args:
+            motion: The motion.
+
+        Returns:
+            The curve. Without such a policy, cubics join the recorded rows.
+        """
         policy = motion.policy or _policy_of_task(motion)
         curve = cls(motion.reference, motion["weights"], policy)
         return curve if curve._fits() else replace(curve, policy=None)
@@ -78,7 +85,16 @@ class ReferenceCurve:
         return hermite(*cubic), hermite_rate(*cubic)
 
     def divided(self, parts: int) -> JointReference:
-        """Return the reference at steps that are shorter by a whole factor. Every ``parts``-th row is a row of the motion."""
+        """Return the reference at steps that are shorter by a whole factor.
+
+        Every ``parts``-th row is a row of the motion.
+
+        Args:
+            parts: Number of steps in one step of the motion, at least 1.
+
+        Returns:
+            The reference of one trial, with ``parts`` times as many rows.
+        """
         recorded = self.rows
         if parts == 1:
             return recorded
@@ -153,7 +169,14 @@ def _policy_of_task(motion: Motion) -> Policy | None:
 
 
 def described_robot(motion: Motion) -> Robot | None:
-    """Return the robot's description, if it exists and has the motion's joints."""
+    """Return the robot's description, if it exists and has the motion's joints.
+
+    Args:
+        motion: The motion.
+
+    Returns:
+        The robot, or None.
+    """
     choice = asdict(motion.task.robot)
     try:
         robot = load_robot(choice.pop("name"), **choice)

@@ -127,7 +127,17 @@ class RecordedSimulation:
         return other
 
     def divided(self, parts: int) -> RecordedSimulation:
-        """Return the same motion at time steps that are shorter by a whole factor."""
+        """Return the same motion at time steps that are shorter by a whole factor.
+
+        Args:
+            parts: Number of steps in one step of the model, at least 1. With 1 this simulation is returned.
+
+        Returns:
+            A simulation.
+
+        Raises:
+            LevadeError: If another engine than MuJoCo simulates it, which takes no changed model.
+        """
         if parts == 1:
             return self
         model = self.model_copy()
@@ -178,7 +188,14 @@ class RecordedSimulation:
         return self.engine.states(starts, self.reference, fields, models=models)[0]
 
     def starts(self, sample: Sample) -> State:
-        """Return the starts of the runs on perturbed models."""
+        """Return the starts of the runs on perturbed models.
+
+        Args:
+            sample: The perturbed models.
+
+        Returns:
+            The starts, one row for each run.
+        """
         return self._models(sample)[0]
 
     @property
@@ -267,7 +284,15 @@ def replay_in(
 
 
 def configurations(motion: Motion, model: mujoco.MjModel) -> Array:
-    """Return the robot's recorded poses, shape (steps + 1, nq): the start, and the end of each step."""
+    """Return the robot's recorded poses: the start, and the end of each step.
+
+    Args:
+        motion: The motion.
+        model: Its compiled model.
+
+    Returns:
+        Positions of the model, shape (steps + 1, nq). Rows that are not finite repeat the last sound one.
+    """
     at = motion.addresses(model)
     qpos = np.tile(motion["qpos0"], (motion.steps + 1, 1))
     qpos[1:, at.trunk_position] = motion["trunk_position"]

@@ -47,13 +47,28 @@ class Trials:
         return len(self.success)
 
     def part(self, first: int, last: int) -> Trials:
-        """Return the trials from ``first`` to before ``last``."""
+        """Return the trials from ``first`` to before ``last``.
+
+        Args:
+            first: Index of the first trial.
+            last: Index after the last trial.
+
+        Returns:
+            These trials.
+        """
         at = slice(first, last)
         off = {name: values[at] for name, values in self.errors.items()}
         return Trials(off, self.success[at], self.diverged[at], self.miss[at])
 
     def joined(self, others: Trials) -> Trials:
-        """Return these trials, followed by others."""
+        """Return these trials, followed by others.
+
+        Args:
+            others: Trials with the same criteria.
+
+        Returns:
+            All trials.
+        """
         return Trials(
             {name: np.concatenate([values, others.errors[name]]) for name, values in self.errors.items()},
             np.concatenate([self.success, others.success]),

@@ -12,6 +12,15 @@ def versions(engine: str = "mujoco") -> dict[str, str]:
     """Return name -> version. MuJoCo is always among them, because every engine reads the model from it.
 
     "blas" is the linear algebra library with the kind of processor for which it computes, which also decides bits.
+
+    Args:
+        engine: Name of the engine, a key of `levade.engines.ENGINES`.
+
+    Returns:
+        Name of the library -> its version.
+
+    Raises:
+        LevadeError: If the engine does not exist, or its library is missing.
     """
     return dict(_versions(engine))
 

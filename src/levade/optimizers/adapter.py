@@ -68,11 +68,22 @@ class Adapted:
         return candidates
 
     def tell(self, cost: Array) -> None:
-        """Pass on the costs (n,) of the candidates that `ask` returned last."""
+        """Pass on the costs of the candidates that `ask` returned last.
+
+        Args:
+            cost: Cost of each candidate, shape (n,); all finite, lower is better.
+
+        Raises:
+            RuntimeError: If no candidates were asked for since the last call.
+        """
         self._tell(cost)
 
     def scale_step(self, factor: float) -> None:
-        """Multiply the step size, where the optimizer can."""
+        """Multiply the step size, where the optimizer can.
+
+        Args:
+            factor: Factor on the step size, above 0.
+        """
         if callable(scale := getattr(self._optimizer, "scale_step", None)):
             scale(factor)
 
@@ -109,9 +120,22 @@ class AdaptedWithErrors(Adapted):
     """The same for an optimizer that uses the errors behind the costs."""
 
     def tell(self, cost: Array, errors: Array | None = None) -> None:
-        """Pass on costs (n,) and errors (n, k) of the candidates that `ask` returned last."""
+        """Pass on costs and errors of the candidates that `ask` returned last.
+
+        Args:
+            cost: Cost of each candidate, shape (n,); all finite, lower is better.
+            errors: Signed errors as shares of the tolerances, shape (n, k). NaN where unknown. None to pass on costs
+                only.
+
+        Raises:
+            RuntimeError: If no candidates were asked for since the last call.
+        """
         self._tell(cost) if errors is None else self._tell(cost, errors)
 
     def forget_costs(self, changed: NDArray[np.bool_]) -> None:
-        """Pass on that costs, and the ``changed`` (k,) of the errors, have another meaning from now on."""
+        """Pass on that costs have another meaning from now on.
+
+        Args:
+            changed: Which of the errors have another meaning, too, shape (k,).
+        """
         self._optimizer.forget_costs(changed)

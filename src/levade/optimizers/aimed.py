@@ -131,11 +131,19 @@ class AimedCMAES:
             self._begin_refinement()
 
     def scale_step(self, factor: float) -> None:
-        """Multiply the step size, as at the start of a stage."""
+        """Multiply the step size of CMA-ES, as at the start of a stage.
+
+        Args:
+            factor: Factor on the step size, above 0.
+        """
         self._cma.scale_step(factor)
 
     def forget_costs(self, changed: NDArray[np.bool_]) -> None:
-        """Forget costs, and the ``changed`` errors, shape (k,), because they have another meaning from now on."""
+        """Forget costs, because they have another meaning from now on.
+
+        Args:
+            changed: Which of the errors have another meaning, too, and are forgotten, shape (k,).
+        """
         best = self._regression.best
         self._carried = None if best is None else best[0]
         self._regression.forget_costs(changed)

@@ -55,7 +55,11 @@ class CEM(Sampler):
         return float(np.sqrt(np.square(self._deviation).mean()))
 
     def scale_step(self, factor: float) -> None:
-        """Multiply the step size, as at the start of a stage."""
+        """Multiply the step size and the noise floor, as at the start of a stage.
+
+        Args:
+            factor: Factor on all standard deviations, above 0.
+        """
         self._deviation *= factor
         self._least *= factor
 

@@ -35,7 +35,14 @@ Choice = str | Callable[..., Any] | Any
 
 
 def canonical(name: Any) -> Any:
-    """The name of an optimizer that may be given by an alias; anything else as it is."""
+    """Return the name of an optimizer that may be given by an alias; anything else as it is.
+
+    Args:
+        name: A name, an alias, or another choice of an optimizer.
+
+    Returns:
+        The name that an alias stands for, or the argument itself.
+    """
     return ALIASES.get(name, name) if isinstance(name, str) else name
 
 
@@ -55,7 +62,14 @@ def settings(name: str) -> tuple[str, ...]:
 
 
 def can_restart(choice: Choice) -> bool:
-    """Whether another optimizer can be made for a second attempt: a ready object is the only one there is."""
+    """Tell whether another optimizer can be made for a second attempt: a ready object is the only one there is.
+
+    Args:
+        choice: The choice of an optimizer.
+
+    Returns:
+        False for a ready object, else True.
+    """
     return isinstance(choice, (str, type)) or not hasattr(choice, "ask")
 
 

@@ -108,7 +108,15 @@ class CMAES:
             return self._space.candidates(np.asarray(self._asked))
 
     def tell(self, cost: Array) -> None:
-        """Costs (population,) of the candidates just asked for; all finite, lower is better."""
+        """Learn from the candidates that `ask` returned last.
+
+        Args:
+            cost: Cost of each candidate, shape (population,); all finite, lower is better.
+
+        Raises:
+            RuntimeError: If no candidates were asked for since the last call.
+            ValueError: If there is not one finite cost for each candidate.
+        """
         if self._asked is None:
             raise RuntimeError("tell: there are no candidates to tell about; ask first")
         cost = np.asarray(cost, dtype=np.float64)
@@ -123,11 +131,19 @@ class CMAES:
             self._search = self._around(mean)
 
     def inject(self, candidate: Array) -> None:
-        """Make a candidate (d,) part of the next generation, in place of one of its own."""
+        """Make a candidate part of the next generation, in place of one of its own.
+
+        Args:
+            candidate: The candidate, shape (d,).
+        """
         with single_threaded():
             self._search.inject([self._inverse @ (candidate - self._space.mean)], force=True)
 
     def scale_step(self, factor: float) -> None:
-        """Multiply the step size, as at the start of a stage."""
+        """Multiply the step size, as at the start of a stage.
+
+        Args:
+            factor: Factor on the step size, above 0.
+        """
         self._search.sigma *= factor
         self._first_step *= factor

@@ -74,7 +74,12 @@ class EndingRefinement:
         return self._base + self._asked @ self._ending
 
     def tell(self, errors: Array) -> None:
-        """Learn the errors (n, k) of the candidates that `ask` returned last."""
+        """Learn from the candidates that `ask` returned last.
+
+        Args:
+            errors: Signed errors as shares of the tolerances, shape (n, k). NaN where unknown; the whole row of a trial
+                that diverged.
+        """
         errors = errors[:, self._known]
         usable = np.isfinite(errors).all(axis=1)
         self._steps = np.concatenate([self._steps, self._asked[usable]])

@@ -51,7 +51,11 @@ class MPPI(Sampler):
         return self._step
 
     def scale_step(self, factor: float) -> None:
-        """Multiply the step size, as at the start of a stage."""
+        """Multiply the step size, as at the start of a stage.
+
+        Args:
+            factor: Factor on the step size, above 0.
+        """
         self._step *= factor
 
     def _draw(self, n: int) -> Array:
@@ -63,7 +67,15 @@ class MPPI(Sampler):
 
 
 def weights(cost: Array, temperature: float) -> Array:
-    """(n,), w of each trial, from costs (n,). All the same where the costs are."""
+    """Compute the weight w of each trial. All are the same where the costs are.
+
+    Args:
+        cost: Costs, shape (n,).
+        temperature: The temperature, as a share of the standard deviation of the costs.
+
+    Returns:
+        Weights, shape (n,); their sum is 1.
+    """
     deviation = cost.std()
     return (
         softmax(-(cost - cost.min()) / (temperature * deviation))

@@ -18,11 +18,16 @@ from levade.optimizers.space import SearchSpace
 
 
 def probabilities(cost: Array, eliteness: float) -> Array:
-    """(n,), P of each trial, from costs (n,).
+    """Compute the probability P of each trial. All are the same where the costs are.
 
     P_k = exp(-h S_k) / sum exp(-h S),  S = (J - min J) / (max J - min J)
 
-    h is ``eliteness``, 10 in Theodorou, Buchli and Schaal, JMLR 11, 2010. All the same where the costs are.
+    Args:
+        cost: Costs J, shape (n,).
+        eliteness: h, 10 in Theodorou, Buchli and Schaal, JMLR 11, 2010.
+
+    Returns:
+        Probabilities, shape (n,); their sum is 1.
     """
     span = cost.max() - cost.min()
     return softmax(-eliteness * (cost - cost.min()) / span) if span > 0 else np.full(cost.size, 1 / cost.size)
@@ -68,7 +73,11 @@ class PI2(Sampler):
         return self._step
 
     def scale_step(self, factor: float) -> None:
-        """Multiply the step size, as at the start of a stage."""
+        """Multiply the step size, as at the start of a stage.
+
+        Args:
+            factor: Factor on the step size, above 0.
+        """
         self._step *= factor
 
     def _draw(self, n: int) -> Array:
@@ -119,7 +128,11 @@ class PI2CMA(Sampler):
         return float(np.sqrt(np.diagonal(self._covariance).mean()))
 
     def scale_step(self, factor: float) -> None:
-        """Multiply the step size, as at the start of a stage."""
+        """Multiply the step size, as at the start of a stage.
+
+        Args:
+            factor: Factor on all standard deviations, above 0.
+        """
         self._covariance *= factor**2
 
     def _draw(self, n: int) -> Array:

@@ -60,7 +60,11 @@ class Optimizer(Protocol):
         ...
 
     def scale_step(self, factor: float) -> None:
-        """Multiply the step size, as at the start of a stage."""
+        """Multiply the step size, as at the start of a stage.
+
+        Args:
+            factor: Factor on the step size, above 0.
+        """
         ...
 
 
@@ -87,8 +91,14 @@ class UsesErrors(Optimizer, Protocol):
 
 
 def uses_errors(optimizer: Optimizer) -> TypeGuard[UsesErrors]:
-    """Whether an optimizer is a `UsesErrors`, by its method ``forget_costs``.
+    """Tell whether an optimizer is a `UsesErrors`, by its method ``forget_costs``.
 
     ``isinstance`` would read its properties on Python 3.11, and to read `population` can be a reason to ask.
+
+    Args:
+        optimizer: The optimizer.
+
+    Returns:
+        True if its ``tell`` gets the errors, too.
     """
     return callable(getattr(optimizer, "forget_costs", None))

@@ -18,7 +18,11 @@ class RandomSearch(Sampler):
         return self._first_step
 
     def scale_step(self, factor: float) -> None:
-        """Multiply the step size, as at the start of a stage."""
+        """Multiply the step size, as at the start of a stage.
+
+        Args:
+            factor: Factor on the step size, above 0.
+        """
         self._first_step *= factor
 
     def _draw(self, n: int) -> Array:

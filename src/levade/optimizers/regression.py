@@ -82,7 +82,11 @@ class ErrorRegression:
         self._cost = np.concatenate([self._cost, cost[known]])[kept]
 
     def forget_costs(self, changed: NDArray[np.bool_]) -> None:
-        """From now on costs, and the ``changed`` (k,) of the errors, have another meaning."""
+        """Forget the costs of all trials, because costs have another meaning from now on.
+
+        Args:
+            changed: Which of the errors have another meaning, too, and are forgotten, shape (k,).
+        """
         self._cost = np.full_like(self._cost, np.inf)
         if len(self._cost):
             self._errors = np.where(changed, np.nan, self._errors)
@@ -162,13 +166,29 @@ class ErrorRegression:
 
 
 def sizes(errors: Array, one_sided: NDArray[np.bool_] | None) -> Array:
-    """How large errors (..., k) are; of ``one_sided`` ones only the part above 0 counts."""
+    """Compute how large errors are.
+
+    Args:
+        errors: Signed errors as shares of the tolerances, shape (..., k).
+        one_sided: Errors of which only the part above 0 counts, shape (k,). None if there are none.
+
+    Returns:
+        Sizes as shares of the tolerances, shape (..., k), never negative.
+    """
     size = np.abs(errors)
     return size if one_sided is None else np.where(one_sided, np.maximum(errors, 0.0), size)
 
 
 def unwanted(errors: Array, one_sided: NDArray[np.bool_] | None) -> Array:
-    """The part of errors (..., k) beyond `WITHIN`; of ``one_sided`` ones only above it."""
+    """Compute the part of errors beyond `WITHIN`.
+
+    Args:
+        errors: Signed errors as shares of the tolerances, shape (..., k).
+        one_sided: Errors of which only the part above `WITHIN` counts, shape (k,). None if there are none.
+
+    Returns:
+        Signed excesses as shares of the tolerances, shape (..., k); 0 within.
+    """
     low = -WITHIN if one_sided is None else np.where(one_sided, -np.inf, -WITHIN)
     return errors - np.clip(errors, low, WITHIN)
 

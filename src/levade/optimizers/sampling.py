@@ -59,7 +59,11 @@ class Sampler(ABC):
 
     @abstractmethod
     def scale_step(self, factor: float) -> None:
-        """Multiply the spread, as at the start of a stage."""
+        """Multiply the spread, as at the start of a stage.
+
+        Args:
+            factor: Factor on all standard deviations, above 0.
+        """
 
     def ask(self) -> Array:
         """The next candidates, (population, d): the centre, and samples around it."""
@@ -68,7 +72,15 @@ class Sampler(ABC):
             return self._space.candidates(self._asked)
 
     def tell(self, cost: Array) -> None:
-        """Costs (population,) of the candidates just asked for; all finite, lower is better."""
+        """Learn from the candidates that `ask` returned last.
+
+        Args:
+            cost: Cost of each candidate, shape (population,); all finite, lower is better.
+
+        Raises:
+            RuntimeError: If no candidates were asked for since the last call.
+            ValueError: If there is not one finite cost for each candidate.
+        """
         if self._asked is None:
             raise RuntimeError("tell: there are no candidates to tell about; ask first")
         cost = np.asarray(cost, dtype=np.float64)
@@ -93,23 +105,44 @@ class Sampler(ABC):
 
 
 def bounded(cost: Array) -> Array:
-    """Costs (n,) with what lies far beyond the others brought back to where they can still be distinguished."""
+    """Bring costs far beyond the others back to where they can still be distinguished.
+
+    Args:
+        cost: Costs, shape (n,).
+
+    Returns:
+        Costs, shape (n,).
+    """
     best = cost.min()
     reach = _FAR * (np.median(cost) - best)
     return np.minimum(cost, best + reach) if reach > 0 else cost
 
 
 def softmax(value: Array) -> Array:
-    """(n,), exp(value) over its sum."""
+    """Compute exp(value) over its sum.
+
+    Args:
+        value: Values, shape (n,).
+
+    Returns:
+        Shares, shape (n,); their sum is 1.
+    """
     weight = np.exp(value - value.max())
     return weight / weight.sum()
 
 
 def checked_share(name: str, value: float) -> float:
-    """A share, more than 0 and at most 1.
+    """Return a setting that is a share, more than 0 and at most 1.
+
+    Args:
+        name: Name of the setting, for the message.
+        value: Its value.
+
+    Returns:
+        The value.
 
     Raises:
-        LevadeError: If it cannot be done.
+        LevadeError: If it is not such a share.
     """
     if not (np.isfinite(value) and 0 < value <= 1):
         raise LevadeError(f"{name}: {value} should be a share, more than 0 and at most 1")
@@ -117,10 +150,17 @@ def checked_share(name: str, value: float) -> float:
 
 
 def checked_positive(name: str, value: float) -> float:
-    """A positive number.
+    """Return a setting that is a positive number.
+
+    Args:
+        name: Name of the setting, for the message.
+        value: Its value.
+
+    Returns:
+        The value.
 
     Raises:
-        LevadeError: If it cannot be done.
+        LevadeError: If it is not positive, or not finite.
     """
     if not (np.isfinite(value) and value > 0):
         raise LevadeError(f"{name}: {value} should be a positive number")

@@ -51,7 +51,14 @@ class Along:
     size: float
 
     def feedback(self, design: Design) -> Feedback:
-        """Compute the regulator of a design."""
+        """Compute the regulator of a design.
+
+        Args:
+            design: The design.
+
+        Returns:
+            The regulator, with the motion's sensed values as its reference.
+        """
         return Feedback(self._gains(design), self.linear.reference, self.period, design.bound)
 
     def _gains(self, design: Design) -> Array:
@@ -114,7 +121,14 @@ def linearised(
 
 
 def size_of(embodiment: Embodiment) -> float:
-    """Estimate how high a robot stands [m]: 0.7 of its longest leg."""
+    """Estimate how high a robot stands: 0.7 of its longest leg.
+
+    Args:
+        embodiment: The robot.
+
+    Returns:
+        The height [m]. It is 0.6 m if no leg is known.
+    """
     lengths = [
         float(np.linalg.norm(np.diff(np.concatenate([leg.anchors, leg.foot[None]]), axis=0), axis=1).sum())
         for leg in embodiment.legs

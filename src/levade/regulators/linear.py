@@ -46,7 +46,14 @@ class Scales:
     drive: float = 0.05
 
     def sized(self, size: float) -> Scales:
-        """Scale to a robot of a size [m]: lengths in proportion, times like a pendulum's."""
+        """Scale to a robot of a size: lengths in proportion, times like a pendulum's.
+
+        Args:
+            size: Approximate standing height of the robot [m].
+
+        Returns:
+            The scales for this robot.
+        """
         f = size / 0.6
         return Scales(
             self.attitude,
@@ -59,7 +66,15 @@ class Scales:
         )
 
     def column(self, joints: int, drives: Array) -> Array:
-        """Return the scale of each value of a state, shape (sensed + 4 + drives,)."""
+        """Return the scale of each value of a state.
+
+        Args:
+            joints: Number of joints.
+            drives: Largest state of each actuator, shape (drives,).
+
+        Returns:
+            Scales, shape (sensed + 4 + drives,), each in the unit of its value.
+        """
         return np.concatenate(
             [
                 np.repeat([self.attitude, self.rate], 3),
@@ -165,7 +180,18 @@ def _rows(model: mujoco.MjModel, start: State, ctrl: Array, period: int) -> Arra
 
 
 def state_of(layout: Layout, qpos: Array, qvel: Array, act: Array | None = None) -> Array:
-    """Return states, shape (..., states), from MuJoCo's (..., nq), (..., nv) and (..., na)."""
+    """Return states of the linear model from MuJoCo's vectors.
+
+    Args:
+        layout: Addresses of the robot in the model.
+        qpos: Positions, shape (..., nq).
+        qvel: Velocities, shape (..., nv).
+        act: States of the actuators, shape (..., na). None if there are none.
+
+    Returns:
+        States, shape (..., states): sensed values, height of the trunk [m], its velocity in trunk axes [m/s], and
+        ``act``.
+    """
     root, rate = layout.root_qpos, layout.root_qvel
     quaternion = qpos[..., root + 3 : root + 7]
     inverse = conjugate(quaternion)

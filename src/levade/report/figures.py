@@ -149,7 +149,19 @@ def compare(
 
 
 def write_figures(drawings: Mapping[str, Callable[[], Any]], directory: Path, format: str) -> list[Path]:
-    """Draw figures by name, in the common style, into files in a directory: see `figures`."""
+    """Draw figures by name, in the common style, into files in a directory: see `figures`.
+
+    Args:
+        drawings: Name -> function that draws a matplotlib figure.
+        directory: Directory to write.
+        format: "pdf", "svg" or "png".
+
+    Returns:
+        Paths of the files, one per figure.
+
+    Raises:
+        LevadeError: If the format is unknown, the directory cannot be written, or matplotlib is missing.
+    """
     if format not in FORMATS:
         raise LevadeError(f"format {format}: unknown; {did_you_mean(format, FORMATS)}")
     try:

@@ -56,6 +56,13 @@ def pack_unit(values: Array) -> dict[str, Any]:
 
 
 def unpack(packed: Mapping[str, Any]) -> Array:
-    """Unpack numbers in their packed type. Those of `pack_unit` are multiples of 1 / `UNIT`, still as int16."""
+    """Unpack numbers in their packed type. Those of `pack_unit` are multiples of 1 / `UNIT`, still as int16.
+
+    Args:
+        packed: Type, shape and data in base64, as `pack` returns them.
+
+    Returns:
+        The numbers, in their shape. The array is read-only.
+    """
     data = base64.b64decode(packed["data"])
     return np.frombuffer(data, dtype=f"<{packed['dtype']}").reshape(packed["shape"])

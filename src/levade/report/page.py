@@ -106,7 +106,17 @@ def page(
     source: str | None = None,
     certificate: Mapping[str, str] | None = None,
 ) -> str:
-    """Return the page as text: see `write_page`."""
+    """Return the page as text: see `write_page`.
+
+    Args:
+        motion: The motion.
+        progress_csv: Progress of the motion's search. Without it there is no plot of the cost.
+        source: Name of the motion's file on the page.
+        certificate: The motion's certificate: `page`, relative to this one, and `says`, its verdict.
+
+    Returns:
+        The page, as HTML.
+    """
     progress = None if progress_csv is None else read_progress(progress_csv)
     provenance = provenance_data(motion) | {
         "written_by": f"levade {__version__}",

@@ -229,6 +229,12 @@ def spread_out(labels: list[Label], least: float, top: float, bottom: float) -> 
     """Choose rows for labels in the order of their y, with a least distance, between top and bottom.
 
     Rows are as near to y as possible. Neighbours that are too near form a block around their mean; touching blocks merge.
+
+    Args:
+        labels: Labels in the order of their y. Their ``row`` is set.
+        least: Least distance between rows [px].
+        top: First row that may be used [px].
+        bottom: Last row that may be used [px]. Too many labels go beyond it.
     """
     blocks: list[tuple[list[Label], float]] = []  # labels, row of the first
 

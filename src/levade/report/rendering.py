@@ -50,7 +50,14 @@ class Poses:
     qpos: Array
 
     def at(self, time: float) -> Array:
-        """Return the configuration at a time [s], shape (nq,), interpolated linearly between rows."""
+        """Return the configuration at a time, interpolated linearly between rows.
+
+        Args:
+            time: Time in the motion [s]. It is clipped to the recorded times.
+
+        Returns:
+            The configuration qpos, shape (nq,).
+        """
         time = min(max(time, 0.0), float(self.time[-1]))
         row = min(int(np.searchsorted(self.time, time, side="right")) - 1, len(self.time) - 2)
         share = (time - self.time[row]) / (self.time[row + 1] - self.time[row])
@@ -168,7 +175,15 @@ class Renderer:
         self._gl.free()
 
     def image(self, qpos: Array, view: View) -> Image:
-        """Draw a configuration. Returns RGB, shape (height, width, 3)."""
+        """Draw a configuration.
+
+        Args:
+            qpos: The configuration, shape (nq,).
+            view: The camera's view.
+
+        Returns:
+            RGB, shape (height, width, 3).
+        """
         self._data.qpos[:] = qpos
         mujoco.mj_kinematics(self.model, self._data)
         mujoco.mj_comPos(self.model, self._data)
@@ -214,13 +229,28 @@ class Renderer:
 
 
 def replay(motion: Motion) -> Poses:
-    """Return the robot's recorded poses in a motion: the start, then every row."""
+    """Return the robot's recorded poses in a motion: the start, then every row.
+
+    Args:
+        motion: The motion.
+
+    Returns:
+        Time [s] and configuration of each row.
+    """
     model = motion.compiled()
     return Poses(model, np.concatenate([[0.0], motion["time"]]), configurations(motion, model))
 
 
 def outline(model: Any, qpos: Array) -> Array:
-    """Return corners of the robot's drawn shapes in each configuration (rows, nq), and of small obstacles [m], shape (n, 3)."""
+    """Return corners of the drawn shapes of the robot and of small obstacles, in each configuration.
+
+    Args:
+        model: The model.
+        qpos: Configurations, shape (rows, nq), or one configuration, shape (nq,).
+
+    Returns:
+        Corners of the boxes around these shapes [m], shape (n, 3). All rows follow one another.
+    """
     seen = drawn_geoms(model) & (model.geom_type != mujoco.mjtGeom.mjGEOM_PLANE)
     seen &= model.geom_type != mujoco.mjtGeom.mjGEOM_HFIELD
     fixed = model.geom_bodyid == 0

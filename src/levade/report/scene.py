@@ -89,7 +89,18 @@ def put_together(
     moving: Mapping[str, Any],
     layers: list[dict[str, Any]],
 ) -> dict[str, Any]:
-    """Assemble a scene from its parts."""
+    """Assemble a scene from its parts.
+
+    Args:
+        robot: Name of the robot.
+        legs: Legs of the robot, for the colours.
+        shapes: The shapes, from `levade.report.shapes.shapes_of`.
+        moving: What moves: poses of the bodies over time and what is drawn with them.
+        layers: What can be shown and hidden.
+
+    Returns:
+        The scene, as JSON.
+    """
     camera = Camera()
     return {
         "version": 1,
@@ -103,7 +114,17 @@ def put_together(
 
 
 def frame_rows(steps: int, horizon_steps: int, timestep: float, rate: float = RATE) -> Rows:
-    """Choose rows out of steps + 1, where row 0 is the start: evenly spaced, with horizon and end. Shape (frames,)."""
+    """Choose rows to show: evenly spaced, with horizon and end. Row 0 is the start.
+
+    Args:
+        steps: Number of time steps. There is one row more.
+        horizon_steps: Number of time steps to the horizon.
+        timestep: Time step [s].
+        rate: Largest number of rows per second [Hz], apart from horizon and end.
+
+    Returns:
+        Increasing numbers of rows, shape (frames,).
+    """
     stride = max(1, math.ceil(1.0 / (rate * timestep) - 1e-9), math.ceil(steps / FRAMES))
     return np.unique(np.concatenate([np.arange(0, steps + 1, stride), [min(horizon_steps, steps), steps]]))
 
@@ -170,7 +191,15 @@ def _forces(motion: Motion, model: Any, rows: Rows) -> dict[str, Any]:
 
 
 def force_scale(force: float, length: float) -> float:
-    """Return the scale of arrows [N/m]: a round number, with which this force is no longer than this length [m]."""
+    """Return the scale of arrows: a round number, with which a force is no longer than a length.
+
+    Args:
+        force: The force [N]. It counts as at least 1 N.
+        length: Largest length of its arrow [m].
+
+    Returns:
+        The scale [N/m].
+    """
     least = max(force, 1.0) / length
     decade = 10.0 ** math.floor(math.log10(least))
     return next(step * decade for step in (1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0) if step * decade >= least * (1 - 1e-9))
@@ -278,7 +307,14 @@ def _forces_text(forces: Mapping[str, Any]) -> str:
 
 
 def goal_text(wanted: Mapping[str, float]) -> str:
-    """Return a text such as "pitch -60°, height 0.9 m"."""
+    """Return a text such as "pitch -60°, height 0.9 m".
+
+    Args:
+        wanted: Quantity -> wanted value, in [rad] or [m]. Other quantities than angles, x, y and height are left out.
+
+    Returns:
+        The text. It is empty if nothing is left.
+    """
     texts = []
     for name, value in wanted.items():
         angle = name in ("roll", "pitch", "yaw", "tilt")

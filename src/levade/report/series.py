@@ -134,7 +134,15 @@ def series_data(motion: Motion, progress: Progress | None = None) -> dict[str, A
 
 
 def cost_data(progress: Progress, trials_to_success: int | None) -> dict[str, Any]:
-    """Describe the search: a row per generation, null for a cost that is not finite, and where each stage begins."""
+    """Describe the search: a row per generation, null for a cost that is not finite, and where each stage begins.
+
+    Args:
+        progress: Progress of the search.
+        trials_to_success: Number of trials up to the first success. None without a success.
+
+    Returns:
+        Costs, trials and stages, as JSON.
+    """
     stages = [
         {"name": name, "start": float(progress["trials"][i - 1]) if i else 0.0}
         for i, name in enumerate(progress.stage)
@@ -173,7 +181,14 @@ def _policy_data(motion: Motion) -> dict[str, Any]:
 
 
 def kernels_of(motion: Motion) -> GaussianKernels:
-    """Return the kernels of the motion's policy, or those of its task."""
+    """Return the kernels of the motion's policy, or those of its task.
+
+    Args:
+        motion: The motion.
+
+    Returns:
+        The kernels.
+    """
     if motion.policy is not None:
         return motion.policy.kernels
     choice = motion.task.policy
@@ -181,9 +196,16 @@ def kernels_of(motion: Motion) -> GaussianKernels:
 
 
 def weights_of(motion: Motion, kernels: GaussianKernels) -> Array:
-    """Return the weights by policy [rad], shape (policies, kernels).
+    """Return the weights by policy.
 
     A policy in Python has no rows, because its weights differ.
+
+    Args:
+        motion: The motion.
+        kernels: Kernels of its policy.
+
+    Returns:
+        Weights [rad], shape (policies, kernels). Shape (0, kernels) if they do not fill whole rows.
     """
     weights = motion["weights"]
     whole = len(weights) % kernels.kernels == 0
@@ -195,9 +217,15 @@ QUANTITIES = (("x", "y", "height"), ("roll", "pitch", "yaw"))
 
 
 def trunk_values(motion: Motion) -> tuple[Array, Array]:
-    """Return the trunk's centre of mass [m] and its angles [rad], shape (steps, 3) each.
+    """Return the trunk's centre of mass and its angles.
 
     An angle that jumps by a turn is NaN.
+
+    Args:
+        motion: The motion.
+
+    Returns:
+        Position [m], and roll, pitch and yaw [rad], shape (steps, 3) each.
     """
     angles = roll_pitch_yaw(motion["trunk_quaternion"])
     angles[1:][np.abs(np.diff(angles, axis=0)) > math.pi] = np.nan
@@ -205,7 +233,14 @@ def trunk_values(motion: Motion) -> tuple[Array, Array]:
 
 
 def goals(motion: Motion) -> dict[str, list[tuple[float, float, float]]]:
-    """Map each quantity to its goals: time [s], target, tolerance."""
+    """Map each quantity to its goals at the horizon, at the end and in the hold.
+
+    Args:
+        motion: The motion.
+
+    Returns:
+        Quantity -> time [s], target and tolerance of each goal. The last two are in the unit of the quantity.
+    """
     found: dict[str, list[tuple[float, float, float]]] = {}
     for criterion in motion.task.success.values():
         if criterion.target is not None and criterion.at in ("horizon", "end", "hold"):
@@ -225,7 +260,15 @@ def _goal_rows(motion: Motion) -> list[dict[str, Any]]:
 
 
 def short(joint: str, leg: str) -> str:
-    """Shorten a joint's name: lf_haa of leg lf becomes HAA."""
+    """Shorten a joint's name: lf_haa of leg lf becomes HAA.
+
+    Args:
+        joint: Name of the joint.
+        leg: Name of its leg.
+
+    Returns:
+        The name without that of the leg. It is in capitals if it has at most four characters.
+    """
     rest = joint[len(leg) :].strip("_-") if joint.lower().startswith(leg.lower()) else joint
     rest = rest.removesuffix("_joint") or joint
     return rest.upper() if len(rest) <= 4 else rest

@@ -53,6 +53,12 @@ def shapes_of(model: Any) -> dict[str, Any]:
     """Describe the drawn geoms of a model (`levade.report.rendering.drawn_geoms`), and its collision shapes.
 
     The result has ``bodies``, ``geoms``, ``materials``, ``meshes`` and ``key``, which identifies the shapes.
+
+    Args:
+        model: The model.
+
+    Returns:
+        The shapes, as JSON. Sizes and positions are in [m], and quaternions are x-y-z-w.
     """
     bodies = moving_bodies(model)
     places = {body: place for place, body in enumerate(bodies)}
@@ -100,7 +106,14 @@ def shapes_of(model: Any) -> dict[str, Any]:
 
 
 def moving_bodies(model: Any) -> list[int]:
-    """List the bodies that can move and have a shape, in the model's order."""
+    """List the bodies that can move and have a shape, in the model's order.
+
+    Args:
+        model: The model.
+
+    Returns:
+        Ids of the bodies.
+    """
     bodies = np.unique(model.geom_bodyid)
     return [int(body) for body in bodies if model.body_weldid[body] != 0]
 
@@ -175,7 +188,15 @@ def _height_field(model: Any, number: int) -> Triangles:
 
 
 def simplify(meshes: list[Triangles], triangles: int) -> list[Triangles]:
-    """Simplify meshes to this many triangles in all: the vertices in one cell of a grid become one, their mean."""
+    """Simplify meshes to this many triangles in all: the vertices in one cell of a grid become one, their mean.
+
+    Args:
+        meshes: Vertices [m], shape (n, 3), and triangles, shape (m, 3), of each mesh.
+        triangles: Largest number of triangles of all meshes together.
+
+    Returns:
+        The meshes in the same order. They are only welded if they already have few enough triangles.
+    """
     reduced = [_welded(vertices, faces, 1e-7) for vertices, faces in meshes]
     if sum(len(faces) for _, faces in reduced) <= triangles:
         return reduced

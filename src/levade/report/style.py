@@ -147,7 +147,15 @@ DARK = Theme(
 
 
 def leg_colours(legs: Iterable[Leg], theme: Theme) -> dict[str, str]:
-    """Map each leg's name to its colour "#rrggbb"."""
+    """Map each leg's name to its colour "#rrggbb".
+
+    Args:
+        legs: Legs of the robot.
+        theme: Colours of the light or the dark page.
+
+    Returns:
+        Name of the leg -> colour.
+    """
     places = leg_places(legs)
     return {
         name: theme.others[int(place[5:])] if place.startswith("other") else getattr(theme, place.replace("-", "_"))
@@ -156,7 +164,14 @@ def leg_colours(legs: Iterable[Leg], theme: Theme) -> dict[str, str]:
 
 
 def leg_places(legs: Iterable[Leg]) -> dict[str, str]:
-    """Map each leg's name to the name of its colour in the stylesheet: "front-left" and so on, or "other0"."""
+    """Map each leg's name to the name of its colour in the stylesheet: "front-left" and so on, or "other0".
+
+    Args:
+        legs: Legs of the robot.
+
+    Returns:
+        Name of the leg -> name of the colour. The first leg at each corner gets the corner's colour.
+    """
     free = {f"{end}-{side}" for end in ("front", "hind") for side in ("left", "right")}
     places = {}
     for number, leg in enumerate(legs):

@@ -28,7 +28,14 @@ WHEN = {
 
 
 def summary_data(motion: Motion) -> dict[str, Any]:
-    """Describe goal and result, peaks against limits, and cost terms, in SI units; null if there is no number."""
+    """Describe goal and result, peaks against limits, and cost terms, in SI units; null if there is no number.
+
+    Args:
+        motion: The motion.
+
+    Returns:
+        The summary, as JSON.
+    """
     result = motion.result
     criteria = [_criterion(name, one, result.errors[name]) for name, one in motion.task.success.items()]
     terms = [
@@ -123,6 +130,12 @@ def provenance_data(motion: Motion) -> dict[str, Any]:
 
     ``task_yaml`` is the task with every default filled in. ``command`` is as typed in a shell. If the task differs from the
     built-in one of its name, it names a task.yaml, which is ``task_yaml``.
+
+    Args:
+        motion: The motion.
+
+    Returns:
+        The description, as JSON.
     """
     task, result, origin = motion.task, motion.result, motion.provenance
     name = task.name

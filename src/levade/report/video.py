@@ -156,7 +156,16 @@ def strip(
 
 
 def frame_times(motion: Motion, *, slow: float, fps: int) -> list[float]:
-    """Time in the motion [s] of each picture: slowed down to the horizon, at true speed in the hold."""
+    """Return the time in the motion of each picture: slowed down to the horizon, at true speed in the hold.
+
+    Args:
+        motion: The motion.
+        slow: How many times slower than real time the motion runs up to the horizon.
+        fps: Pictures per second [Hz].
+
+    Returns:
+        Times from 0 to the end of the motion [s].
+    """
     horizon, end = motion.horizon, motion.duration
     moving = max(1, round(horizon * slow * fps))
     held = round((end - horizon) * fps)
@@ -166,7 +175,15 @@ def frame_times(motion: Motion, *, slow: float, fps: int) -> list[float]:
 
 
 def strip_times(motion: Motion, n: int) -> list[float]:
-    """Times [s] of the n poses of a strip."""
+    """Return the times of the poses of a strip.
+
+    Args:
+        motion: The motion.
+        n: Number of poses.
+
+    Returns:
+        Times [s], evenly spaced up to the horizon. The last pose is the end of the hold if there are at least three.
+    """
     horizon, end = motion.horizon, motion.duration
     held = [end] if end - horizon > 1e-9 and n > 2 else []
     moving = n - len(held)

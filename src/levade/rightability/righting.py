@@ -94,7 +94,15 @@ class Graph:
 
     @classmethod
     def nodes(cls, postures: Postures, slope: float) -> Graph:
-        """Find the nodes, and leave the graph without edges."""
+        """Find the nodes, and leave the graph without edges.
+
+        Args:
+            postures: The postures.
+            slope: Slope of the ground [rad].
+
+        Returns:
+            A graph with all nodes and no edges. Only upright nodes count as reaching upright.
+        """
         hulls = postures.hulls
         headings = 1 if slope == 0.0 else HEADINGS
         up = -hulls.normal

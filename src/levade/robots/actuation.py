@@ -40,7 +40,13 @@ class PID:
     torque: Array
 
     def attach(self, spec: mujoco.MjSpec, joint_names: Sequence[str], *, gain_scale: float = 1.0) -> None:
-        """Add one actuator per joint to ``spec``, in the order given and named after its joint."""
+        """Add one actuator per joint to ``spec``, in the order given and named after its joint.
+
+        Args:
+            spec: The robot. It is changed.
+            joint_names: Names of the joints, in the order of the gains.
+            gain_scale: Factor on stiffness and damping.
+        """
         for i, joint in enumerate(joint_names):
             actuator = _add(spec, joint)
             actuator.set_to_pid(
@@ -78,7 +84,13 @@ class DCMotor:
     supply_pressure: float | None = None
 
     def attach(self, spec: mujoco.MjSpec, joint_names: Sequence[str], *, gain_scale: float = 1.0) -> None:
-        """Add one actuator per joint to ``spec``, in the order given and named after its joint."""
+        """Add one actuator per joint to ``spec``, in the order given and named after its joint.
+
+        Args:
+            spec: The robot. It is changed.
+            joint_names: Names of the joints, in the order of the gains.
+            gain_scale: Factor on stiffness and damping.
+        """
         for i, joint in enumerate(joint_names):
             # The unit of voltage is arbitrary: with V = no_load_speed the motor constant is 1 and the current is the torque.
             voltage = speed = float(self.no_load_speed[i])

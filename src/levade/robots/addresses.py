@@ -80,7 +80,14 @@ class Addresses:
 
 
 def compact(indices: list[int]) -> Index:
-    """Return addresses as a slice if they are evenly spaced, otherwise as an array."""
+    """Return addresses as a slice if they are evenly spaced, otherwise as an array.
+
+    Args:
+        indices: Addresses in an array of the model, such as qpos.
+
+    Returns:
+        A slice if the addresses increase evenly and there are at least two, otherwise the addresses themselves.
+    """
     if len(indices) > 1:
         stride = indices[1] - indices[0]
         if stride > 0 and indices == list(range(indices[0], indices[-1] + 1, stride)):

@@ -77,7 +77,14 @@ class Patient:
         return max(self.bare.leg_length(leg) for leg in self.robot.standing)
 
     def mass(self, leg: Leg) -> float:
-        """Return the mass of the bodies that a leg moves [kg]."""
+        """Return the mass of the bodies that a leg moves [kg].
+
+        Args:
+            leg: A leg of the robot.
+
+        Returns:
+            The mass [kg].
+        """
         return float(self.robot.model.body_mass[moved_bodies(self.robot.model, leg)].sum())
 
 

@@ -24,17 +24,38 @@ _LARGEST = 50_000_000
 
 
 def is_pointer(content: bytes) -> bool:
-    """Tell whether a file is only a git-lfs pointer to its content."""
+    """Tell whether a file is only a git-lfs pointer to its content.
+
+    Args:
+        content: Content of the file, or its beginning.
+
+    Returns:
+        True for a pointer.
+    """
     return content.startswith(_LFS)
 
 
 def pointer_problem(name: str) -> str:
-    """Describe a git-lfs pointer for a message, with the remedy."""
+    """Describe a git-lfs pointer for a message, with the remedy.
+
+    Args:
+        name: Name of the file in the message.
+
+    Returns:
+        The message, on one line.
+    """
     return f"{name} is a git-lfs pointer, not the file itself: git lfs pull fetches it"
 
 
 def is_model(path: Path) -> bool:
-    """Tell whether a file holds XML, and so is a robot's model rather than a description, whatever its name."""
+    """Tell whether a file holds XML, and so is a robot's model rather than a description, whatever its name.
+
+    Args:
+        path: The file.
+
+    Returns:
+        True if it begins with XML. False for other files, and for files that cannot be read.
+    """
     try:
         with path.open("rb") as file:
             head = file.read(4096)
@@ -46,7 +67,14 @@ def is_model(path: Path) -> bool:
 
 
 def is_other_text(path: Path) -> bool:
-    """Tell whether a file is a text without ``model:``, which every description has, and so is about something else."""
+    """Tell whether a file is a text without ``model:``, which every description has, and so is about something else.
+
+    Args:
+        path: The file.
+
+    Returns:
+        True for a text in UTF-8 without that key. False for other files, and for files that cannot be read.
+    """
     try:
         content = path.read_bytes()[:_LARGEST]
         content.decode("utf-8")

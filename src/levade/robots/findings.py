@@ -28,27 +28,69 @@ class Finding:
 
 
 def note(where: str, what: str, remedy: str = "") -> Finding:
-    """Make a `Finding` about something that levade chose."""
+    """Make a `Finding` about something that levade chose.
+
+    Args:
+        where: Joint, body, geom or file.
+        what: One line.
+        remedy: What to change, and where. Empty if there is nothing to do.
+
+    Returns:
+        The finding.
+    """
     return Finding("note", where, what, remedy)
 
 
 def warning(where: str, what: str, remedy: str) -> Finding:
-    """Make a `Finding` about something that may spoil the motion."""
+    """Make a `Finding` about something that may spoil the motion.
+
+    Args:
+        where: Joint, body, geom or file.
+        what: One line.
+        remedy: What to change, and where.
+
+    Returns:
+        The finding.
+    """
     return Finding("warning", where, what, remedy)
 
 
 def some(names: Sequence[str], most: int = 4) -> str:
-    """Join names; of many, give the first few and the number of the others."""
+    """Join names; of many, give the first few and the number of the others.
+
+    Args:
+        names: The names.
+        most: Largest number of names to give.
+
+    Returns:
+        The names, separated by commas.
+    """
     more = f" and {len(names) - most} more" if len(names) > most else ""
     return ", ".join(names[:most]) + more
 
 
 def named(kind: str, names: Sequence[str]) -> str:
-    """Name the joints, links or bodies that share a finding, such as "joints a, b, c, d and 8 more"."""
+    """Name the joints, links or bodies that share a finding, such as "joints a, b, c, d and 8 more".
+
+    Args:
+        kind: What they are, in the singular, such as "joint" or "body".
+        names: Their names.
+
+    Returns:
+        The kind, in the plural if there are several, and the names.
+    """
     plural = kind if len(names) == 1 else {"body": "bodies", "foot": "feet"}.get(kind, f"{kind}s")
     return f"{plural} {some(names)}"
 
 
 def counted(number: int, noun: str) -> str:
-    """Combine a number with a noun in singular or plural, such as "1 geom" and "2 geoms"."""
+    """Combine a number with a noun in singular or plural, such as "1 geom" and "2 geoms".
+
+    Args:
+        number: The number.
+        noun: The noun in the singular. Its plural ends in "s".
+
+    Returns:
+        The text.
+    """
     return f"{number} {noun}{'' if number == 1 else 's'}"

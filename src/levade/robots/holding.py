@@ -44,7 +44,14 @@ class Held:
     quaternion: Array
 
     def pose(self, angle: Angle) -> tuple[Array, Array]:
-        """Return the body's position [m], shape (3,), and quaternion, shape (4,), in its parent, with the joint at an angle."""
+        """Return the pose of the body in its parent, with the joint at an angle.
+
+        Args:
+            angle: Position of the joint: of a hinge [rad], of a slide [m], or the quaternion of a ball, shape (4,).
+
+        Returns:
+            Position [m], shape (3,), and quaternion, shape (4,).
+        """
         turned, product = np.empty(3), self.quaternion.copy()
         if self.kind == _SLIDE:
             shift = self.axis / np.linalg.norm(self.axis) * (float(angle) - self.ref)
@@ -58,7 +65,15 @@ class Held:
         return self.position + turned, product
 
     def turn(self, angle: Angle) -> Array:
-        """Return the quaternion, shape (4,), by which a hinge or ball at an angle turns its body."""
+        """Return the rotation by which a hinge or ball at an angle turns its body.
+
+        Args:
+            angle: Angle of the hinge [rad], or the quaternion of a ball, shape (4,). For a ball, any number means no
+                rotation.
+
+        Returns:
+            Quaternion, shape (4,).
+        """
         turn = np.empty(4)
         if self.kind == _BALL:
             turn = np.array([1.0, 0.0, 0.0, 0.0]) if np.ndim(angle) == 0 else np.array(angle, dtype=float)

@@ -40,7 +40,14 @@ class Coupling:
     kind: str
 
     def at(self, leader: float) -> float:
-        """Return the follower's angle [rad] for the leader's [rad]."""
+        """Return the follower's angle at an angle of the leader.
+
+        Args:
+            leader: Angle of the leader [rad].
+
+        Returns:
+            Angle of the follower [rad].
+        """
         return float(np.polynomial.polynomial.polyval(leader, self.coefficients))
 
     @property

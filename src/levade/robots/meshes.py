@@ -137,7 +137,14 @@ def _binary_stl(path: Path) -> bytes:
 
 
 def stl(triangles: np.ndarray) -> bytes:
-    """Write triangles [m], shape (n, 3, 3), as a binary STL file."""
+    """Write triangles as a binary STL file.
+
+    Args:
+        triangles: Corners of the triangles [m], shape (n, 3, 3).
+
+    Returns:
+        Content of the file. Its normals are zero.
+    """
     record = np.zeros(len(triangles), dtype=_RECORD)
     record["corners"] = triangles
     return bytes(80) + len(triangles).to_bytes(4, "little") + record.tobytes()

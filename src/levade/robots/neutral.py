@@ -428,7 +428,15 @@ def _near(model: mujoco.MjModel) -> NDArray[np.bool_]:
 
 
 def data_rotation(data: mujoco.MjData, body: int) -> Array:
-    """Return the rotation matrix of a body, shape (3, 3)."""
+    """Return the rotation matrix of a body.
+
+    Args:
+        data: State of the model, with the kinematics computed.
+        body: Id of the body.
+
+    Returns:
+        A copy of the matrix from the body's axes to the world's, shape (3, 3).
+    """
     return data.xmat[body].reshape(3, 3).copy()
 
 

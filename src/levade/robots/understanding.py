@@ -122,32 +122,74 @@ class Tree:
             self.children.setdefault(int(model.body_parentid[body]), []).append(body)
 
     def moves(self, body: int) -> bool:
-        """Tell whether a body, or one below it, has a joint."""
+        """Tell whether a body, or one below it, has a joint.
+
+        Args:
+            body: Id of the body.
+
+        Returns:
+            True if there is a joint.
+        """
         return self.model.body_jntnum[body] > 0 or any(self.moves(child) for child in self.children.get(body, []))
 
     def moving(self, body: int) -> list[int]:
-        """Return the children of a body that move."""
+        """Return the children of a body that move.
+
+        Args:
+            body: Id of the body.
+
+        Returns:
+            Ids of the children that have a joint, or that carry a body with one.
+        """
         return [child for child in self.children.get(body, []) if self.moves(child)]
 
     def starts(self, body: int) -> list[int]:
-        """Return the first bodies with joints below a body, passing through those that are fixed to it."""
+        """Return the first bodies with joints below a body, passing through those that are fixed to it.
+
+        Args:
+            body: Id of the body.
+
+        Returns:
+            Ids of these bodies, one for each branch with joints.
+        """
         found = []
         for child in self.children.get(body, []):
             found += [child] if self.model.body_jntnum[child] else self.starts(child)
         return found
 
     def joints(self, body: int) -> list[int]:
-        """Return the ids of a body's own joints."""
+        """Return the ids of a body's own joints.
+
+        Args:
+            body: Id of the body.
+
+        Returns:
+            Ids of the joints, in the order of the model.
+        """
         first = int(self.model.body_jntadr[body])
         return list(range(first, first + int(self.model.body_jntnum[body])))
 
     def chains(self, body: int) -> list[list[int]]:
-        """Return the joints of every path from a body outward to an end."""
+        """Return the joints of every path from a body outward to an end.
+
+        Args:
+            body: Id of the body.
+
+        Returns:
+            Ids of the joints along each path, with the body's own joints first.
+        """
         further = [chain for child in self.moving(body) for chain in self.chains(child)]
         return [self.joints(body) + chain for chain in further or [[]]]
 
     def below(self, body: int) -> set[int]:
-        """Return a body and everything that it carries."""
+        """Return a body and everything that it carries.
+
+        Args:
+            body: Id of the body.
+
+        Returns:
+            Ids of the bodies, including this one.
+        """
         return {body}.union(*(self.below(child) for child in self.children.get(body, [])))
 
 

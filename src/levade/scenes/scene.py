@@ -87,7 +87,15 @@ class Scene:
                 raise LevadeError(f"scene.gaps: the ones at x = {one.x} and {other.x} m overlap; make them one")
 
     def ground_height(self, x: Array, y: Array) -> Array:
-        """Compute the height of slope and terrain over z = 0 [m] at each x, y, without boxes and gaps."""
+        """Compute the height of slope and terrain over z = 0 at each x, y, without boxes and gaps.
+
+        Args:
+            x: Positions along x [m], any shape.
+            y: Positions along y [m], the same shape.
+
+        Returns:
+            Heights [m], the same shape.
+        """
         height = x * math.tan(self.slope)
         return height if self.terrain is None else np.maximum(height, self.terrain.height(x, y))
 
@@ -145,7 +153,11 @@ def compose(robot: Robot, scene: Scene, *, gain_scale: float = 1.0, damping_scal
 
 
 def remove_scene(spec: mujoco.MjSpec) -> None:
-    """Remove what `compose` put around the robot. The robot itself has only its trunk in the world."""
+    """Remove what `compose` put around the robot. The robot itself has only its trunk in the world.
+
+    Args:
+        spec: Robot and scene; it is changed.
+    """
     world = spec.worldbody
     for element in (*world.geoms, *world.lights):
         spec.delete(element)

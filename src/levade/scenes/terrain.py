@@ -76,7 +76,15 @@ class Terrain:
             raise LevadeError(f"terrain.position: {list(self.position)} should be finite numbers")
 
     def height(self, x: Array, y: Array) -> Array:
-        """Compute the highest point of the field's cell at each x, y [m]; 0 outside the field."""
+        """Compute the highest point of the field's cell at each x, y; 0 outside the field.
+
+        Args:
+            x: Positions along x [m], any shape.
+            y: Positions along y [m], the same shape.
+
+        Returns:
+            Heights over z = 0 [m], the same shape.
+        """
         heights = np.array(self.heights)[::-1]  # now from the least y
         rows, columns = heights.shape
         column = (x - self.position[0] + self.size[0] / 2) / self.size[0] * (columns - 1)
@@ -88,7 +96,16 @@ class Terrain:
         return np.where(inside, corners.max(axis=0), 0.0)
 
     def add_to(self, spec: mujoco.MjSpec, name: str, material: str) -> mujoco.MjsGeom:
-        """Add the field to the world as a geom. Its heights are part of the model's text."""
+        """Add the field to the world as a geom. Its heights are part of the model's text.
+
+        Args:
+            spec: Robot and scene; it is changed.
+            name: Name of the geom and of the height field.
+            material: Name of the geom's material.
+
+        Returns:
+            The geom.
+        """
         heights = np.array(self.heights)
         low, high = float(heights.min()), float(heights.max())
         spec.add_hfield(

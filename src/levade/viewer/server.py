@@ -103,6 +103,12 @@ class Server:
 
         It must name this machine, unless the page is for other machines and protected by its token. Other names that resolve to
         the loopback address do not count, since anyone can make such a name.
+
+        Args:
+            host: Value of the header. None if the request has none.
+
+        Returns:
+            True if it is valid.
         """
         if self.public:
             return True

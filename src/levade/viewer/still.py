@@ -49,7 +49,14 @@ _ROOM = 1.4
 
 
 def robot_data(robot: Robot) -> dict[str, Any]:
-    """Describe a robot for its page, in its neutral posture on level ground."""
+    """Describe a robot for its page, in its neutral posture on level ground.
+
+    Args:
+        robot: The robot.
+
+    Returns:
+        The description, as JSON.
+    """
     model = mujoco.MjModel.from_xml_string(compose(robot, Scene()).to_xml(), dict(robot.assets))
     qpos = _configuration(
         model, robot, [0.0, 0.0, robot.neutral_height], [1.0, 0.0, 0.0, 0.0], robot.postures["neutral"]
@@ -82,7 +89,14 @@ def robot_data(robot: Robot) -> dict[str, Any]:
 
 
 def task_data(objective: Objective) -> dict[str, Any]:
-    """Describe a task for its page: the start, the scene, and the goal of robot and trunk."""
+    """Describe a task for its page: the start, the scene, and the goal of robot and trunk.
+
+    Args:
+        objective: The task's objective, with its robot, engine and start.
+
+    Returns:
+        The description, as JSON.
+    """
     task, robot, model = objective.task, objective.robot, objective.engine.model
     qpos = objective.state.qpos[0]
     shapes = shapes_of(model)

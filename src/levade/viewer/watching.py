@@ -96,7 +96,11 @@ class Watch:
     # the solve's thread
 
     def observe(self, generation: Generation) -> None:
-        """Record a generation."""
+        """Record a generation.
+
+        Args:
+            generation: The generation, as the solve reports it.
+        """
         cost, best = generation.cost, generation.best
         if self._best is None or not np.array_equal(best.weights, self._best):
             self._best, self._found = best.weights, generation.trials
@@ -119,9 +123,14 @@ class Watch:
         return "paused on the page" if self._paused_at is not None and not self._stop else ""
 
     def steer(self, generation: int) -> Mapping[str, float] | Stopped | None:
-        """Return the sliders' factors for this generation, None if they have not moved. Waits while the page pauses.
+        """Return the factors that the page's sliders ask for. Waits while the page pauses.
 
-        Returns `Stopped.INTERRUPTED` if the page, or the keyboard, stops the solve.
+        Args:
+            generation: Number of the generation to which the factors apply.
+
+        Returns:
+            Name of the cost -> factor on its weight, for the factors that change. None if no factor changes.
+            `Stopped.INTERRUPTED` if the page, or the keyboard, stops the solve.
         """
         while self._paused_at is not None and not self._stop:
             if self._interrupted():
@@ -141,9 +150,12 @@ class Watch:
         return moved or None
 
     def finish(self, outcome: Outcome | None) -> None:
-        """End with an outcome, or None after an error. Every page is informed before this returns.
+        """End with an outcome, and inform every page before this returns.
 
         Only the first call counts.
+
+        Args:
+            outcome: Outcome of the solve. None after an error.
         """
         if self._ended.is_set():
             return
@@ -196,7 +208,12 @@ class Watch:
     def command(self, message: Mapping[str, Any]) -> None:
         """Take a page's command: pause, continue, stop, or factors on the costs' weights.
 
-        Raises LevadeError for anything else.
+        Args:
+            message: The command under ``say``. With "factors", ``factors`` maps names of costs to factors on their
+                weights.
+
+        Raises:
+            LevadeError: If it is another command, or a cost or factor is not valid.
         """
         say = message.get("say")
         with self._lock:

@@ -101,7 +101,17 @@ class Torques:
 
 
 def link_motion(multibody: Multibody, qpos: Array, qvel: Array) -> tuple[Array, Array, Array, Array]:
-    """Return centres of mass, quaternions, velocities and angular velocities of the links in a state, shape (L, ...) each."""
+    """Return centres of mass, quaternions, velocities and angular velocities of the links in a state, in world axes.
+
+    Args:
+        multibody: The robot's L links.
+        qpos: Positions in the model's order, shape (nq,).
+        qvel: Velocities in the model's order, shape (nv,).
+
+    Returns:
+        Positions of the centres of mass [m], shape (L, 3); quaternions of the links' frames, w-x-y-z, shape (L, 4);
+        velocities of the centres of mass [m/s], shape (L, 3); and angular velocities [rad/s], shape (L, 3).
+    """
     model, com = multibody.model, multibody.com
     data = mujoco.MjData(model)
     data.qpos[:], data.qvel[:] = qpos, qvel

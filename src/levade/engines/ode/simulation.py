@@ -70,7 +70,14 @@ class Record:
 
     @classmethod
     def joined(cls, records: Sequence[Record]) -> Record:
-        """Join the trials of several records, in sequence."""
+        """Join the trials of several records, in sequence.
+
+        Args:
+            records: Records with the same steps and recorded forces, at least one.
+
+        Returns:
+            One record of all trials.
+        """
         if len(records) == 1:
             return records[0]
         return cls(**{name: np.concatenate([getattr(one, name) for one in records]) for name in vars(records[0])})
@@ -113,7 +120,15 @@ class Simulation:
             return self._run(qpos, qvel, act, position, velocity, list(soles), list(bodies))
 
     def state_after(self, record: Record, trial: int) -> tuple[Array, Array, Array]:
-        """Return qpos, qvel and act of the model at the end of a trial."""
+        """Return qpos, qvel and act of the model at the end of a trial.
+
+        Args:
+            record: What `run` returned.
+            trial: Index of the trial.
+
+        Returns:
+            Positions, shape (nq,); velocities, shape (nv,); and states of the actuators, shape (na,).
+        """
         s, model = self.multibody, self.multibody.model
         qpos, qvel, act = model.qpos0.copy(), np.zeros(model.nv), np.zeros(model.na)
         last = (trial, -1)

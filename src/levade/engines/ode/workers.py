@@ -49,7 +49,17 @@ class WorkerPool:
         weakref.finalize(self, _stop_workers, self._workers)
 
     def run(self, starts: State, position: Array, velocity: Array, **forces: Any) -> Record:
-        """Simulate n trials, from starts of 1 or n rows; the rest as of `Simulation.run`."""
+        """Simulate n trials, from starts of 1 or n rows; the rest as of `Simulation.run`.
+
+        Args:
+            starts: Starts of the trials, 1 or n rows.
+            position: Desired hinge angles [rad], shape (n, steps, hinges).
+            velocity: Desired hinge speeds [rad/s], shape (n, steps, hinges).
+            forces: ``soles`` and ``bodies`` whose contact forces are recorded: see `Simulation.run`.
+
+        Returns:
+            The record of all trials, in their order.
+        """
         n, steps = position.shape[:2]
         self._done += n * steps
         size = min(self._size, n) if n * steps >= _WORTH and self._done >= _START else 1
@@ -74,7 +84,15 @@ class WorkerPool:
 
 
 def simulation(xml: str, assets: Mapping[str, bytes], physics: Physics) -> Simulation:
-    """The simulation of a model.
+    """Make the simulation of a model.
+
+    Args:
+        xml: MJCF text of robot and scene.
+        assets: File name in ``xml`` -> content.
+        physics: Numerical settings.
+
+    Returns:
+        The simulation.
 
     Raises:
         LevadeError: For what ODE cannot simulate.

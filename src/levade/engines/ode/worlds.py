@@ -71,7 +71,11 @@ class Worlds:
         return len(self._worlds)
 
     def grow(self, n: int) -> None:
-        """Make worlds until there are at least n."""
+        """Make worlds until there are at least n.
+
+        Args:
+            n: Least number of worlds.
+        """
         if len(self) >= n:
             return
         data = mujoco.MjData(self._multibody.model)
@@ -90,7 +94,15 @@ class Worlds:
         self._where = np.concatenate(columns, axis=2)
 
     def place(self, which: Iterable[int], position: Array, quaternion: Array, linear: Array, angular: Array) -> None:
-        """Place the links of some worlds: centres of mass, frames, velocities, in world axes, shape (L, ...) each."""
+        """Place the links of some worlds: centres of mass, frames, velocities, in world axes.
+
+        Args:
+            which: Indices of the worlds. All get the same values.
+            position: Centres of mass of the L links [m], shape (L, 3).
+            quaternion: Orientations of the links' frames, w-x-y-z, shape (L, 4).
+            linear: Velocities of the centres of mass [m/s], shape (L, 3).
+            angular: Angular velocities [rad/s], shape (L, 3).
+        """
         ode = self._ode
         ode.dJointGroupEmpty(self._group)  # what a run that was interrupted in the middle of a step left behind
         turned = [ode.vector(*values) for values in quaternion]
@@ -106,6 +118,9 @@ class Worlds:
     def read(self, n: int) -> dict[str, Array]:
         """Read the links of the first n worlds, in world axes.
 
+        Args:
+            n: Number of worlds to read.
+
         Returns:
             Position of the centre of mass, quaternion, rotation (row by row), linear and angular velocity, by name;
             shape (n, L, ...).
@@ -118,9 +133,15 @@ class Worlds:
         return parts
 
     def resist(self, world: int, target: Array, resistance: Array) -> None:
-        """Set the resisting torques of a world's hinges, shape (J,) each.
+        """Set the resisting torques of a world's hinges.
 
         A hinge gets ``resistance * (target - speed)`` at the speed after the step.
+        Hinges without such a motor ignore theirs.
+
+        Args:
+            world: Index of the world.
+            target: Speed at which each hinge has no resistance [rad/s], shape (J,).
+            resistance: Resistance of each hinge, above zero [Nm s/rad], shape (J,).
         """
         set_param, vel, cfm = self._ode.dJointSetAMotorParam, library.VELOCITY, library.CFM
         for motor, j in zip(self._motors[world], self._resisted, strict=True):
@@ -166,14 +187,27 @@ class Worlds:
         ode.dJointGroupEmpty(group)
 
     def forces(self, count: int) -> Array:
-        """Return the forces on the first shape of each reported contact in world axes [N], shape (count, 3)."""
+        """Return the forces on the first shape of each reported contact, in world axes.
+
+        Args:
+            count: Number of reported contacts, the length of ``touching`` in `advance`.
+
+        Returns:
+            Forces [N], shape (count, 3).
+        """
         return self._feedback[:count, :3].astype(float)
 
     def _feedback_at(self, row: int) -> int:
         return self._feedback.ctypes.data + row * self._feedback.strides[0]
 
     def make_room(self, contacts: int) -> None:
-        """Allocate memory for the forces of this many contacts. Call it before the step, because joints keep the addresses."""
+        """Allocate memory for the forces of this many contacts.
+
+        Call it before the step, because joints keep the addresses.
+
+        Args:
+            contacts: Least number of contacts.
+        """
         if len(self._feedback) < contacts:
             self._feedback = np.zeros((contacts, 16), self._ode.dtype)
 
