@@ -70,6 +70,7 @@ def test_every_field_of_the_library_is_an_option() -> None:
         ["export"],
         ["library", "build"],
         ["library", "check"],
+        ["robots", "rightability"],
     ]
     assert len(fields) >= 6
     for field in fields:
