@@ -118,7 +118,7 @@ class Policy:
         return expansion(self.groups)
 
     @cached_property
-    def _leaders(self) -> NDArray[np.intp]:
+    def leaders(self) -> NDArray[np.intp]:
         """Joint of the robot that each independent joint is, shape (independent_joints,)."""
         return np.array([joint for group in self.groups for joint in group.leader], dtype=np.intp)
 
@@ -204,7 +204,7 @@ class Policy:
         position += start[:, None, index]
         np.matmul(basis[1], deviation, out=velocity)
         # two columns of one product may differ in the last bit even if their weights agree, so followers are copied
-        for joint, leader in enumerate(self._leaders[index]):
+        for joint, leader in enumerate(self.leaders[index]):
             if joint != leader:
                 np.multiply(position[:, :, leader], sign[joint], out=position[:, :, joint])
                 np.multiply(velocity[:, :, leader], sign[joint], out=velocity[:, :, joint])
@@ -370,7 +370,7 @@ class Policy:
             Index and sign of each joint that follows it.
         """
         index, sign = self._expansion
-        leader = self._leaders[independent]
+        leader = self.leaders[independent]
         return [(int(joint), float(sign[joint])) for joint in np.flatnonzero(index == independent) if joint != leader]
 
     def spread(self, angles: Array) -> Array:

@@ -191,22 +191,24 @@ class Search:
         """Enter the first stage, around the initial guess or the best sketch if there are any."""
         if self._initial is not None:
             yield from self._try_initial(self._initial)
-        elif self._task.search.sketches:
-            yield from self._sketch()
+        elif self._task.search.sketches:  # without any, the first optimizer is already there
+            yield from self._begin_attempt()
         self._scale_step()
 
-    def _sketch(self) -> _Asking:
-        """Draw the sketches of this attempt, and let the optimizer begin around the best of them."""
+    def _begin_attempt(self) -> _Asking:
+        """Let the optimizer begin where the task's search does: around the best of its sketches, if it has any."""
         attempt, search = self._schedule.attempt, self._task.search
+        if not search.sketches:
+            self._optimizer = make_attempt(self._task, self._space, seed=self._seed, attempt=attempt)
+            return
         generator = np.random.default_rng((self._seed, attempt, _SKETCHES))
         n = max(1, min(search.sketches, (search.trials - self._trials) // 2))  # the rest is for the optimizer
-        drawn = self._space.sketches(n, generator)
-        yield from self._try_initial(InitialGuess(drawn, step=AROUND), attempt)
+        yield from self._try_initial(InitialGuess(self._space.sketches(n, generator), step=AROUND))
 
-    def _try_initial(self, initial: InitialGuess, attempt: int = 0) -> _Asking:
+    def _try_initial(self, initial: InitialGuess) -> _Asking:
         """Try the motions to begin around, and let the optimizer begin at the best of them."""
-        candidates, level = initial.candidates, self._schedule.level
-        evaluation = yield from self._judge.evaluate(candidates, level)
+        candidates = initial.candidates
+        evaluation = yield from self._judge.evaluate(candidates, self._schedule.level)
         self._trials += evaluation.trials
         self._diverged += int(evaluation.diverged.sum())
         if self._trials_to_success is None and evaluation.success.any():
@@ -219,7 +221,7 @@ class Search:
         if self._trials_to_success is not None and self._task.search.polish == 0:
             raise _Halt(Stopped.SUCCESS)
         space = initial.space(self._space, candidates[first])
-        self._optimizer = make_attempt(self._task, space, seed=self._seed, attempt=attempt)
+        self._optimizer = make_attempt(self._task, space, seed=self._seed, attempt=self._schedule.attempt)
 
     def _affordable(self) -> bool:
         """Whether the budget lasts for the largest possible generation. It always does for the first one."""
@@ -342,10 +344,7 @@ class Search:
                 assert self._best is not None
                 self._kept = better(self._kept, self._best)
                 self._starts = sorted(self._starts, key=_rank)[1:]
-            if self._task.search.sketches:
-                yield from self._sketch()
-            else:
-                self._optimizer = make_attempt(self._task, self._space, seed=self._seed, attempt=self._schedule.attempt)
+            yield from self._begin_attempt()
         self._scale_step()
         level = self._schedule.level
         if not level.robust:

@@ -67,17 +67,12 @@ def _of_weights(task: Task, robot: Robot, policy: Policy, start: State) -> Searc
     else:
         smooth = np.eye(policy.size)
     if search.sketches and robot.stance == "upright":
-        share = np.where(_bends_forward(robot)[_leaders(policy)], 1.0, SIDEWAYS)
+        share = np.where(_bends_forward(robot)[policy.leaders], 1.0, SIDEWAYS)
         smooth = smooth * np.repeat(share, policy.kernels.kernels)[:, None]
-    return SearchSpace(
-        mean,
-        smooth,
-        step=search.step,
-        population=search.population,
-        ending=_ending(policy),
-        span=_span(policy, robot) if search.sketches else None,
-        spread=_spread(policy) if search.sketches else None,
-    )
+    space = SearchSpace(mean, smooth, step=search.step, population=search.population, ending=_ending(policy))
+    if not search.sketches:
+        return space
+    return dataclasses.replace(space, span=_span(policy, robot), spread=_spread(policy))
 
 
 def _spread(policy: Policy) -> Array:
@@ -94,7 +89,7 @@ def _span(policy: Policy, robot: Robot) -> Array:
 
     A robot that stands upright gets up by bending forward and back: its other joints stay as in neutral.
     """
-    leaders = _leaders(policy)
+    leaders = policy.leaders
     lower, upper = robot.limits.lower[leaders], robot.limits.upper[leaders]
     unlimited = np.isinf(lower) | np.isinf(upper)
     span = np.stack([np.where(unlimited, -np.pi, lower), np.where(unlimited, np.pi, upper)], axis=-1)
@@ -102,11 +97,6 @@ def _span(policy: Policy, robot: Robot) -> Array:
         still = ~_bends_forward(robot)[leaders]
         span[still] = robot.posture("neutral")[leaders][still, None]
     return np.repeat(span, min(SKETCHED, policy.kernels.kernels), axis=0)
-
-
-def _leaders(policy: Policy) -> list[int]:
-    """Return the policy's independent joints."""
-    return [joint for group in policy.groups for joint in group.leader]
 
 
 def _bends_forward(robot: Robot) -> NDArray[np.bool_]:

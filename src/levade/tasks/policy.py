@@ -135,7 +135,7 @@ def _free_goal(policy: Policy, lower: Array, upper: Array, robot: Robot) -> Free
     Raises:
         LevadeError: If only some of the joints that share a policy are free.
     """
-    leaders = [joint for group in policy.groups for joint in group.leader]
+    leaders = policy.leaders
     low, high = lower[leaders], upper[leaders]
     for i, joint in enumerate(leaders):
         for follower, sign in policy.following(i):
