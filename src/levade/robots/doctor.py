@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from levade.arrays import Array
 from levade.errors import LevadeError
 from levade.robots.dimensions import dimensions
-from levade.robots.findings import Finding, named, note, some, warning
+from levade.robots.findings import Finding, named, named_joints, note, some, warning
 from levade.robots.preparing import TIMESTEP
 from levade.robots.robot import Robot
 from levade.robots.settling import doubt_standing
@@ -438,7 +438,7 @@ def _physics(patient: Patient) -> Iterator[Finding]:
 
 def _joints(patient: Patient, chosen: NDArray[np.bool_]) -> str:
     names = [name for name, taken in zip(patient.robot.joint_names, chosen, strict=True) if taken]
-    return "all joints" if len(names) == len(patient.robot.joint_names) else named("joint", names)
+    return named_joints(names, len(patient.robot.joint_names))
 
 
 def _lowest(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> float:

@@ -14,7 +14,7 @@ from levade.arrays import Array
 from levade.embodiment import JointLimits
 from levade.robots import gains
 from levade.robots.actuation import PID, Actuation, DCMotor
-from levade.robots.findings import named, note, warning
+from levade.robots.findings import named_joints, note, warning
 from levade.robots.preparing import TIMESTEP
 from levade.robots.reading import Draft
 from levade.robots.standing import Bare
@@ -122,7 +122,7 @@ def _torque(draft: Draft, bare: Bare, path: Path, form: RobotForm) -> tuple[Arra
         return torque, none
     assumed = gains.assumed_torque(float(bare.model.body_mass.sum()), _leg_length(bare))
     standing = np.array([leg.stands for leg in bare.legs for _ in leg.joints])
-    rotor = _armature(bare) * gains.assumed_speed(_leg_length(bare)) / _RUN_UP
+    rotor = bare.armature * gains.assumed_speed(_leg_length(bare)) / _RUN_UP
     missing = ~(torque <= _NO_LIMIT * np.maximum(assumed, rotor))
     for legs, values in ((True, np.full(len(joints), assumed)), (False, _arm_torque(bare, assumed))):
         chosen = missing & (standing == legs)
@@ -132,12 +132,6 @@ def _torque(draft: Draft, bare: Bare, path: Path, form: RobotForm) -> tuple[Arra
     if missing.any():
         draft.origins["torque"] = "assumed" if missing.all() else f"{_file(draft)}, or assumed"
     return torque, missing
-
-
-def _armature(bare: Bare) -> Array:
-    """Return the reflected rotor inertia of each joint [kg m2], shape (joints,)."""
-    dofs = [int(bare.model.joint(joint).dofadr[0]) for joint in bare.joints]
-    return np.array(bare.model.dof_armature[dofs], dtype=float)
 
 
 def _arm_torque(bare: Bare, most: float) -> Array:
@@ -186,8 +180,7 @@ def _indices(chosen: NDArray[np.bool_]) -> tuple[int, ...]:
 
 
 def _where(bare: Bare, chosen: NDArray[np.bool_]) -> str:
-    names = [joint for joint, taken in zip(bare.joints, chosen, strict=True) if taken]
-    return "all joints" if len(names) == len(bare.joints) else named("joint", names)
+    return named_joints([joint for joint, taken in zip(bare.joints, chosen, strict=True) if taken], len(bare.joints))
 
 
 def find_actuation(
@@ -298,7 +291,7 @@ def _own_gains(
     most = np.maximum(
         gains.stiffness(float(bare.model.body_mass.sum()), _leg_length(bare)), load / gains.GIVE_UNDER_LOAD
     )
-    most = np.maximum(most, _armature(bare) * (2 * np.pi * gains.BANDWIDTH) ** 2)
+    most = np.maximum(most, bare.armature * (2 * np.pi * gains.BANDWIDTH) ** 2)
     standing = np.array([leg.stands for leg in bare.legs for _ in leg.joints])
     kp = np.minimum(most, torque / np.where(standing, gains.GIVE_STANDING, gains.GIVE_FREE)) if kps is None else kps
     inertia = np.array(list(bare.joint_inertia(neutral).values()))

@@ -83,6 +83,19 @@ def named(kind: str, names: Sequence[str]) -> str:
     return f"{plural} {some(names)}"
 
 
+def named_joints(names: Sequence[str], of: int) -> str:
+    """Name the joints that share a finding, such as "joints a and b", or "all joints".
+
+    Args:
+        names: Their names.
+        of: Number of joints that the robot has.
+
+    Returns:
+        The text.
+    """
+    return "all joints" if len(names) == of else named("joint", names)
+
+
 def counted(number: int, noun: str) -> str:
     """Combine a number with a noun in singular or plural, such as "1 geom" and "2 geoms".
 

@@ -201,9 +201,8 @@ def _apply_variant(draft: Draft, path: Path, form: RobotForm, variant: str) -> N
             where = f"{path}: variants.{variant}.inertials"
             raise LevadeError(f"{where}: no body {name!r} in {form.model}; {did_you_mean(name, bodies)}")
         body = spec.body(name)
-        if (
-            not body.explicitinertial
-        ):  # mass and inertia come from the geoms: make them explicit before replacing a part
+        # where mass and inertia come from the geoms, make them explicit before replacing a part
+        if not body.explicitinertial:
             compiled = model.body(name)
             body.explicitinertial = True
             body.mass, body.ipos = float(compiled.mass[0]), compiled.ipos

@@ -307,16 +307,29 @@ class PostureSearch:
                 cost += 30.0 * ((centre[1] - data.xanchor[sole.first][1]) / length) ** 2
                 if len(self.soles) > 2:
                     cost += 10.0 * ((centre[0] - hip[0]) / length) ** 2
-                elif len(sole.lifting) > 1:  # knees of two legs bend forward if both ways are in range
-                    ahead = (data.xanchor[sole.lifting[1]][0] - 0.5 * (hip[0] + centre[0])) / length * self._ahead
-                    cost += 20.0 * min(0.0, float(ahead)) ** 2
-            if sole.flat:
-                turned = data_rotation(data, sole.body) @ self._links[k].T @ self._flat[k]
-                cost += 60.0 * (1.0 - turned[2, 2]) + 10.0 * (1.0 - turned[0, 0])
+                else:
+                    cost += self._knee_cost(k, centre)
+            cost += self._tilt_cost(k)
         off = data.subtree_com[self.bare.trunk][:2] - centres[:, :2].mean(axis=0)
         cost += 0.1 * float(off @ off) / (0.02 * self.scale) ** 2
         cost += self._clearance_cost(float(lows.min()))
         return cost + self._comfort(angles) + self._load(centres)
+
+    def _knee_cost(self, k: int, centre: Array) -> float:
+        """Cost of a knee behind the line from hip to sole: knees of two legs bend forward if both ways are in range."""
+        lifting = self.soles[k].lifting
+        if len(lifting) < 2:
+            return 0.0
+        hip, knee = self.data.xanchor[lifting[0]], self.data.xanchor[lifting[1]]
+        ahead = (knee[0] - 0.5 * (hip[0] + centre[0])) / self.lengths[k] * self._ahead
+        return 20.0 * min(0.0, float(ahead)) ** 2
+
+    def _tilt_cost(self, k: int) -> float:
+        """Cost of a sole that should be flat, and is not level or does not point ahead."""
+        if not self.soles[k].flat:
+            return 0.0
+        turned = data_rotation(self.data, self.soles[k].body) @ self._links[k].T @ self._flat[k]
+        return 60.0 * (1.0 - turned[2, 2]) + 10.0 * (1.0 - turned[0, 0])
 
     def _arm_cost(self, angles: Array, arms: Sequence[Leg]) -> float:
         self._put(angles)

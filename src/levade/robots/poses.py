@@ -12,7 +12,7 @@ import numpy as np
 
 from levade.arrays import Array
 from levade.errors import LevadeError
-from levade.robots.neutral import PostureSearch, Sole, data_rotation
+from levade.robots.neutral import PostureSearch, Sole
 from levade.robots.robot import Robot
 from levade.robots.shapes import support
 from levade.robots.standing import Bare
@@ -151,19 +151,12 @@ class _PoseSearch(PostureSearch):
     def _over(self, place: Array) -> float:
         """Cost of a centre of mass that is not over a place on the ground."""
         off = self.data.subtree_com[self.bare.trunk][:2] - place[:2]
-        return 1.0 * float(off @ off) / (0.02 * self.scale) ** 2
+        return float(off @ off) / (0.02 * self.scale) ** 2
 
     def _shape_cost(self, sole: Sole, low: float | None) -> float:
         """Cost of a sole that is not level, of a knee that bends backward, and of a hip at another height than it should."""
-        data, k, cost = self.data, self.soles.index(sole), 0.0
-        hip = data.xanchor[sole.lifting[0]]
+        k, cost = self.soles.index(sole), 0.0
         if low is not None:
+            hip = self.data.xanchor[sole.lifting[0]]
             cost += 40.0 * ((hip[2] - low) / self.lengths[k] - _EXTENSION) ** 2
-        if len(sole.lifting) > 1:
-            middle = 0.5 * (hip[0] + self._centre(sole)[0])
-            ahead = (data.xanchor[sole.lifting[1]][0] - middle) / self.lengths[k] * self._ahead
-            cost += 20.0 * min(0.0, float(ahead)) ** 2
-        if sole.flat:
-            turned = data_rotation(data, sole.body) @ self._links[k].T @ self._flat[k]
-            cost += 60.0 * (1.0 - turned[2, 2]) + 10.0 * (1.0 - turned[0, 0])
-        return cost
+        return cost + self._knee_cost(k, self._centre(sole)) + self._tilt_cost(k)

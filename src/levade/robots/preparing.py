@@ -12,7 +12,7 @@ from levade.arrays import Array
 from levade.errors import LevadeError, did_you_mean
 from levade.robots import gains
 from levade.robots.actuation import Actuation
-from levade.robots.findings import named, note, some, warning
+from levade.robots.findings import named_joints, note, some, warning
 from levade.robots.reading import Draft
 from levade.robots.standing import Bare
 from levade.robots.understanding import moved_bodies
@@ -91,7 +91,7 @@ def set_armature(draft: Draft, bare: Bare, armature: Mapping[str, float]) -> Non
     """
     for joint, inertia in armature.items():
         draft.spec.joint(joint).armature = inertia
-        bare.model.dof_armature[int(bare.model.joint(joint).dofadr[0])] = inertia
+        bare.model.joint(joint).armature = inertia
 
 
 def add_rotors(draft: Draft, bare: Bare, torque: Array) -> None:
@@ -107,20 +107,17 @@ def add_rotors(draft: Draft, bare: Bare, torque: Array) -> None:
     """
     if bare.shares_gains:
         return
-    bare_dofs = {joint: int(bare.model.joint(joint).dofadr[0]) for joint in bare.joints}
     added = {
         joint: gains.rotor_inertia(most)
-        for joint, most in zip(bare.joints, torque.tolist(), strict=True)
-        if joint not in draft.servos and bare.model.dof_armature[bare_dofs[joint]] == 0 and np.isfinite(most)
+        for joint, most, own in zip(bare.joints, torque.tolist(), bare.armature, strict=True)
+        if joint not in draft.servos and own == 0 and np.isfinite(most)
     }
     set_armature(draft, bare, added)
     if added:
         low, high = min(added.values()), max(added.values())
         size = f"{low:.2g}" if low == high else f"{low:.2g} to {high:.2g}"
         what = f"no armature; {size} kg m2 of reflected rotor inertia is assumed, in proportion to the torque limit"
-        draft.findings.append(
-            note(named("joint", list(added)) if len(added) < len(bare.joints) else "all joints", what)
-        )
+        draft.findings.append(note(named_joints(list(added), len(bare.joints)), what))
 
 
 def support_servos(draft: Draft, bare: Bare, neutral: Mapping[str, float], actuation: Actuation) -> None:
@@ -144,7 +141,7 @@ def support_servos(draft: Draft, bare: Bare, neutral: Mapping[str, float], actua
         largest = max(raised.values())
         draft.findings.append(
             note(
-                named("joint", list(raised)) if len(raised) < len(bare.joints) else "all joints",
+                named_joints(list(raised), len(bare.joints)),
                 f"get up to {largest:.2g} kg m2 of reflected rotor inertia (armature), without which servos of this damping"
                 " are unstable",
             )

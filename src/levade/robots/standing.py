@@ -9,6 +9,7 @@ from functools import cached_property
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from levade.arrays import Array
 from levade.robots.reading import Keyframe
@@ -60,6 +61,16 @@ class Bare:
     def shares_gains(self) -> bool:
         """Whether one gain suits all joints: columnar legs and no other limb."""
         return self.columnar and len(self.standing) == len(self.legs)
+
+    @cached_property
+    def dofs(self) -> NDArray[np.intp]:
+        """Degree of freedom of each joint, shape (joints,)."""
+        return np.array([self.model.joint(joint).dofadr[0] for joint in self.joints], dtype=np.intp)
+
+    @property
+    def armature(self) -> Array:
+        """Reflected rotor inertia of each joint [kg m2], shape (joints,)."""
+        return self.model.dof_armature[self.dofs].copy()
 
     def data_at(self, angles: Mapping[str, float]) -> mujoco.MjData:
         """Compute kinematics with the trunk frame at the world frame.
