@@ -27,6 +27,14 @@ def _here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture
+def urdf(tmp_path: Path, quadruped: type) -> Path:
+    """The file of a small quadruped, in the test's directory."""
+    path = tmp_path / "toy.urdf"
+    path.write_text(quadruped().urdf())
+    return path
+
+
+@pytest.fixture
 def levade(capfd: pytest.CaptureFixture[str]) -> Callable[..., Finished]:
     """Run the command line in this process; numbers and paths are taken as words."""
 

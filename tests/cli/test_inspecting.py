@@ -14,13 +14,6 @@ from levade.robots import builtin_robots, dimensions, load_robot
 JOINTS = [f"{leg}_{joint}" for leg in ("lf", "rf", "lh", "rh") for joint in ("haa", "hfe", "kfe")]
 
 
-@pytest.fixture
-def urdf(tmp_path: Path, quadruped: type) -> Path:
-    path = tmp_path / "toy.urdf"
-    path.write_text(quadruped().urdf())
-    return path
-
-
 @pytest.mark.slow
 def test_inspect_says_what_was_understood(levade, urdf: Path) -> None:
     status, out, err = levade("robots", "inspect", "toy.urdf")

@@ -10,13 +10,6 @@ import pytest
 pytest.importorskip("scipy", reason="hulls need scipy: pip install levade[rightability]")
 
 
-@pytest.fixture
-def urdf(tmp_path: Path, quadruped: type) -> Path:
-    path = tmp_path / "toy.urdf"
-    path.write_text(quadruped().urdf())
-    return path
-
-
 @pytest.mark.slow
 def test_it_is_said_in_words_and_as_json(levade, urdf: Path) -> None:
     pytest.importorskip("matplotlib", reason="maps need matplotlib: pip install levade[figures]")

@@ -80,7 +80,7 @@ def tell_rightability(
 
 
 def _slow(graphs: list[Graph], found: dict[str, Found] | None) -> list[Table]:
-    first, slope = graphs[0], np.degrees(graphs[0].slope)
+    slope = np.degrees(graphs[0].slope)
     ground = "flat ground" if slope == 0 else f"a slope of {slope:g}°"
     table = Table(box=None, padding=(0, 2, 0, 0), header_style="bold", title=f"On {ground}", title_justify="left")
     for heading in ("rests on", "neutral posture", "gets up slowly", "any posture", "gets up slowly"):
@@ -88,7 +88,8 @@ def _slow(graphs: list[Graph], found: dict[str, Found] | None) -> list[Table]:
     if found is not None:
         for heading in ("falls", "with a motion", "95 % interval"):
             table.add_column(heading, justify="right")
-    neutral, anyhow = first.shares(neutral=True), first.shares()
+    shares = [(graph.shares(neutral=True), graph.shares()) for graph in graphs]
+    neutral, anyhow = shares[0]
     for face in (*FACES, "all"):
         row = [face, *_cells(neutral[face]), *_cells(anyhow[face])]
         if found is not None:
@@ -105,11 +106,10 @@ def _slow(graphs: list[Graph], found: dict[str, Found] | None) -> list[Table]:
         other = Table(box=None, padding=(0, 2, 0, 0), header_style="bold", title="By slope", title_justify="left")
         for heading in ("slope", "gets up slowly: neutral posture", "any posture", "rolls on"):
             other.add_column(heading, justify="right")
-        for graph in graphs:
-            anyhow = graph.shares()
+        for graph, (neutral, anyhow) in zip(graphs, shares, strict=True):
             other.add_row(
                 f"{np.degrees(graph.slope):g}°",
-                f"{graph.shares(neutral=True)['all'].leads:.1%}",
+                f"{neutral['all'].leads:.1%}",
                 f"{anyhow['all'].leads:.1%}",
                 f"{anyhow['rolls'].likelihood:.1%}",
             )

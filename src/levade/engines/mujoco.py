@@ -85,20 +85,7 @@ class MujocoEngine(Engine):
         return self._recorded(trials, fields, None if "sensordata" in fields else ())
 
     def hold(self, model: mujoco.MjModel, data: mujoco.MjData, posture: Array, time: float) -> State:
-        """Simulate the robot while it holds a posture; see `levade.engines.Engine.hold`.
-
-        Args:
-            model: The engine's model, or the same with other gains.
-            data: State in which the robot is let go; it is changed.
-            posture: Joint angles to hold [rad], shape (joints,).
-            time: Duration [s].
-
-        Returns:
-            The state at the end, one row.
-
-        Raises:
-            LevadeError: If the simulation breaks down.
-        """
+        """Simulate the robot while it holds a posture; see `levade.engines.Engine.hold`."""
         steps = round(time / self.physics.timestep)
         data.ctrl[:] = 0.0
         data.ctrl[self.layout.ctrl_position] = posture

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from levade.arrays import Array
 from levade.engines import Fallen, Fold, Perturbation, State, perturbed_models, start_state
@@ -127,6 +128,19 @@ def _usual(task: Task, robot: Robot) -> Fallen:
     return replace(fallen, fold=fold)
 
 
+def lying_on(up: Array) -> NDArray[np.intp]:
+    """Find what a robot lies on.
+
+    Args:
+        up: Upward directions in trunk axes, shape (..., 3).
+
+    Returns:
+        Indices into `FACES`, shape (...).
+    """
+    axis = np.argmax(np.abs(up), axis=-1)
+    return 2 * axis + (np.take_along_axis(up, axis[..., None], axis=-1)[..., 0] < 0)
+
+
 def face(up: Array) -> str:
     """Name what a robot lies on.
 
@@ -136,8 +150,7 @@ def face(up: Array) -> str:
     Returns:
         One of `FACES`.
     """
-    axis = int(np.argmax(np.abs(up)))
-    return FACES[2 * axis + int(up[axis] < 0)]
+    return FACES[int(lying_on(up))]
 
 
 @dataclass(frozen=True, eq=False)

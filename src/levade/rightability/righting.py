@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from levade.arrays import Array
 from levade.errors import LevadeError
-from levade.library.falls import FACES, face
+from levade.library.falls import FACES, face, lying_on
 from levade.rightability.hulls import Hulls, Indices, tangent
 from levade.rightability.postures import Postures
 
@@ -234,8 +234,7 @@ class Graph:
         nodes, share = self.dropped(np.asarray(chosen))
         share = share / share.sum()
         up, _ = self.attitude(np.maximum(nodes, 0))
-        largest = np.argmax(np.abs(up), axis=1)
-        lies = 2 * largest + (up[np.arange(len(up)), largest] < 0)
+        lies = lying_on(up)
         leads = (nodes >= 0) & (self.moves[np.maximum(nodes, 0)] >= 0)
         result = {}
         for name, rows in [

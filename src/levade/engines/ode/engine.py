@@ -50,20 +50,7 @@ class OdeEngine(Engine):
         return {**{name: version(name) for name in ("mujoco", "numpy")}, "ode": load().name}
 
     def hold(self, model: mujoco.MjModel, data: mujoco.MjData, posture: Array, time: float) -> State:
-        """Simulate the robot while it holds a posture; see `levade.engines.Engine.hold`.
-
-        Args:
-            model: The engine's model, or the same with other gains.
-            data: State in which the robot is let go; it is not changed.
-            posture: Joint angles to hold [rad], shape (joints,).
-            time: Duration [s].
-
-        Returns:
-            The state at the end, one row.
-
-        Raises:
-            LevadeError: If the simulation breaks down.
-        """
+        """Simulate the robot while it holds a posture; see `levade.engines.Engine.hold`."""
         steps = round(time / self.physics.timestep)
         start = self.layout.state(data.qpos, data.qvel, data.act, joint_reference=posture)
         if not steps:
