@@ -16,6 +16,9 @@ from typing import Any
 import pytest
 from hypothesis import settings
 
+from levade.errors import LevadeError
+from levade.robots import Robot, load_robot
+
 # The same examples in every run, and no time limit for one: CI machines differ in speed by a factor.
 settings.register_profile("levade", derandomize=True, deadline=None)
 settings.load_profile("levade")
@@ -49,6 +52,21 @@ def _debugging(option: Any) -> bool:
     traced = isinstance(getattr(sys.gettrace(), "__self__", None), bdb.Bdb)
     attached = not {"debugpy", "pydevd"}.isdisjoint(sys.modules)
     return bool(option.usepdb or option.trace or option.capture == "no" or traced or attached)
+
+
+@pytest.fixture(scope="session")
+def packaged() -> Callable[[str], Robot]:
+    """Load a robot whose files a package has. Without that package, which the tests do not need, the test is skipped."""
+
+    def packaged(name: str) -> Robot:
+        try:
+            return load_robot(name)
+        except LevadeError as error:
+            if "is not installed; pip install" not in str(error):
+                raise
+            pytest.skip(str(error))
+
+    return packaged
 
 
 @pytest.fixture(scope="session")

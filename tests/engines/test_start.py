@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -199,8 +200,8 @@ def test_a_robot_that_folds_up_ends_as_its_drives_were_led(robot: Robot, engine:
 
 
 @pytest.mark.parametrize("name", ["go1", "hyq2max"])
-def test_tucked_is_a_deep_crouch_with_the_feet_under_the_hips(name: str) -> None:
-    robot = load_robot(name)
+def test_tucked_is_a_deep_crouch_with_the_feet_under_the_hips(name: str, packaged: Callable[[str], Robot]) -> None:
+    robot = packaged(name)
     posture, crouched = tucked(robot), robot.posture("crouched")
     assert (posture >= robot.limits.lower).all()
     assert (posture <= robot.limits.upper).all()

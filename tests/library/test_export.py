@@ -19,6 +19,7 @@ from levade.exports import asker
 from levade.exports.player import Stopped
 from levade.library import Falls, Library, build
 from levade.library.exporting import export_library
+from levade.robots import Robot
 from levade.tasks import Task, load_task
 
 FOLD = "start={fallen: {height: 0.5, time: 0.4, fold: {time: 0.1, rest: 0.1}}}"
@@ -222,9 +223,9 @@ def test_a_folder_that_was_changed_is_refused(folder: Path, tmp_path: Path) -> N
         asker.Library.load(tmp_path)
 
 
-def test_a_robot_that_folds_lies_with_its_legs_drawn_in() -> None:
+def test_a_robot_that_folds_lies_with_its_legs_drawn_in(packaged: Callable[[str], Robot]) -> None:
     """However it fell: its joints are told the same, and are there; its knees are nearly at their ends."""
-    falls = Falls(load_task("self-righting", robot="go1"), seed=4, threads=1)
+    falls = Falls(load_task("self-righting", robot="go1"), robot=packaged("go1"), seed=4, threads=1)
     assert falls.task.start.fallen is not None
     assert falls.task.start.fallen.fold == Fold()
     assert falls.fold is not None

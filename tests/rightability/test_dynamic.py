@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -12,7 +13,7 @@ import pytest
 from levade.errors import LevadeError
 from levade.library.records import Method, Record
 from levade.rightability import found_motions
-from levade.robots import load_robot
+from levade.robots import Robot
 
 
 def library(*falls: tuple[tuple[float, ...], Method]) -> Any:
@@ -41,6 +42,7 @@ def test_falls_are_counted_by_what_the_robot_lies_on() -> None:
     assert found["all"].interval == pytest.approx((0.3755, 0.9638), abs=1e-4)
 
 
-def test_a_library_of_another_robot_is_refused() -> None:
+def test_a_library_of_another_robot_is_refused(packaged: Callable[[str], Robot]) -> None:
+    other = packaged("g1")
     with pytest.raises(LevadeError, match=r"library: falls: its robot has 12 joints, g1 has \d+"):
-        found_motions(library(((0.0, 0.0, 1.0), Method.COLD)), load_robot("g1"))
+        found_motions(library(((0.0, 0.0, 1.0), Method.COLD)), other)

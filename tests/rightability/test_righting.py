@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Callable
 from pathlib import Path
 
 import mujoco
@@ -14,7 +15,7 @@ from levade.rightability import Postures, graphs, rightability
 from levade.rightability.hulls import Hulls, Indices
 from levade.rightability.postures import _values, on_soles
 from levade.rightability.righting import Graph
-from levade.robots import load_robot
+from levade.robots import Robot, load_robot
 
 pytest.importorskip("scipy", reason="hulls need scipy: pip install levade[rightability]")
 
@@ -106,8 +107,10 @@ def test_a_slope_shrinks_what_stands() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["hyq2max", "go1", "g1"])
-def test_a_robot_stands_on_its_soles_at_the_height_of_its_centre_of_mass(name: str) -> None:
-    robot = load_robot(name)
+def test_a_robot_stands_on_its_soles_at_the_height_of_its_centre_of_mass(
+    name: str, packaged: Callable[[str], Robot]
+) -> None:
+    robot = packaged(name)
     postures = Postures.of(robot, angles=1)
     assert (postures.count, len(postures.steps)) == (1, 0)
     (graph,) = graphs(postures, [0.0])
@@ -132,9 +135,11 @@ def test_left_and_right_are_as_likely_on_a_symmetric_robot() -> None:
 
 
 @pytest.mark.parametrize(("most", "counts"), [(2, (1, 1, 1)), (3, (1, 3, 1)), (9, (1, 3, 3)), (27, (3, 3, 3))])
-def test_joints_get_both_ends_of_their_ranges_and_the_neutral_angle(most: int, counts: tuple[int, ...]) -> None:
+def test_joints_get_both_ends_of_their_ranges_and_the_neutral_angle(
+    most: int, counts: tuple[int, ...], packaged: Callable[[str], Robot]
+) -> None:
     """The joints with the widest ranges first."""
-    robot = load_robot("go1")
+    robot = packaged("go1")
     found = _values(robot, robot.legs[0], most)
     assert tuple(map(len, found)) == counts
     for values, low, high, neutral in zip(

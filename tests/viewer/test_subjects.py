@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 import levade.viewer.subjects as subjects
 from levade.errors import LevadeError
-from levade.robots import builtin_robots, load_robot
+from levade.robots import Robot, builtin_robots, load_robot
 from levade.tasks import builtin_tasks, load_task
 from levade.viewer.subjects import find
 
@@ -27,11 +28,16 @@ def task_file(path: str) -> Path:
 
 
 @pytest.mark.slow
-def test_names_of_what_is_built_in() -> None:
-    for name, _ in builtin_robots():
-        robot = find(name).robot
-        assert robot is not None
-        assert robot.name == name
+@pytest.mark.parametrize("name", [name for name, _ in builtin_robots()])
+def test_names_of_built_in_robots(name: str, packaged: Callable[[str], Robot]) -> None:
+    packaged(name)
+    robot = find(name).robot
+    assert robot is not None
+    assert robot.name == name
+
+
+@pytest.mark.slow
+def test_names_of_built_in_tasks() -> None:
     for name in builtin_tasks():
         assert find(name).task == load_task(name)
 
