@@ -378,6 +378,24 @@ def test_a_sketch_that_succeeds_ends_the_search() -> None:
     assert search.solution.trials_to_success == 32
 
 
+def test_many_sketches_are_tried_in_parts() -> None:
+    """So that Ctrl-C is heard, and keeps the best one; all of them are there before the optimizer begins."""
+    space = dataclasses.replace(SPACE, span=np.tile([-3.0, 3.0], (6, 1)))
+    task = make_task(sketches=100, trials=400)
+    asked, _ = driven(Search(task, space, seed=5))
+    assert [trials.n for trials in asked[:4]] == [48, 48, 4, 8]
+    drawn = np.concatenate([trials.weights for trials in asked[:3]])
+    best = drawn[np.argmin(answer(task, Trials(drawn, 0)).terms["position"])]
+    assert np.linalg.norm(asked[3].weights.mean(axis=0) - best) < 0.5
+    search = Search(task, space, seed=5)
+    first = search.ask()
+    assert first is not None
+    evaluation = answer(task, first)
+    search.tell(evaluation)
+    search.stop()
+    assert np.array_equal(search.solution.best.weights, first.weights[np.argmin(evaluation.terms["position"])])
+
+
 def test_sketches_need_ranges() -> None:
     with pytest.raises(LevadeError, match="sketches: the policy has no ranges"):
         Search(make_task(sketches=4), SPACE).ask()

@@ -36,6 +36,9 @@ on. `Stopped.INTERRUPTED` ends the search."""
 _SKETCHES = 1_936_419_188
 """Separates the random numbers of sketches from those of the optimizers."""
 
+_AT_ONCE = 48
+"""Largest number of motions to begin around that are tried in one batch. Ctrl-C is heard between batches."""
+
 _Asking = Generator["Trials | Generation", Evaluation, None]
 
 
@@ -207,20 +210,21 @@ class Search:
 
     def _try_initial(self, initial: InitialGuess) -> _Asking:
         """Try the motions to begin around, and let the optimizer begin at the best of them."""
-        candidates = initial.candidates
-        evaluation = yield from self._judge.evaluate(candidates, self._schedule.level)
-        self._trials += evaluation.trials
-        self._diverged += int(evaluation.diverged.sum())
-        if self._trials_to_success is None and evaluation.success.any():
-            self._trials_to_success = self._trials
-        cost = evaluation.cost(
-            {**self._weights, **stage_weights(self._task, self._schedule.stage, 0)}, self._task.robust
-        )
-        self._keep_best(candidates, evaluation)
-        first = np.lexsort((cost, ~evaluation.success))[0]
-        if self._trials_to_success is not None and self._task.search.polish == 0:
-            raise _Halt(Stopped.SUCCESS)
-        space = initial.space(self._space, candidates[first])
+        candidates, ranks = initial.candidates, []
+        weights = {**self._weights, **stage_weights(self._task, self._schedule.stage, 0)}
+        for first in range(0, len(candidates), _AT_ONCE):
+            part = candidates[first : first + _AT_ONCE]
+            evaluation = yield from self._judge.evaluate(part, self._schedule.level)
+            self._trials += evaluation.trials
+            self._diverged += int(evaluation.diverged.sum())
+            if self._trials_to_success is None and evaluation.success.any():
+                self._trials_to_success = self._trials
+            self._keep_best(part, evaluation)
+            ranks += zip(~evaluation.success, evaluation.cost(weights, self._task.robust), strict=True)
+            if self._trials_to_success is not None and self._task.search.polish == 0:
+                raise _Halt(Stopped.SUCCESS)
+        best = min(range(len(candidates)), key=ranks.__getitem__)
+        space = initial.space(self._space, candidates[best])
         self._optimizer = make_attempt(self._task, space, seed=self._seed, attempt=self._schedule.attempt)
 
     def _affordable(self) -> bool:
