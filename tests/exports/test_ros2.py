@@ -15,7 +15,7 @@ from levade.errors import LevadeError
 from levade.exports import export
 from levade.motions import Motion
 
-reason = "bags are written by mcap and read by rosbags: pip install levade[dev]"
+reason = "bags are written by mcap and read by rosbags: pip install 'levade[dev]'"
 pytest.importorskip("mcap", reason=reason)
 rosbag2 = pytest.importorskip("rosbags.rosbag2", reason=reason)
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore  # noqa: E402

@@ -18,7 +18,7 @@ from levade.library.knowledge import Knowledge
 from levade.library.learning import NEAREST, arrays_of, learn, save
 from levade.library.mirror import Mirror
 
-pytest.importorskip("sklearn.neural_network", reason="learning needs scikit-learn: pip install levade[learn]")
+pytest.importorskip("sklearn.neural_network", reason="learning needs scikit-learn: pip install 'levade[learn]'")
 
 MIRROR = Mirror(np.array([1, 0]), np.array([1.0, 1.0]))
 
