@@ -128,7 +128,7 @@ def test_get_started_step_by_step(
 
 @pytest.mark.slow
 def test_rightability_step_by_step(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("scipy", reason="hulls need scipy: pip install levade[rightability]")
+    pytest.importorskip("scipy", reason="hulls need scipy: pip install 'levade[rightability]'")
     monkeypatch.chdir(tmp_path)
     follow("docs/rightability.md", tmp_path)
 
@@ -156,8 +156,8 @@ def test_the_numbers_of_the_readme_are_those_of_the_results(monkeypatch: pytest.
 )
 def test_a_notebook_runs(name: str, smaller: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """At reduced size, in a kernel of its own."""
-    nbformat = pytest.importorskip("nbformat", reason="notebooks: pip install levade[notebooks]")
-    nbclient = pytest.importorskip("nbclient", reason="notebooks: pip install levade[notebooks]")
+    nbformat = pytest.importorskip("nbformat", reason="notebooks: pip install 'levade[notebooks]'")
+    nbclient = pytest.importorskip("nbclient", reason="notebooks: pip install 'levade[notebooks]'")
     monkeypatch.setenv("PYTHONPATH", str(ROOT / "src"))
     notebook = nbformat.read(ROOT / "examples" / "notebooks" / f"{name}.ipynb", as_version=4)
     (settings,) = (cell for cell in notebook.cells if "parameters" in cell.metadata.get("tags", []))

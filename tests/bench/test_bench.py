@@ -180,7 +180,7 @@ def test_the_report(whole: tuple[Path, list[Result]], tmp_path: Path, monkeypatc
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
     written, missing = report(whole[1], tmp_path)
     assert [path.name for path in written] == ["table.md"]
-    assert [reason.split("; ")[1] for reason in missing] == ["pip install levade[bench]"] * 2
+    assert [reason.split("; ")[1] for reason in missing] == ["pip install 'levade[bench]'"] * 2
 
 
 @pytest.mark.slow

@@ -90,5 +90,5 @@ def test_parquet_has_the_same_rows_with_their_types(make, tmp_path: Path) -> Non
 
 def test_without_pyarrow_it_says_what_to_install(make, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(__import__("sys").modules, "pyarrow", None)
-    with pytest.raises(LevadeError, match=r"Parquet needs pyarrow; pip install levade\[bench\]"):
+    with pytest.raises(LevadeError, match=r"Parquet needs pyarrow; pip install 'levade\[bench\]'"):
         write_parquet(tmp_path / "results.parquet", [make(1)])

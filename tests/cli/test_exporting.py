@@ -22,7 +22,7 @@ def motion(unmet: Path) -> Path:
 @pytest.mark.parametrize("to", FORMATS)
 def test_it_prints_what_was_written(motion: Path, tmp_path: Path, levade, to: str) -> None:
     if to == "ros2":
-        pytest.importorskip("mcap", reason="a bag needs mcap: pip install levade[ros2]")
+        pytest.importorskip("mcap", reason="a bag needs mcap: pip install 'levade[ros2]'")
     status, out, err = levade("export", motion, "--to", to, "--out", tmp_path / to, "--json")
     assert (status, err, out.count("\n")) == (0, "", 1)
     content = json.loads(out)

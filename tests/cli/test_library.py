@@ -82,7 +82,7 @@ def test_it_is_shown_and_drawn(built: Path, run: Run, tmp_path: Path) -> None:
     assert not page.exists()
     assert str(page) in "".join(run("library", "show", str(built))[1].split())
     assert page.read_bytes() == before
-    pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install levade[figures]")
+    pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install 'levade[figures]'")
     for place in (tmp_path / "one", tmp_path / "two"):
         status, out, _ = run("library", "show", str(built), "--figures", str(place), "--format", "svg")
         assert status == 0
@@ -207,7 +207,7 @@ def test_what_does_not_fold_is_not_exported(built: Path, run: Run, tmp_path: Pat
 
 
 def test_too_few_falls_to_learn_from_are_one_line(built: Path, run: Run) -> None:
-    pytest.importorskip("sklearn", reason="learning needs scikit-learn: pip install levade[learn]")
+    pytest.importorskip("sklearn", reason="learning needs scikit-learn: pip install 'levade[learn]'")
     status, _, err = run("library", "learn", str(built))
     assert (status, err.count("\n")) == (2, 1)
     assert "4 falls are too few to learn from; build 10 or more" in err

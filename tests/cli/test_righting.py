@@ -7,12 +7,12 @@ from pathlib import Path
 
 import pytest
 
-pytest.importorskip("scipy", reason="hulls need scipy: pip install levade[rightability]")
+pytest.importorskip("scipy", reason="hulls need scipy: pip install 'levade[rightability]'")
 
 
 @pytest.mark.slow
 def test_it_is_said_in_words_and_as_json(levade, urdf: Path) -> None:
-    pytest.importorskip("matplotlib", reason="maps need matplotlib: pip install levade[figures]")
+    pytest.importorskip("matplotlib", reason="maps need matplotlib: pip install 'levade[figures]'")
     words = ("robots", "rightability", "toy.urdf", "--angles", 3, "--slope", 0, "--slope", 20)
     status, out, err = levade(*words)
     assert (status, err) == (0, "")

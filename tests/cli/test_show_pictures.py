@@ -13,7 +13,7 @@ from levade.motions import Motion
 
 @pytest.mark.slow
 def test_figures_have_the_cost_of_the_run_beside_them(unmet: Path, tmp_path: Path, levade) -> None:
-    pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install levade[figures]")
+    pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install 'levade[figures]'")
     status, out, _ = levade("show", unmet / "motion.npz", "--figures", tmp_path, "--format", "svg", "--json")
     assert status == 1
     written = json.loads(out)["written"]
@@ -54,7 +54,7 @@ def test_wrong_options_are_one_line_and_write_nothing(
     unmet: Path, tmp_path: Path, levade, options: list[str], message: str
 ) -> None:
     if "--format" in options and "--figures" in options:
-        pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install levade[figures]")
+        pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install 'levade[figures]'")
     filled = [option.format(tmp_path) for option in options]
     status, _, err = levade("show", unmet / "motion.npz", *filled)
     assert status == 2

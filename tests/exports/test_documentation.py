@@ -81,7 +81,7 @@ def test_mjlab(here: Path, rearing: Motion, capsys: pytest.CaptureFixture[str]) 
 
 @pytest.mark.slow
 def test_the_bag(here: Path, rearing: Motion, capsys: pytest.CaptureFixture[str]) -> None:
-    reason = "bags are written by mcap and read by rosbags: pip install levade[dev]"
+    reason = "bags are written by mcap and read by rosbags: pip install 'levade[dev]'"
     pytest.importorskip("mcap", reason=reason)
     pytest.importorskip("rosbags", reason=reason)
     levade("export", "rearing/motion.npz", "--to", "ros2")

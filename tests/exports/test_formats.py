@@ -232,7 +232,7 @@ class _Torchlike(np.ndarray):
 @pytest.mark.parametrize("name", FORMATS)
 def test_the_same_motion_gives_the_same_bytes(rearing: Motion, tmp_path: Path, name: str) -> None:
     if name == "ros2":
-        pytest.importorskip("mcap", reason="a bag needs mcap: pip install levade[ros2]")
+        pytest.importorskip("mcap", reason="a bag needs mcap: pip install 'levade[ros2]'")
     one, two = (export(rearing, name, tmp_path / place) for place in ("one", "two"))
     assert len(one.written) == len(two.written) >= 2
     for a, b in zip(one.written, two.written, strict=True):

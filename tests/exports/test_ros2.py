@@ -15,7 +15,7 @@ from levade.errors import LevadeError
 from levade.exports import export
 from levade.motions import Motion
 
-reason = "bags are written by mcap and read by rosbags: pip install levade[dev]"
+reason = "bags are written by mcap and read by rosbags: pip install 'levade[dev]'"
 pytest.importorskip("mcap", reason=reason)
 rosbag2 = pytest.importorskip("rosbags.rosbag2", reason=reason)
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore  # noqa: E402
@@ -170,6 +170,6 @@ def test_a_command_of_several_lines_stays_a_comment(rearing: Motion, tmp_path: P
 
 def test_without_mcap_it_says_what_to_install(rearing: Motion, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "mcap.writer", None)
-    with pytest.raises(LevadeError, match=r"to: ros2: a bag needs mcap; pip install levade\[ros2\], or take csv"):
+    with pytest.raises(LevadeError, match=r"to: ros2: a bag needs mcap; pip install 'levade\[ros2\]', or take csv"):
         export(rearing, "ros2", tmp_path / "out")
     assert list(tmp_path.iterdir()) == []

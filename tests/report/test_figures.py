@@ -14,7 +14,7 @@ from levade.motions import Motion
 from levade.search.run import run
 from levade.tasks import load_task
 
-pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install levade[figures]")
+pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install 'levade[figures]'")
 
 import levade.report.figures as module
 from levade.report.figures import COLUMN, FORMATS, PAGE, compare, figures, read_progress

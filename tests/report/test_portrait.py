@@ -17,7 +17,7 @@ from levade.report.rendering import Camera, Renderer, View
 from levade.robots import Robot, load_robot
 from levade.scenes import Scene, compose
 
-Image: Any = pytest.importorskip("PIL.Image", reason="pictures need pillow: pip install levade[video]")
+Image: Any = pytest.importorskip("PIL.Image", reason="pictures need pillow: pip install 'levade[video]'")
 
 
 @pytest.fixture

@@ -20,7 +20,7 @@ from levade.search import make_objective, solve
 from levade.search.recording import record
 from levade.tasks import load_task
 
-Image: Any = pytest.importorskip("PIL.Image", reason="pictures need pillow: pip install levade[video]")
+Image: Any = pytest.importorskip("PIL.Image", reason="pictures need pillow: pip install 'levade[video]'")
 
 SMALL = (96, 72)
 
@@ -122,7 +122,7 @@ def test_gif_has_the_pictures_and_lasts_as_long_as_said(motion: Motion, tmp_path
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 @pytest.mark.usefixtures("gl")
 def test_mp4_has_the_pictures_and_lasts_as_long_as_said(motion: Motion, tmp_path: Path) -> None:
-    ffmpeg = pytest.importorskip("imageio_ffmpeg", reason="mp4 needs imageio-ffmpeg: pip install levade[video]")
+    ffmpeg = pytest.importorskip("imageio_ffmpeg", reason="mp4 needs imageio-ffmpeg: pip install 'levade[video]'")
     path = video(motion, tmp_path / "a.mp4", slow=2, fps=20, size=SMALL)
     frames, seconds = ffmpeg.count_frames_and_secs(str(path))
     assert frames == len(frame_times(motion, slow=2, fps=20)) + 16

@@ -10,7 +10,7 @@ import pytest
 from levade.errors import LevadeError
 from levade.rightability.hulls import Hulls, tangent, turned
 
-pytest.importorskip("scipy", reason="hulls need scipy: pip install levade[rightability]")
+pytest.importorskip("scipy", reason="hulls need scipy: pip install 'levade[rightability]'")
 
 
 def box(a: float, b: float, c: float) -> np.ndarray:

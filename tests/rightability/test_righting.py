@@ -17,7 +17,7 @@ from levade.rightability.postures import _values, on_soles
 from levade.rightability.righting import Graph
 from levade.robots import Robot, load_robot
 
-pytest.importorskip("scipy", reason="hulls need scipy: pip install levade[rightability]")
+pytest.importorskip("scipy", reason="hulls need scipy: pip install 'levade[rightability]'")
 
 BOX = 0.1 * np.array(list(itertools.product((-1.0, 1.0), repeat=3)))
 

@@ -92,8 +92,8 @@ def test_urdfs_that_say_their_limits_are_robots_by_name(
     name: str, torque: tuple[float, ...], velocity: tuple[float, ...]
 ) -> None:
     if not any(place.startswith("example-robot-data:") for place in package_robots()):
-        pytest.skip("example-robot-data is not installed: pip install levade[robots]")
-    pytest.importorskip("trimesh", reason="reads .dae: pip install levade[robots]")
+        pytest.skip("example-robot-data is not installed: pip install 'levade[robots]'")
+    pytest.importorskip("trimesh", reason="reads .dae: pip install 'levade[robots]'")
     robot = loaded(name)
     assert robot.name == name
     assert (tuple(robot.limits.torque), tuple(robot.limits.velocity)) == (torque * 4, velocity * 4)

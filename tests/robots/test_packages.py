@@ -119,7 +119,7 @@ def installed(package: str) -> dict[str, Path]:
 def meshes() -> None:
     """Some robots' feet are .dae meshes."""
     for module in ("trimesh", "collada"):
-        pytest.importorskip(module, reason="reads .dae: pip install levade[meshes]")
+        pytest.importorskip(module, reason="reads .dae: pip install 'levade[meshes]'")
 
 
 def load(name: str) -> Robot | LevadeError:
@@ -210,7 +210,7 @@ def test_names_that_are_not_there(monkeypatch: pytest.MonkeyPatch) -> None:
     ):
         load_robot("example-robot-data:hyk")
     monkeypatch.setattr("levade.robots.packages.files", lambda package: [])
-    for name, how in (("example-robot-data:hyq", "levade[robots]"), ("mjlab:unitree_go1", "--no-deps mjlab")):
+    for name, how in (("example-robot-data:hyq", "'levade[robots]'"), ("mjlab:unitree_go1", "--no-deps mjlab")):
         with pytest.raises(LevadeError) as caught:
             load_robot(name)
         assert str(caught.value) == f"robot {name}: {name.partition(':')[0]} is not installed; pip install {how}"

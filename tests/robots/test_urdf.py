@@ -161,7 +161,7 @@ def test_a_foot_whose_shape_is_missing_is_an_error(file: Path, quadruped: type) 
 @pytest.mark.slow
 def test_a_mesh_that_is_no_mesh_is_said(file: Path, tmp_path: Path, quadruped: type) -> None:
     (tmp_path / "toy_description" / "urdf" / "part.dae").write_text("<collada/>")
-    pytest.importorskip("trimesh", reason="reads .dae: pip install levade[meshes]")
+    pytest.importorskip("trimesh", reason="reads .dae: pip install 'levade[meshes]'")
     robot = load(file, quadruped().urdf(), (SHAPE, MESH.format("part.dae")))
     assert "part.dae: not a mesh that can be read" in findings(robot, "warning")[0]
 
@@ -173,7 +173,7 @@ def test_a_collada_mesh_without_the_extra_says_what_to_install(
     (tmp_path / "toy_description" / "urdf" / "part.dae").write_text("<collada/>")
     monkeypatch.setitem(__import__("sys").modules, "trimesh", None)
     robot = load(file, quadruped().urdf(), (SHAPE, MESH.format("part.dae")))
-    assert "part.dae: MuJoCo does not read .dae; install levade[meshes]" in findings(robot, "warning")[0]
+    assert "part.dae: MuJoCo does not read .dae; pip install 'levade[meshes]'" in findings(robot, "warning")[0]
 
 
 @pytest.mark.slow

@@ -172,11 +172,11 @@ def report(results: Sequence[Result], directory: Path, *, format: str = "pdf") -
         raise LevadeError(f"{table}: cannot be written ({error.strerror})") from None
     written, missing = [table], list[str]()
     if importlib.util.find_spec("matplotlib") is None:
-        missing.append("figures need matplotlib; pip install levade[bench]")
+        missing.append("figures need matplotlib; pip install 'levade[bench]'")
     else:
         written += draw(results, directory, format=format)
     if importlib.util.find_spec("pyarrow") is None:
-        missing.append(f"{PARQUET} needs pyarrow; pip install levade[bench]")
+        missing.append(f"{PARQUET} needs pyarrow; pip install 'levade[bench]'")
     else:
         write_parquet(directory / PARQUET, results)
         written.append(directory / PARQUET)

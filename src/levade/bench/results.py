@@ -153,7 +153,7 @@ def write_parquet(path: Path, results: Sequence[Result]) -> None:
         import pyarrow
         import pyarrow.parquet
     except ImportError:
-        raise LevadeError("Parquet needs pyarrow; pip install levade[bench]") from None
+        raise LevadeError("Parquet needs pyarrow; pip install 'levade[bench]'") from None
     kinds = {"str": pyarrow.string(), "int": pyarrow.int64(), "float": pyarrow.float64(), "bool": pyarrow.bool_()}
     schema = pyarrow.schema([(name, kinds[kind.split(" ")[0]]) for name, kind in _KINDS.items()])
     table = pyarrow.Table.from_pylist([dataclasses.asdict(result) for result in results], schema=schema)

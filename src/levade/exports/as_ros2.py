@@ -3,7 +3,7 @@
     bag/metadata.yaml, bag/bag_0.mcap      /joint_trajectory, /joint_states, /tf, /robot_description
     joint_trajectory.yaml                  trajectory_msgs/msg/JointTrajectory
 
-It needs mcap (`pip install levade[ros2]`), not ROS. The bag begins at 1 s after the epoch, so the same motion gives the same
+It needs mcap (`pip install 'levade[ros2]'`), not ROS. The bag begins at 1 s after the epoch, so the same motion gives the same
 bytes.
 """
 
@@ -54,7 +54,7 @@ def check(motion: Motion) -> None:
     try:
         import mcap.writer  # noqa: F401
     except ImportError:
-        raise LevadeError("ros2: a bag needs mcap; pip install levade[ros2], or take csv", field="to") from None
+        raise LevadeError("ros2: a bag needs mcap; pip install 'levade[ros2]', or take csv", field="to") from None
 
 
 def write(content: Content, directory: Path) -> list[str]:

@@ -527,27 +527,7 @@ def main(arguments: list[str] | None = None) -> int:
     )
     parser.add_argument("--robot", metavar="MODULE:CLASS", help="your class with read, write and read_trunk")
     parser.add_argument("--attempts", type=int, default=3, help="largest number of attempts; by default 3")
-    parser.add_argument(
-        "--tolerance",
-        type=float,
-        default=1.0,
-        help="largest distance of joints from the simulation [rad]; by default 1",
-    )
-    parser.add_argument(
-        "--tilt-tolerance",
-        type=float,
-        default=2.0,
-        help="largest tilt of the trunk from the simulation [rad]; by default 2",
-    )
-    parser.add_argument(
-        "--speed-tolerance",
-        type=float,
-        default=20.0,
-        help="largest speed beyond that in the simulation [rad/s]; by default 20",
-    )
-    parser.add_argument(
-        "--no-clamp", action="store_true", help="also send positions beyond the joints' ranges, as in the simulation"
-    )
+    player.add_tolerances(parser, joints=1.0, tilt=2.0)
     options = parser.parse_args(arguments)
     tolerances = (options.tolerance, options.tilt_tolerance, options.speed_tolerance)
     if (options.state is None) == (options.robot is None):

@@ -780,29 +780,9 @@ def main(arguments: list[str] | None = None) -> int:
         default=0.5,
         help="largest distance from the start before the ramp [rad]; by default 0.5",
     )
-    parser.add_argument(
-        "--tolerance",
-        type=float,
-        default=0.5,
-        help="largest distance of joints from the simulation [rad]; by default 0.5",
-    )
-    parser.add_argument(
-        "--speed-tolerance",
-        type=float,
-        default=20.0,
-        help="largest speed beyond that in the simulation [rad/s]; by default 20",
-    )
-    parser.add_argument(
-        "--tilt-tolerance",
-        type=float,
-        default=1.0,
-        help="largest tilt of the trunk from the simulation [rad]; by default 1",
-    )
+    add_tolerances(parser, joints=0.5, tilt=1.0)
     parser.add_argument(
         "--no-feedback", action="store_true", help="play without the stabiliser, and do not read the trunk"
-    )
-    parser.add_argument(
-        "--no-clamp", action="store_true", help="also send positions beyond the joints' ranges, as in the simulation"
     )
     parser.add_argument(
         "--hold", type=float, default=0.0, help="how long to send the last row after the end [s]; by default 0"
@@ -856,6 +836,25 @@ def main(arguments: list[str] | None = None) -> int:
         return 1
     print(f"played to the end; largest tracking error {worst:.4f} rad")
     return 0
+
+
+def add_tolerances(parser: argparse.ArgumentParser, *, joints: float, tilt: float) -> None:
+    """Add --tolerance, --tilt-tolerance, --speed-tolerance and --no-clamp, which ask.py takes, too.
+
+    Args:
+        parser: The parser.
+        joints: Default of --tolerance [rad].
+        tilt: Default of --tilt-tolerance [rad].
+    """
+    for option, default, what in (
+        ("--tolerance", joints, "largest distance of joints from the simulation [rad]"),
+        ("--tilt-tolerance", tilt, "largest tilt of the trunk from the simulation [rad]"),
+        ("--speed-tolerance", 20.0, "largest speed beyond that in the simulation [rad/s]"),
+    ):
+        parser.add_argument(option, type=float, default=default, help=f"{what}; by default {default:g}")
+    parser.add_argument(
+        "--no-clamp", action="store_true", help="also send positions beyond the joints' ranges, as in the simulation"
+    )
 
 
 def why(stopped: BaseException) -> str:

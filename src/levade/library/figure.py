@@ -4,7 +4,7 @@
 
 Two discs show the two halves of the sphere of upward directions, seen from above and from below the robot, in an equal-area
 projection (Lambert's azimuthal). Each point is a fall. Near the middle of the second disc, the robot lies on its back. The
-figure needs matplotlib (`pip install levade[figures]`).
+figure needs matplotlib (`pip install 'levade[figures]'`).
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@
     found.scores["trees"].first, found.chosen
     save(found, Path("falls"))                      # from then on, the library answers by it
 
-Each kind is judged by cross-validation with five folds. Fitting needs scikit-learn (`pip install levade[learn]`). A fitted
+Each kind is judged by cross-validation with five folds. Fitting needs scikit-learn (`pip install 'levade[learn]'`). A fitted
 model consists of arrays, so answering needs only numpy (`levade.exports.asker.Learned`).
 """
 
@@ -93,7 +93,7 @@ def learn(library: Library) -> Learning:
     try:
         import sklearn  # noqa: F401
     except ImportError:
-        raise LevadeError("learning needs scikit-learn: pip install levade[learn]") from None
+        raise LevadeError("learning needs scikit-learn: pip install 'levade[learn]'") from None
     known = library.knowledge
     if len(known.falls) < _FEWEST or not len(known.motions):
         raise LevadeError(

@@ -11,7 +11,7 @@ speeds       speed of each joint, with its limit
 foot-forces  contact force on each foot
 kernels      the normalised kernels, and each policy with its weights (Fig. 1)
 
-The figures need matplotlib (`pip install levade[figures]`). The same motion gives the same bytes.
+The figures need matplotlib (`pip install 'levade[figures]'`). The same motion gives the same bytes.
 """
 
 from __future__ import annotations
@@ -168,7 +168,7 @@ def write_figures(drawings: Mapping[str, Callable[[], Any]], directory: Path, fo
         import matplotlib
         from matplotlib.backends.backend_agg import FigureCanvasAgg
     except ImportError:
-        raise LevadeError("figures need matplotlib; pip install levade[figures]") from None
+        raise LevadeError("figures need matplotlib; pip install 'levade[figures]'") from None
     # whatever would tell one run from another is left out
     metadata = {"pdf": {"CreationDate": None}, "svg": {"Date": None}, "png": {}}[format]
     written = []

@@ -2,7 +2,7 @@
 
     portrait(load_robot("hyq2max"), Path("hyq2max.png"))
 
-It needs pillow (`pip install levade[video]`) and OpenGL off screen (`levade.report.rendering`).
+It needs pillow (`pip install 'levade[video]'`) and OpenGL off screen (`levade.report.rendering`).
 """
 
 from __future__ import annotations

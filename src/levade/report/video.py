@@ -4,7 +4,7 @@
     video(motion, "rearing.gif", slow=10, camera=Camera(90, -5))
     strip(motion, "rearing.png", n=6)
 
-MP4 goes through imageio-ffmpeg, which brings its own ffmpeg (`pip install levade[video]`); the others need pillow.
+MP4 goes through imageio-ffmpeg, which brings its own ffmpeg (`pip install 'levade[video]'`); the others need pillow.
 """
 
 from __future__ import annotations
@@ -346,7 +346,7 @@ def load_pillow() -> Any:
     try:
         from PIL import Image, ImageDraw, ImageFont
     except ImportError:
-        raise LevadeError("pictures need pillow; pip install levade[video]") from None
+        raise LevadeError("pictures need pillow; pip install 'levade[video]'") from None
     pillow = ModuleType("pillow")
     pillow.__dict__.update(Image=Image, ImageDraw=ImageDraw, ImageFont=ImageFont)
     return pillow
@@ -356,5 +356,5 @@ def _ffmpeg() -> Any:
     try:
         import imageio_ffmpeg
     except ImportError:
-        raise LevadeError("an mp4 needs imageio-ffmpeg; pip install levade[video], or write a .gif") from None
+        raise LevadeError("an mp4 needs imageio-ffmpeg; pip install 'levade[video]', or write a .gif") from None
     return imageio_ffmpeg

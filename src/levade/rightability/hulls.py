@@ -11,7 +11,7 @@ mass meets, and while this vertical misses the face, the body tips over the edge
 All positions are relative to the centre of mass, in axes of the body (of the trunk, for a robot). A face is a triangle; a flat
 face with more corners is several triangles in one plane, of which `Hulls.plane` names one. `up` is the ground's normal, and
 `uphill` the horizontal direction in the ground that rises most, both in axes of the body. Needs scipy
-(`pip install levade[rightability]`).
+(`pip install 'levade[rightability]'`).
 """
 
 from __future__ import annotations
@@ -253,7 +253,7 @@ def _hull(points: Array) -> tuple[Array, Any, Any, Any]:
     try:
         from scipy.spatial import ConvexHull, QhullError
     except ImportError:
-        raise LevadeError("rightability needs scipy; pip install levade[rightability]") from None
+        raise LevadeError("rightability needs scipy; pip install 'levade[rightability]'") from None
     try:
         hull = ConvexHull(points)
     except (QhullError, ValueError):

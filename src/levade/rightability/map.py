@@ -5,7 +5,7 @@
 The discs are those of a library's figure (`levade.library.figure`): two halves of the sphere of upward directions in trunk
 axes, in an equal-area projection. A place is the attitude in which the robot is put down, in its neutral posture. Its colour
 says on what it comes to rest, without dynamics; hatching says that joints alone do not lead from there to upright. Points are
-the falls of a library, where they ended. Needs matplotlib (`pip install levade[figures]`).
+the falls of a library, where they ended. Needs matplotlib (`pip install 'levade[figures]'`).
 """
 
 from __future__ import annotations

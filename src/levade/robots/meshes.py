@@ -117,7 +117,8 @@ def _binary_stl(path: Path) -> bytes:
         import trimesh
     except ImportError:
         raise LevadeError(
-            f"{path.name}: MuJoCo does not read {path.suffix}; install levade[meshes], or convert it to binary .stl or .obj"
+            f"{path.name}: MuJoCo does not read {path.suffix}; "
+            "pip install 'levade[meshes]', or convert it to binary .stl or .obj"
         ) from None
     try:
         # from memory: given a path, it would also read the textures, which are larger than the mesh
@@ -126,7 +127,7 @@ def _binary_stl(path: Path) -> bytes:
     except Exception as error:  # readers of foreign formats raise exceptions of any kind
         if isinstance(error, ImportError):
             raise LevadeError(
-                f"{path.name}: reading {path.suffix} needs {error.name}; install levade[meshes]"
+                f"{path.name}: reading {path.suffix} needs {error.name}; pip install 'levade[meshes]'"
             ) from None
         raise LevadeError(f"{path.name}: not a mesh that can be read ({type(error).__name__}: {error})") from None
     if not len(faces) or not np.isfinite(vertices).all():

