@@ -16,6 +16,9 @@ import numpy as np
 from levade.arrays import Array
 from levade.rotations import rotate
 
+LEAST_SHARE = 1e-9
+"""Share of a linkage's largest torque that stands for the torque of zero, where shares of it are computed."""
+
 
 @dataclass(frozen=True)
 class TorqueCurve:
@@ -116,6 +119,22 @@ class JointLimits:
             return np.ones_like(joint_torque)
         used = np.abs(joint_torque) / self.stall_torque + np.abs(joint_velocity) / self.no_load_speed
         return 1 - np.where(joint_torque * joint_velocity > 0, used, 0.0)
+
+    def linkage_left(self, joint_position: Array, joint_torque: Array) -> Array:
+        """Compute the slack to the torque that linkages transmit at the joints' angles, as a share of it.
+
+        Args:
+            joint_position: Joint angles [rad], shape (..., joints).
+            joint_torque: Joint torques [Nm], shape (..., joints).
+
+        Returns:
+            Shares, shape (..., joints). A share is negative beyond the curve, and 1 for a joint without a linkage.
+        """
+        left = np.ones_like(joint_torque)
+        for joint, curve in self.torque_curves.items():
+            transmitted = np.maximum(curve(joint_position[..., joint]), LEAST_SHARE * curve.peak)
+            left[..., joint] = 1 - np.abs(joint_torque[..., joint]) / transmitted
+        return left
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from levade.costs import Criterion, Margins, Miss, clearance_of
-from levade.embodiment import JointLimits
+from levade.embodiment import JointLimits, TorqueCurve
 from levade.errors import LevadeError
 from levade.robots import load_robot
 from levade.trajectory import Trajectories
@@ -72,6 +72,22 @@ def test_margins_are_criteria_too(at_rest, quantity, expected):
     assert missed.holds(moved).tolist() == [False, True]
 
 
+def test_a_linkage_s_slack_is_a_share_of_what_it_transmits_there(at_rest):
+    """100 Nm at the best angle, cos(0.5) of it half a radian away: 40 Nm leave 0.6, and 1 - 0.4 / cos(0.5)."""
+    linked = dataclasses.replace(LIMITS, torque_curves={1: TorqueCurve(peak=100.0, rate=1.0, centre=1.0)})
+    torque, angle = np.zeros((2, 25, 2)), np.ones((2, 25, 2))
+    torque[:, 3], angle[1, 3, 1] = (1e6, -40.0), -1.5  # the other joint has no linkage; the curve is of |angle|
+    moved = dataclasses.replace(with_limits(at_rest, linked), joint_torque=torque, joint_position=angle)
+    left = np.array([0.6, 1 - 0.4 / np.cos(0.5)])
+    assert Margins(linkage=0.8)(moved) == pytest.approx(((0.8 - left) / 0.8) ** 2)
+    assert Margins(linkage=0.5)(moved).tolist() == [0.0, 0.0]
+    for trial, slack in enumerate(left):
+        met, missed = (Criterion("linkage_margin", minimum=slack + off, at="min") for off in (-1e-6, 1e-6))
+        assert met.holds(moved)[trial]
+        assert not missed.holds(moved)[trial]
+    assert Criterion("linkage_margin", minimum=1.0, at="min").holds(at_rest).all()
+
+
 def test_joints_without_limits_have_all_of_them_left(at_rest):
     ends = np.full(2, np.inf)
     none = JointLimits(-ends, ends, ends, ends)
@@ -103,7 +119,10 @@ def test_limits_come_with_the_robots_line():
 @pytest.mark.parametrize(
     ("wanted", "message"),
     [
-        ({}, "margins: none is wanted; give at least one of angle, speed, torque_speed, midplane, self_distance"),
+        (
+            {},
+            "margins: none is wanted; give at least one of angle, speed, torque_speed, linkage, midplane, self_distance",
+        ),
         ({"speed": 0.0}, "margins.speed: 0.0 should be a positive margin; leave it out if none is wanted"),
         ({"angle": float("nan")}, "margins.angle: nan should be a positive margin"),
     ],

@@ -32,7 +32,8 @@ def test_every_nominal_task_has_one(name: str, robot: Robot) -> None:
     plan = Plan.of(task, robot)
     within, robust = plan.within_limits(), plan.robust(0.5)
     for made in (within, robust, plan.closed_loop(0.5)):
-        assert (made.robot, made.scene, made.start, made.hold) == (task.robot, task.scene, task.start, task.hold)
+        assert (made.scene, made.start, made.hold) == (task.scene, task.start, task.hold)
+        assert made.robot == replace(task.robot, linkage=True)
         assert set(made.success) == {*task.success, *plan.limits}
         for key, criterion in task.success.items():
             one = made.success[key]
@@ -40,7 +41,11 @@ def test_every_nominal_task_has_one(name: str, robot: Robot) -> None:
                 *(criterion.quantity, criterion.target, criterion.minimum, criterion.at),
             )
             assert (one.tolerance or 0.0) >= (criterion.tolerance or 0.0)
-    assert set(plan.limits) == {"angle_margin", "speed_margin", "torque_speed_margin", "self_distance"}
+    assert set(plan.limits) == {
+        *("angle_margin", "speed_margin", "torque_speed_margin"),
+        "linkage_margin",
+        "self_distance",
+    }
     assert robust.horizon == 0.5
     assert robust.policy == within.policy
     assert plan.closed_loop(0.5, task.policy).policy == task.policy  # of the motion that it is around
@@ -79,10 +84,26 @@ def test_what_the_task_says_of_perturbed_models_counts(robot: Robot) -> None:
 
 def test_a_robot_without_speed_limits_or_lines_is_asked_for_neither(robot: Robot) -> None:
     limits = replace(robot.limits, velocity=np.full(12, np.inf), stall_torque=None, no_load_speed=None)
-    plan = Plan.of(load_task("rearing"), replace(robot, limits=limits))
+    plan = Plan.of(load_task("rearing"), replace(robot, limits=limits, curves={}))
     assert set(plan.limits) == {"angle_margin", "self_distance"}
     (margins,) = (cost.term for cost in plan.within_limits().costs.values() if isinstance(cost.term, Margins))
     assert (margins.speed, margins.torque_speed) == (None, None)
+
+
+def test_what_a_linkage_transmits_is_asked_of_search_and_certificate_alike(robot: Robot) -> None:
+    task = load_task("rearing")
+    plan = Plan.of(task, robot, Demands(linkage=0.2))
+    assert plan.limits["linkage_margin"].minimum == pytest.approx(0.21)
+    made = plan.within_limits()
+    (margins,) = (cost.term for cost in made.costs.values() if isinstance(cost.term, Margins))
+    assert margins.linkage == pytest.approx(0.3)
+    assert plan.robot.limits.torque_curves == robot.curves == load_robot("hyq2max", linkage=True).limits.torque_curves
+    assert set(robot.curves) == {2, 5, 8, 11}
+    assert made.robot.linkage  # so the certificate judges it
+    for other in (Plan.of(task, robot, replace(Demands(), linkage=None)), Plan.of(task, replace(robot, curves={}))):
+        assert "linkage_margin" not in other.limits
+        assert other.robot.limits.torque_curves == {}
+        assert other.within_limits().robot == task.robot
 
 
 def test_a_limit_of_the_task_s_own_stays(robot: Robot) -> None:
@@ -219,7 +240,7 @@ def test_without_demands_of_limits_the_goal_alone_is_searched_for_in_the_task_s_
     assert not {"margins", "duration"} & set(within.costs)
     assert plan.robust(0.3).robust is not None
     partly = Plan.of(task, robot, replace(Demands(), speed=None))
-    assert set(partly.limits) == {"angle_margin", "torque_speed_margin", "self_distance"}
+    assert set(partly.limits) == {"angle_margin", "torque_speed_margin", "linkage_margin", "self_distance"}
     margins = partly.within_limits().costs["margins"].term
     assert isinstance(margins, Margins)
     assert margins.speed is None

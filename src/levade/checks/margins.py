@@ -210,17 +210,14 @@ def _torque_speed(simulation: RecordedSimulation, required: float | None) -> Mar
 
 def _linkage(simulation: RecordedSimulation, required: float | None) -> Margin:
     """Compute the slack to the torque that linkages transmit at their angle."""
-    motion, joints = simulation.motion, simulation.embodiment.joint_names
+    motion, names = simulation.motion, simulation.embodiment.joint_names
     curves = _curves(simulation)
     if isinstance(curves, str):
         return Margin("share of limit", required=required, reason=curves)
-    joints = tuple(joints[joint] for joint in curves)
-    left = np.full(len(joints), np.inf)
-    for i, (joint, curve) in enumerate(curves.items()):
-        allowed = curve(motion["joint_position"][:, joint])
-        share = np.abs(motion["joint_torque"][:, joint]) / np.maximum(allowed, 1e-9 * curve.peak)
-        left[i] = 1 - share.max()
-    margin = _least("share of limit", joints, left, required)
+    limits = replace(simulation.embodiment.limits, torque_curves=curves)
+    left = limits.linkage_left(motion["joint_position"], motion["joint_torque"]).min(axis=0)
+    linked = sorted(curves)
+    margin = _least("share of limit", tuple(names[joint] for joint in linked), left[linked], required)
     if simulation.task.robot.linkage:
         return margin
     return replace(margin, passed=None, reason="the task does not ask for the linkage (robot: {linkage: true})")
@@ -258,19 +255,20 @@ def _flow(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margin]
 
 
 def _curves(simulation: RecordedSimulation) -> Mapping[int, TorqueCurve] | str:
-    """Read the linkage's curves from the robot's description, or say why there are none."""
-    robot = _description(simulation, linkage=True)
-    return robot if isinstance(robot, str) else robot.limits.torque_curves
+    """Return the linkage's curves of the motion's file, otherwise of the robot's description, or say why there are none."""
+    own = simulation.embodiment.limits.torque_curves
+    if own:
+        return own
+    robot = _description(simulation)
+    return robot if isinstance(robot, str) else robot.curves or "the robot has no linkage"
 
 
-def _description(simulation: RecordedSimulation, *, linkage: bool = False) -> Robot | str:
+def _description(simulation: RecordedSimulation) -> Robot | str:
     """Load the robot from its present description, or say why that is not possible."""
     try:
-        robot = replace(simulation.task.robot, linkage=linkage).load()
+        robot = replace(simulation.task.robot, linkage=False).load()
     except LevadeError as error:
-        text = str(error)
-        none = linkage and "linkage" in text
-        return "the robot has no linkage" if none else f"the robot's description cannot be read: {text}"
+        return f"the robot's description cannot be read: {error}"
     if robot.joint_names != simulation.embodiment.joint_names:
         return "the robot's description has other joints than the motion"
     return robot

@@ -14,7 +14,7 @@ from levade.costs.rows import Over, rows_over
 from levade.errors import LevadeError
 from levade.trajectory import Trajectories
 
-_WANTED = ("angle", "speed", "torque_speed", "midplane", "self_distance")
+_WANTED = ("angle", "speed", "torque_speed", "linkage", "midplane", "self_distance")
 
 
 @dataclass(frozen=True)
@@ -30,6 +30,8 @@ class Margins:
         speed: Margin to the speed limit, as a share of it.
         torque_speed: Margin to the actuator's line |torque| / stall_torque + |speed| / no_load_speed = 1 while driving, as a
             share. A drive can be beyond it, because its torque lags behind its speed.
+        linkage: Margin to the torque that a linkage transmits at its angle, as a share of it. Joints have a linkage if the robot
+            is loaded with it.
         midplane: How far each foot stays on its own side of the trunk's middle plane [m]. Legs that do not cross do not
             collide.
         self_distance: Distance between parts of the robot [m].
@@ -41,6 +43,7 @@ class Margins:
     angle: float | None = None
     speed: float | None = None
     torque_speed: float | None = None
+    linkage: float | None = None
     midplane: float | None = None
     self_distance: float | None = None
     over: Over = "all"
@@ -73,6 +76,9 @@ class Margins:
         if self.torque_speed is not None:
             left = limits.torque_speed_left(trajectories.joint_torque[:, rows], trajectories.joint_velocity[:, rows])
             missed.append(_shortfall(left.min(axis=1), self.torque_speed))
+        if self.linkage is not None:
+            left = limits.linkage_left(trajectories.joint_position[:, rows], trajectories.joint_torque[:, rows])
+            missed.append(_shortfall(left.min(axis=1), self.linkage))
         if self.midplane is not None:
             outward = [
                 leg.foot_position(trajectories.joint_position[:, rows])[..., 1] * (1.0 if leg.side == "left" else -1.0)

@@ -24,7 +24,7 @@ from levade.trajectory import Trajectories
 Quantity = Literal[
     "roll", "pitch", "yaw", "tilt", "x", "y", "height", "travel", "speed", "vertical_speed", "angular_speed",
     "lowest_foot", "highest_foot", "trunk_clearance", "angle_margin", "speed_margin", "torque_speed_margin",
-    "self_distance", "duration",
+    "linkage_margin", "self_distance", "duration",
 ]  # fmt: skip
 
 QUANTITIES: dict[str, str] = {
@@ -45,6 +45,7 @@ QUANTITIES: dict[str, str] = {
     "angle_margin": "rad",
     "speed_margin": "of limit",
     "torque_speed_margin": "of limit",
+    "linkage_margin": "of limit",
     "self_distance": "m",
     "duration": "s",
 }
@@ -99,7 +100,7 @@ def unit_of(quantity: str) -> str:
 
 CIRCULAR = ("roll", "pitch", "yaw")
 OF_FEET = ("lowest_foot", "highest_foot")
-MARGINS = ("angle_margin", "speed_margin", "torque_speed_margin", "self_distance")
+MARGINS = ("angle_margin", "speed_margin", "torque_speed_margin", "linkage_margin", "self_distance")
 
 Legs = str | tuple[str, ...]
 """Some of the legs: "all", "front", "middle", "hind", "left", "right", the name of a leg or an arm, or several of these."""
@@ -121,6 +122,7 @@ class Criterion:
     - ``angular_speed`` [rad/s]: norm of the trunk's angular velocity.
     - ``angle_margin`` [rad], ``speed_margin``, ``torque_speed_margin`` [share of the limit]: slack of the tightest joint to its
       range, its speed limit, its actuator's line (`levade.trajectory.JointLimits`).
+    - ``linkage_margin`` [share of the limit]: the same to the torque that its linkage transmits, for robots loaded with one.
     - ``self_distance`` [m]: least distance between two parts of the robot that may touch, negative if they overlap. Parts that
       are farther apart than the clearance count as that far.
     - ``duration`` [s]: the horizon T, if the search chooses it.
@@ -352,6 +354,8 @@ def _margin(quantity: str, trajectories: Trajectories, rows: slice) -> Array:
         left = np.minimum(limits.angle_left(trajectories.joint_position[:, rows]), np.pi)  # a joint without a range
     elif quantity == "speed_margin":
         left = limits.speed_left(trajectories.joint_velocity[:, rows])
+    elif quantity == "linkage_margin":
+        left = limits.linkage_left(trajectories.joint_position[:, rows], trajectories.joint_torque[:, rows])
     else:
         left = limits.torque_speed_left(trajectories.joint_torque[:, rows], trajectories.joint_velocity[:, rows])
     return left.min(axis=-1)

@@ -147,6 +147,8 @@ def certificate_data(
 def limits_data(motion: Motion) -> dict[str, Any]:
     """Return the slack to each kind of limit over time, as a share, and the joint that has the least.
 
+    A linkage lowers the torque limit of its joint.
+
     Args:
         motion: The motion.
     """
@@ -157,7 +159,7 @@ def limits_data(motion: Motion) -> dict[str, Any]:
     with np.errstate(invalid="ignore"):
         left: dict[str, Array] = {
             "speed": limits.speed_left(speed),
-            "torque": 1 - np.abs(torque) / limits.torque,
+            "torque": np.minimum(1 - np.abs(torque) / limits.torque, limits.linkage_left(angle, torque)),
             "range": limits.angle_left(angle) / half,
         }
         if limits.stall_torque is not None:

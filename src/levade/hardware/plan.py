@@ -41,10 +41,16 @@ LONGEST = 2.5
 _BEGIN = 1.4
 """Where the search for a duration begins, as a multiple of the task's duration: slower motions keep limits more easily."""
 
-ROOM = {"angle_margin": 0.0, "speed_margin": 0.01, "torque_speed_margin": 0.01, "self_distance": 0.0}
+ROOM = {
+    "angle_margin": 0.0,
+    "speed_margin": 0.01,
+    "torque_speed_margin": 0.01,
+    "linkage_margin": 0.01,
+    "self_distance": 0.0,
+}
 """Quantity -> least slack to the limit on the model [rad, shares, m]. The search stops once the motion leaves this much."""
 
-WANTED = {"angle": 0.05, "speed": 0.1, "torque_speed": 0.1, "self_distance": 0.01}
+WANTED = {"angle": 0.05, "speed": 0.1, "torque_speed": 0.1, "linkage": 0.1, "self_distance": 0.01}
 """Slack that the cost of margins asks for: more, since drives, joints and shanks never equal those of the model."""
 
 _KERNELS, _VARIANCE = 6, 0.02
@@ -97,8 +103,8 @@ class Plan:
     """The searches for a task on a robot.
 
     Attributes:
-        task: The task as the user gave it.
-        robot: Its robot.
+        task: The task as the user gave it. If the robot has a linkage and the demands name it, the task asks for it, too.
+        robot: Its robot, with its linkage in this case.
         goal: Criterion -> what is good enough on hardware: the task's own criterion, with a tolerance of at least `tolerance`.
         limits: Criterion -> the slack to keep for each kind of limit that the robot has, or what the task itself asks for.
     """
@@ -117,15 +123,14 @@ class Plan:
             robot: Its robot.
             demands: Demands of the certificate. Defaults to the task's, or else to `levade.tasks.Demands`.
         """
+        demands = demands or task.hardware or Demands()
+        if robot.curves and demands.linkage is not None:
+            robot, task = robot.with_linkage(), replace(task, robot=replace(task.robot, linkage=True))
         size, own = dimensions(robot), {**task.success, **task.good_enough}
         goal = {name: _good_enough(one, size) for name, one in own.items() if one.quantity not in ROOM}
         asked = {name: one for name, one in task.success.items() if one.quantity in ROOM}
         known = {one.quantity for one in asked.values()}
-        limits = {
-            name: one
-            for name, one in _limits(robot, demands or task.hardware or Demands()).items()
-            if name not in known
-        }
+        limits = {name: one for name, one in _limits(robot, demands).items() if name not in known}
         return cls(task, robot, goal, {**limits, **asked})
 
     @property
@@ -313,6 +318,7 @@ _OF_MARGINS = {
     "angle_margin": "angle",
     "speed_margin": "speed",
     "torque_speed_margin": "torque_speed",
+    "linkage_margin": "linkage",
     "self_distance": "self_distance",
 }
 """Quantity -> its name in `levade.costs.Margins`."""
@@ -353,12 +359,14 @@ def _limits(robot: Robot, demands: Demands) -> dict[str, Criterion]:
         "angle_margin": demands.position,
         "speed_margin": demands.speed,
         "torque_speed_margin": demands.torque_speed,
+        "linkage_margin": demands.linkage,
         "self_distance": None if demands.self_collision is None else 0.0,
     }
     there = {
         "angle_margin": bool(np.isfinite([limits.lower, limits.upper]).any()),
         "speed_margin": bool(np.isfinite(limits.velocity).any()),
         "torque_speed_margin": limits.stall_torque is not None,
+        "linkage_margin": bool(limits.torque_curves),
         "self_distance": True,
     }
     return {

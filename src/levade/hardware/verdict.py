@@ -86,6 +86,11 @@ def _of_margin(name: str, margin: Margin, motion: Motion) -> str:
             f"{margin.least} leaves {margin.value:.0%} of its stall torque to its torque-speed line{asked}: try a stronger"
             " joint, a slower motion, or a goal that asks for less"
         )
+    if name == "linkage":
+        return (
+            f"{margin.least} leaves {margin.value:.0%} of the torque that its linkage transmits{asked}: try a stronger joint, other"
+            " postures, a slower motion, or a goal that asks for less"
+        )
     if name == "position":
         return (
             f"{margin.least} leaves {margin.value:.3g} rad of its range, but {required:.3g} rad should be left: try a wider"

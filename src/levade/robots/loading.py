@@ -112,12 +112,13 @@ def load_robot(
     joints = bare.joints
     ranges = np.array([bare.ranges[joint] for joint in joints])
     neutral = dict(zip(joints, postures["neutral"].tolist(), strict=True))
+    curves = _curves(joints, path, form)
     limits = JointLimits(
         lower=ranges[:, 0],
         upper=ranges[:, 1],
         velocity=drives.velocity,
         torque=drives.torque,
-        torque_curves=_curves(joints, path, form) if linkage else {},
+        torque_curves=curves if linkage else {},
         assumed_velocity=drives.assumed_velocity,
         assumed_torque=drives.assumed_torque,
     )
@@ -143,6 +144,7 @@ def load_robot(
         description=form.description,
         variant=variant,
         linkage=linkage,
+        curves=curves,
         source=str(path),
         findings=tuple(draft.findings),
         origins=draft.origins,

@@ -13,14 +13,14 @@ each, position and velocity, interleaved.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import mujoco
 import numpy as np
 
 from levade.arrays import Array
-from levade.embodiment import Embodiment, JointLimits, LegGeometry
+from levade.embodiment import Embodiment, JointLimits, LegGeometry, TorqueCurve
 from levade.errors import LevadeError, did_you_mean
 from levade.robots.actuation import Actuation
 from levade.robots.findings import Finding
@@ -52,6 +52,7 @@ class Robot:
         description: One line for listings.
         variant: Name of the description's variant. None for the plain model.
         linkage: Whether ``limits`` has the linkage's torque curves.
+        curves: Index of each joint with a linkage -> the linkage's torque curve, whether ``limits`` has it or not.
         source: Path of the description, for messages.
         findings: What was noticed, chosen and left out when the robot was read.
         origins: "legs", "neutral", "torque", "velocity", "gains" and, if joints are held, "fixed" -> where it comes from.
@@ -70,6 +71,7 @@ class Robot:
     description: str = ""
     variant: str | None = None
     linkage: bool = False
+    curves: Mapping[int, TorqueCurve] = field(default_factory=dict)
     source: str = ""
     findings: tuple[Finding, ...] = ()
     origins: Mapping[str, str] = field(default_factory=dict)
@@ -190,6 +192,10 @@ class Robot:
                 )
             angles[i] = angle
         return angles
+
+    def with_linkage(self) -> Robot:
+        """Return the same robot with torque limits lowered by its linkages' curves, as `load_robot` does with ``linkage``."""
+        return replace(self, linkage=True, limits=replace(self.limits, torque_curves=self.curves))
 
     def role_words(self, leg: Leg) -> tuple[str, ...]:
         """Describe in words what each joint of a limb does.
