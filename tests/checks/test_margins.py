@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from pathlib import Path
 
 import mujoco
 import numpy as np
@@ -12,6 +13,7 @@ import pytest
 from levade.checks import Demands, margins
 from levade.checks.contacts import landings, poses, scene_forces
 from levade.motions import Motion, RecordedSimulation
+from levade.robots import load_robot
 
 Change = Callable[..., Motion]
 
@@ -123,6 +125,68 @@ def test_what_heats_and_what_all_joints_take_at_once(standing: Motion) -> None:
     driving = max(sum(max(t * v, 0.0) for t, v in zip(*row, strict=True)) for row in rows)
     assert found["robot_power"].value == pytest.approx(driving)
     assert found["robot_power"].passed is False
+
+
+WARM = """
+name: warm
+model: {model}
+actuations:
+  motors:
+    kind: dcmotor
+    stall_torque: 400
+    no_load_speed: 35
+    kp: 600
+    kd: 20
+    winding: {{motorconst: 0.5, gear: 10, current: 40, resistance: 0.2, thermal: {{resistance: 2, capacitance: 5{limit}}}}}
+"""
+
+
+def with_windings(motion: Motion, change: Change, place: Path, limit: str = "", **arrays: np.ndarray) -> Motion:
+    """The motion of a robot whose description has windings: 5 Nm/A, 40 A, 0.2 ohm, 10 s."""
+    model = Path(load_robot("hyq2max").source).with_name("hyq2max.xml")
+    (place / "robot.yaml").write_text(WARM.format(model=model, limit=limit))
+    named = {**motion.meta["task"]["robot"], "name": str(place / "robot.yaml")}
+    return change(motion, {"task": {**motion.meta["task"], "robot": named}}, **arrays)
+
+
+def test_windings_have_a_current_and_a_temperature(standing: Motion, changed: Change, tmp_path: Path) -> None:
+    """At 150 Nm one takes 30 of 40 A, which is 180 W: from 25 degC it is 360 K (1 - e^(-t / 10 s)) warmer."""
+    torque = np.zeros_like(standing["joint_torque"])
+    torque[:, 4] = -150.0
+    moved = with_windings(standing, changed, tmp_path, ", limit: 75", joint_torque=torque)
+    found = margins(RecordedSimulation(moved), Demands())
+    name = moved.joint_names[4]
+    current, warm = found["current"], found["winding_temperature"]
+    assert (current.least, current.value, current.passed) == (name, pytest.approx(0.25), True)
+    assert current.said == "30 A of 40 A"
+    assert current.more["rms_A"][name] == pytest.approx(30.0)
+    rise = 360.0 * (1 - math.exp(-moved.duration / 10.0))
+    assert warm.more["hottest_C"][name] == pytest.approx(25.0 + rise)
+    assert (warm.least, warm.value, warm.passed) == (name, pytest.approx((50 - rise) / 50), True)
+    assert warm.said == f"{25 + rise:.1f} °C of 75 °C"
+    assert warm.more["if_repeated_C"][name] == pytest.approx(385.0)
+    speed = np.zeros_like(torque)
+    speed[:, 4] = -2.0
+    driving = margins(RecordedSimulation(changed(moved, joint_velocity=speed)), Demands(current=0.3))
+    assert driving["current"].failed == (name,)
+    assert driving["robot_power"].value == pytest.approx(300.0)
+    assert driving["robot_power"].more["with_winding_heat"] == pytest.approx(480.0)
+
+
+def test_an_assumed_temperature_is_not_judged_and_unknown_windings_are_said(
+    standing: Motion, changed: Change, tmp_path: Path
+) -> None:
+    torque = np.full_like(standing["joint_torque"], 200.0)
+    moved = with_windings(standing, changed, tmp_path, joint_torque=torque)
+    warm = margins(RecordedSimulation(moved), Demands(winding_temperature=0.9))["winding_temperature"]
+    assert (warm.passed, warm.unknown) == (None, moved.joint_names)
+    assert "the limit is assumed" in warm.reason
+    assert "assumed 100 °C" in warm.said
+    plain = margins(RecordedSimulation(standing), Demands())
+    assert (plain["current"].value, plain["current"].passed, plain["current"].unknown) == (None, None, ())
+    assert plain["current"].reason == plain["winding_temperature"].reason == "the drives are hydraulic"
+    asked = margins(RecordedSimulation(standing), Demands(current=0.1))["current"]
+    assert asked.unknown == standing.joint_names
 
 
 def test_flow_is_displacement_times_speed(standing: Motion, changed: Change) -> None:

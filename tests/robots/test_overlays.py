@@ -60,6 +60,20 @@ def test_lines_are_those_of_the_sources(name: str, joint: str, speed: float, tor
     assert line(name, joint, speed) == pytest.approx(torque, rel=0.01, abs=0.02)
 
 
+@needs_models
+def test_mini_cheetah_has_windings_that_bear_40_amperes() -> None:
+    """At its torque limit each motor takes the 40 A of the source, and warms up within 40 s."""
+    robot = loaded("mini_cheetah")
+    winding = getattr(robot.actuation, "winding", None)
+    assert winding is not None
+    assert winding.currents(robot.limits.torque) == pytest.approx(np.full(12, 40.0), rel=0.01)
+    assert winding.current.tolist() == [40.0] * 12
+    assert winding.thermal is not None
+    assert (winding.thermal.resistance * winding.thermal.capacitance).tolist() == [40.0] * 12
+    assert winding.thermal.assumed
+    assert loaded("go1").actuation.winding is None
+
+
 @pytest.mark.skipif(find_spec("mjlab") is None, reason="mjlab is not installed: pip install --no-deps mjlab")
 def test_g1_has_the_motors_and_rotors_of_the_sources() -> None:
     robot = loaded("g1")

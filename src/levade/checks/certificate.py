@@ -167,9 +167,9 @@ def _off(apart: Mapping[str, float]) -> str:
 
 def _number(margin: Margin) -> str:
     if margin.value is None:
-        return "none" if margin.unit == "m" else ""
+        return margin.said or ("none" if margin.unit == "m" else "")
     if margin.unit.startswith("share"):
-        return f"{margin.value:+.1%} left, {margin.least}"
+        return f"{margin.value:+.1%} left, {margin.least}{margin.said and f': {margin.said}'}"
     return f"{margin.value:.4g} {margin.unit}, {margin.least}"
 
 

@@ -14,6 +14,7 @@ from levade.embodiment import TorqueCurve
 from levade.errors import LevadeError
 from levade.motions import RecordedSimulation
 from levade.robots import PID, Robot
+from levade.robots.winding import Winding
 from levade.tasks import Demands
 
 _ROUNDING = 1e-6
@@ -39,6 +40,7 @@ class Margin:
         unknown: Names whose limit is not known, or only assumed; they never fail.
         passed: Whether the demand is met; None if nothing is demanded, or if nothing fails but something is unknown.
         reason: Why the margin is not judged or not available.
+        said: The least slack in words, in the unit of the limit itself.
         more: Further numbers.
     """
 
@@ -51,6 +53,7 @@ class Margin:
     unknown: tuple[str, ...] = ()
     passed: bool | None = None
     reason: str = ""
+    said: str = ""
     more: Mapping[str, Any] = field(default_factory=dict)
 
     def to_json(self) -> dict[str, Any]:
@@ -75,9 +78,14 @@ def margins(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margi
         Kind of limit -> margin.
     """
     motion, limits = simulation.motion, simulation.embodiment.limits
-    joints = simulation.embodiment.joint_names
+    joints, robot = simulation.embodiment.joint_names, _description(simulation)
+    winding = _winding(robot)
     angle, speed, torque = (motion[f"joint_{name}"] for name in ("position", "velocity", "torque"))
     power, energy = np.abs(torque * speed), _energy(torque * speed, simulation.timestep)
+    heated = {}
+    if isinstance(winding, Winding) and winding.resistance is not None:
+        electrical = np.maximum(torque * speed, 0.0) + winding.heat(torque)
+        heated = {"with_winding_heat": float(electrical.sum(axis=1).max())}
     at_limit = (np.abs(torque) >= limits.torque * (1 - 1e-9)).mean(axis=0)
     found = {
         "position": _least("rad", joints, limits.angle_left(angle).min(axis=0), demands.position),
@@ -97,14 +105,14 @@ def margins(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margi
             more={"time_at_limit": dict(zip(joints, at_limit.tolist(), strict=True))},
         ),
         "torque_speed": _torque_speed(simulation, demands.torque_speed),
-        "linkage": _linkage(simulation, demands.linkage),
+        "linkage": _linkage(simulation, robot, demands.linkage),
         "power": _most(
             "W",
             dict(zip(joints, power.max(axis=0).tolist(), strict=True)),
             demands.power,
             more=energy,
         ),
-        "robot_power": _most("W", {"robot": energy["robot_peak"]}, demands.robot_power),
+        "robot_power": _most("W", {"robot": energy["robot_peak"]}, demands.robot_power, more=heated),
         "torque_rms": _least(
             "share of limit",
             joints,
@@ -112,8 +120,10 @@ def margins(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margi
             demands.torque_rms,
             assumed=limits.assumed_torque,
         ),
+        "current": _current(simulation, winding, demands.current),
+        "winding_temperature": _temperature(simulation, winding, demands.winding_temperature),
     }
-    return found | _flow(simulation, demands) | _contacts(simulation, demands) | _impacts(simulation, demands)
+    return found | _flow(simulation, robot, demands) | _contacts(simulation, demands) | _impacts(simulation, demands)
 
 
 def _left(most: Array, limit: Array) -> Array:
@@ -208,10 +218,10 @@ def _torque_speed(simulation: RecordedSimulation, required: float | None) -> Mar
     )
 
 
-def _linkage(simulation: RecordedSimulation, required: float | None) -> Margin:
+def _linkage(simulation: RecordedSimulation, robot: Robot | str, required: float | None) -> Margin:
     """Compute the slack to the torque that linkages transmit at their angle."""
     motion, names = simulation.motion, simulation.embodiment.joint_names
-    curves = _curves(simulation)
+    curves = _curves(simulation, robot)
     if isinstance(curves, str):
         return Margin("share of limit", required=required, reason=curves)
     limits = replace(simulation.embodiment.limits, torque_curves=curves)
@@ -223,13 +233,85 @@ def _linkage(simulation: RecordedSimulation, required: float | None) -> Margin:
     return replace(margin, passed=None, reason="the task does not ask for the linkage (robot: {linkage: true})")
 
 
-def _flow(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margin]:
+def _winding(robot: Robot | str) -> Winding | str:
+    """Return the windings that the robot's description gives, or say why there are none."""
+    if isinstance(robot, str):
+        return robot
+    if isinstance(robot.actuation, PID) or robot.actuation.winding is None:
+        hydraulic = not isinstance(robot.actuation, PID) and robot.actuation.supply_pressure is not None
+        return (
+            "the drives are hydraulic"
+            if hydraulic
+            else "the robot's description has no windings; torque rms and robot power stand in for it"
+        )
+    return robot.actuation.winding
+
+
+def _without(simulation: RecordedSimulation, reason: str, required: float | None) -> Margin:
+    """Make the margin of windings that are not known. It is unknown only if the user demands some slack."""
+    unknown = simulation.embodiment.joint_names if required else ()
+    return Margin("share of limit", required=required, unknown=unknown, reason=reason)
+
+
+def _current(simulation: RecordedSimulation, winding: Winding | str, required: float | None) -> Margin:
+    """Compute the slack to the windings' current limits."""
+    if isinstance(winding, str):
+        return _without(simulation, winding, required)
+    joints = simulation.embodiment.joint_names
+    current = winding.currents(simulation.motion["joint_torque"])
+    peak, rms = current.max(axis=0), np.sqrt(np.square(current).mean(axis=0))
+    margin = _least(
+        "share of limit",
+        joints,
+        _left(peak, winding.current),
+        required,
+        reason="the robot's description gives no current limit",
+        more={
+            "peak_A": dict(zip(joints, peak.tolist(), strict=True)),
+            "rms_A": dict(zip(joints, rms.tolist(), strict=True)),
+        },
+    )
+    least = joints.index(margin.least) if margin.least else int(np.argmax(peak))
+    limit = f" of {winding.current[least]:.3g} A" if margin.least else f", {joints[least]}"
+    return replace(margin, said=f"{peak[least]:.3g} A{limit}")
+
+
+def _temperature(simulation: RecordedSimulation, winding: Winding | str, required: float | None) -> Margin:
+    """Compute the slack to the highest temperature of windings, as a share of the rise from the ambient temperature."""
+    if isinstance(winding, Winding) and winding.thermal is None:
+        winding = "the robot's description does not say how its windings warm up; torque rms stands in for it"
+    if isinstance(winding, str):
+        return replace(_without(simulation, winding, required), unit="share of rise")
+    joints, thermal, torque = simulation.embodiment.joint_names, winding.thermal, simulation.motion["joint_torque"]
+    assert thermal is not None
+    hottest = winding.temperatures(torque, simulation.timestep).max(axis=0)
+    repeated = winding.repeated(torque)
+    margin = _least(
+        "share of rise",
+        joints,
+        (thermal.limit - hottest) / (thermal.limit - thermal.ambient),
+        required,
+        assumed=range(len(joints)) if thermal.assumed else (),
+        more={
+            "hottest_C": dict(zip(joints, hottest.tolist(), strict=True)),
+            "ambient_C": dict(zip(joints, thermal.ambient.tolist(), strict=True)),
+            "if_repeated_C": {
+                joint: float(value) if np.isfinite(value) else None
+                for joint, value in zip(joints, repeated, strict=True)
+            },
+        },
+    )
+    least = joints.index(margin.least)
+    known = "assumed " * thermal.assumed
+    return replace(margin, said=f"{hottest[least]:.1f} °C of {known}{thermal.limit[least]:.0f} °C")
+
+
+def _flow(simulation: RecordedSimulation, robot: Robot | str, demands: Demands) -> dict[str, Margin]:
     """Compute the oil flow of each hydraulic joint, and of all of them together.
 
     A drive displaces at least the ratio of its torque limit to the supply's pressure per radian; with losses, more.
     """
     motion, limits = simulation.motion, simulation.embodiment.limits
-    robot = _description(simulation)
     actuation = robot if isinstance(robot, str) else robot.actuation
     pressure = None if isinstance(actuation, str | PID) else actuation.supply_pressure
     if pressure is None:
@@ -254,12 +336,11 @@ def _flow(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margin]
     }
 
 
-def _curves(simulation: RecordedSimulation) -> Mapping[int, TorqueCurve] | str:
+def _curves(simulation: RecordedSimulation, robot: Robot | str) -> Mapping[int, TorqueCurve] | str:
     """Return the linkage's curves of the motion's file, otherwise of the robot's description, or say why there are none."""
     own = simulation.embodiment.limits.torque_curves
     if own:
         return own
-    robot = _description(simulation)
     return robot if isinstance(robot, str) else robot.curves or "the robot has no linkage"
 
 

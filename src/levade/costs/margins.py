@@ -30,8 +30,8 @@ class Margins:
         speed: Margin to the speed limit, as a share of it.
         torque_speed: Margin to the actuator's line |torque| / stall_torque + |speed| / no_load_speed = 1 while driving, as a
             share. A drive can be beyond it, because its torque lags behind its speed.
-        linkage: Margin to the torque that a linkage transmits at its angle, as a share of it. Joints have a linkage if the robot
-            is loaded with it.
+        linkage: Margin to the torque that a linkage transmits at its angle, as a share of it. Joints have one if the robot is
+            loaded with it.
         midplane: How far each foot stays on its own side of the trunk's middle plane [m]. Legs that do not cross do not
             collide.
         self_distance: Distance between parts of the robot [m].

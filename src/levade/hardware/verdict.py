@@ -88,8 +88,8 @@ def _of_margin(name: str, margin: Margin, motion: Motion) -> str:
         )
     if name == "linkage":
         return (
-            f"{margin.least} leaves {margin.value:.0%} of the torque that its linkage transmits{asked}: try a stronger joint, other"
-            " postures, a slower motion, or a goal that asks for less"
+            f"{margin.least} leaves {margin.value:.0%} of the torque that its linkage transmits{asked}: try a stronger joint,"
+            " other postures, a slower motion, or a goal that asks for less"
         )
     if name == "position":
         return (

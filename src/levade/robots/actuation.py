@@ -18,6 +18,7 @@ import mujoco
 import numpy as np
 
 from levade.arrays import Array
+from levade.robots.winding import Winding
 
 # MjsActuator.ctrlspec, a bit per input: "pos" is 1, "vel" is 2
 _POSITION_AND_VELOCITY = 3
@@ -72,6 +73,7 @@ class DCMotor:
         no_load_speed: Speed at which the line reaches zero torque [rad/s], shape (joints,).
         time_constant: First-order lag from commanded to delivered torque [s]; 0 for none.
         supply_pressure: Supply pressure of a hydraulic drive [Pa]. None for other drives. The engine does not use it.
+        winding: Windings of electric drives. None if nothing is known of them. The engine does not use them.
     """
 
     name: str
@@ -82,6 +84,7 @@ class DCMotor:
     no_load_speed: Array
     time_constant: float
     supply_pressure: float | None = None
+    winding: Winding | None = None
 
     def attach(self, spec: mujoco.MjSpec, joint_names: Sequence[str], *, gain_scale: float = 1.0) -> None:
         """Add one actuator per joint to ``spec``, in the order given and named after its joint.

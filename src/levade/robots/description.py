@@ -19,6 +19,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 from levade.arrays import Array
 from levade.document import kind_of, read_yaml
 from levade.errors import LevadeError, did_you_mean
+from levade.robots.winding import AMBIENT, HOTTEST, Thermal, Winding
 
 Number = Annotated[float, Field(allow_inf_nan=False)]
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
@@ -96,6 +97,46 @@ class PIDForm(_Form):
     torque: PerJoint | None = None
 
 
+class ThermalForm(_Form):
+    """Describes how windings warm up (see `levade.robots.winding.Thermal`). Two of the first three determine the third.
+
+    Attributes:
+        resistance: Thermal resistance from the winding to its surroundings [K/W].
+        capacitance: Heat capacity of the winding [J/K].
+        timeconst: Thermal time constant [s]: resistance times capacitance.
+        tempcoef: Relative growth of the electrical resistance with temperature [1/K]; 0.0039 for copper.
+        reftemp: Temperature at which the electrical resistance is given [degC].
+        ambient: Temperature of the surroundings, at which a motion begins [degC].
+        limit: Highest temperature of the winding [degC]. Assumed if it is left out.
+    """
+
+    resistance: PerJoint | None = None
+    capacitance: PerJoint | None = None
+    timeconst: PerJoint | None = None
+    tempcoef: PerJointOrZero = {"*": 0.0}
+    reftemp: Number = AMBIENT
+    ambient: Number = AMBIENT
+    limit: Angles | None = None
+
+
+class WindingForm(_Form):
+    """Describes the windings of electric drives (see `levade.robots.winding.Winding`).
+
+    Attributes:
+        motorconst: Torque constant of the motor [Nm/A].
+        gear: Turns of the motor for one of the joint. Defaults to 1.
+        current: Largest current of the motor [A].
+        resistance: Electrical resistance in which the current heats the winding with I^2 R [ohm].
+        thermal: How windings warm up.
+    """
+
+    motorconst: PerJoint
+    gear: PerJoint = {"*": 1.0}
+    current: PerJoint | None = None
+    resistance: PerJoint | None = None
+    thermal: ThermalForm | None = None
+
+
 class DCMotorForm(_Form):
     """Describes motors whose torque falls with speed (see `levade.robots.actuation.DCMotor`).
 
@@ -108,6 +149,7 @@ class DCMotorForm(_Form):
         no_load_speed: Speed at which the line reaches zero torque [rad/s].
         time_constant: First-order lag of the torque [s].
         supply_pressure: Supply pressure of hydraulic drives [Pa].
+        winding: Windings of electric drives.
     """
 
     kind: Literal["dcmotor"]
@@ -118,6 +160,7 @@ class DCMotorForm(_Form):
     no_load_speed: PerJoint
     time_constant: NotNegative = 0.0
     supply_pressure: Positive | None = None
+    winding: WindingForm | None = None
 
 
 ActuationForm = Annotated[PIDForm | DCMotorForm, Field(discriminator="kind")]
@@ -257,6 +300,63 @@ def joint_array(table: Mapping[str, float], joints: Iterable[str], where: str) -
         LevadeError: As in `per_joint`.
     """
     return np.array(list(per_joint(table, joints, where).values()), dtype=float)
+
+
+def read_winding(form: WindingForm, joints: Iterable[str], where: str) -> Winding:
+    """Make the windings that a description gives.
+
+    Args:
+        form: The description's table.
+        joints: Names of all joints, in order.
+        where: Prefix of messages.
+
+    Returns:
+        The windings, in joint order.
+
+    Raises:
+        LevadeError: As in `per_joint`, or if the thermal data lack something, or begin above their limit.
+    """
+    joints = list(joints)
+
+    def values(table: Mapping[str, float], key: str) -> Array:
+        return joint_array(table, joints, f"{where}.{key}")
+
+    current = np.full(len(joints), np.inf) if form.current is None else values(form.current, "current")
+    motorconst = values(form.motorconst, "motorconst") * values(form.gear, "gear")
+    if form.resistance is None:
+        if form.thermal is not None:
+            raise LevadeError(f"{where}.resistance: missing; the temperature follows from it")
+        return Winding(motorconst, current)
+    resistance = values(form.resistance, "resistance")
+    if form.thermal is None:
+        return Winding(motorconst, current, resistance)
+    thermal, inside = form.thermal, f"{where}.thermal"
+    tables = {"resistance": thermal.resistance, "capacitance": thermal.capacitance, "timeconst": thermal.timeconst}
+    given = {key: values(table, f"thermal.{key}") for key, table in tables.items() if table is not None}
+    if len(given) != 2:
+        raise LevadeError(f"{inside}: has {len(given)} of resistance, capacitance and timeconst; give two of them")
+    if "resistance" not in given:
+        given["resistance"] = given["timeconst"] / given["capacitance"]
+    if "capacitance" not in given:
+        given["capacitance"] = given["timeconst"] / given["resistance"]
+    none = {"*": HOTTEST}
+    limit = values(none if thermal.limit is None else thermal.limit, "thermal.limit")
+    if (limit <= thermal.ambient).any():
+        raise LevadeError(f"{inside}.limit: {limit.min():g} degC is not above the ambient {thermal.ambient:g} degC")
+    return Winding(
+        motorconst,
+        current,
+        resistance,
+        Thermal(
+            resistance=given["resistance"],
+            capacitance=given["capacitance"],
+            tempcoef=values(thermal.tempcoef, "thermal.tempcoef"),
+            reftemp=np.full(len(joints), thermal.reftemp),
+            ambient=np.full(len(joints), thermal.ambient),
+            limit=limit,
+            assumed=thermal.limit is None,
+        ),
+    )
 
 
 def _first(error: ValidationError) -> str:

@@ -17,6 +17,7 @@ from levade.robots.actuation import PID, Actuation, DCMotor
 from levade.robots.findings import named_joints, note, warning
 from levade.robots.preparing import TIMESTEP
 from levade.robots.reading import Draft
+from levade.robots.servos import windings
 from levade.robots.standing import Bare
 
 if TYPE_CHECKING:
@@ -210,7 +211,7 @@ def find_actuation(
     Returns:
         The actuation, in joint order.
     """
-    from levade.robots.description import PIDForm, joint_array
+    from levade.robots.description import DCMotorForm, PIDForm, joint_array, read_winding
 
     joints = bare.joints
     name = name or next(iter(form.actuations), SERVO)
@@ -239,11 +240,15 @@ def find_actuation(
     if chosen is None:
         lines = [gains.speed_line(float(t), float(v)) for t, v in zip(torques, velocity, strict=True)]
         stall, no_load = np.array(lines).T
-        return DCMotor(name, kps, kds, torques, stall, no_load, 0.0)
+        return DCMotor(name, kps, kds, torques, stall, no_load, 0.0, winding=windings(draft.windings, joints))
     stall, no_load = values("stall_torque"), values("no_load_speed")
     assert stall is not None
     assert no_load is not None
-    return DCMotor(name, kps, kds, torques, stall, no_load, chosen.time_constant, chosen.supply_pressure)
+    assert isinstance(chosen, DCMotorForm)
+    winding = windings(draft.windings, joints)
+    if chosen.winding is not None:
+        winding = read_winding(chosen.winding, joints, f"{path}: actuations.{name}.winding")
+    return DCMotor(name, kps, kds, torques, stall, no_load, chosen.time_constant, chosen.supply_pressure, winding)
 
 
 def _gains(

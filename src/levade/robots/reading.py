@@ -30,6 +30,7 @@ from levade.robots.quiet import quiet
 from levade.robots.ranges import check_ranges, doubt_ranges
 from levade.robots.servos import Servo, read_servos
 from levade.robots.urdf import read_urdf
+from levade.robots.winding import Winding
 from levade.robots.world import collide_as_paired, float_alone, leave_only, robot_root
 
 _UNITS = "kg and kg m2"
@@ -81,6 +82,7 @@ class Draft:
         effort: Joint -> torque limit [Nm], for joints that have one.
         velocity: Joint -> speed limit [rad/s], for joints that have one.
         servos: Joint -> what drives it.
+        windings: Joint -> winding of the DC motor that drives it.
         driven: Joints of an MJCF that an actuator drives.
         keyframes: Poses that an MJCF defines.
         couplings: Joints that follow others.
@@ -99,6 +101,7 @@ class Draft:
     effort: dict[str, float] = field(default_factory=dict)
     velocity: dict[str, float] = field(default_factory=dict)
     servos: dict[str, Servo] = field(default_factory=dict)
+    windings: dict[str, Winding] = field(default_factory=dict)
     driven: set[str] = field(default_factory=set)
     keyframes: list[Keyframe] = field(default_factory=list)
     couplings: list[Coupling] = field(default_factory=list)
@@ -164,6 +167,7 @@ def _read(path: Path, trunk: str | None, joints: Iterable[str]) -> Draft:
         servos = read_servos(model)
         draft.driven = {name for name, servo in servos.items() if servo.driven}
         draft.servos = {name: servo for name, servo in servos.items() if servo.kp is not None}
+        draft.windings = {name: servo.winding for name, servo in servos.items() if servo.winding is not None}
         draft.effort = {name: servo.torque for name, servo in servos.items() if np.isfinite(servo.torque)}
         draft.keyframes = _keyframes(model, root)
     _keep_massless(draft, model)

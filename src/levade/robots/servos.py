@@ -1,11 +1,15 @@
-"""Read what the actuators of an MJCF say about its joints: torque limits, and the gains of position servos."""
+"""Read what the actuators of an MJCF say about its joints: limits, gains of position servos, windings of DC motors."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import mujoco
+import numpy as np
+
+from levade.robots.winding import HOTTEST, Thermal, Winding
 
 
 @dataclass(frozen=True)
@@ -17,12 +21,14 @@ class Servo:
         kp: Stiffness [Nm/rad]. None for a motor.
         kd: Damping [Nm s/rad]. None for a motor.
         driven: Whether there is an actuator, not only a limit on the joint.
+        winding: Winding of a DC motor whose thermal data the file gives, arrays of shape (1,). None for other drives.
     """
 
     torque: float
     kp: float | None = None
     kd: float | None = None
     driven: bool = True
+    winding: Winding | None = None
 
 
 def read_servos(model: mujoco.MjModel) -> dict[str, Servo]:
@@ -62,7 +68,8 @@ def read_servos(model: mujoco.MjModel) -> dict[str, Servo]:
         elif fixed and not affine and model.actuator_ctrllimited[control]:  # a motor: its command is its force
             limits.append(gear * float(gain[0]) * float(abs(model.actuator_ctrlrange[control]).min()))
         positive = [limit for limit in limits if limit > 0]
-        servos[name] = Servo(min(positive, default=math.inf), kp, kd)
+        torque = min(positive, default=math.inf)
+        servos[name] = Servo(torque, kp, kd, winding=_winding(model, i, torque))
     for joint in range(model.njnt):
         name = model.joint(joint).name
         if (
@@ -74,3 +81,39 @@ def read_servos(model: mujoco.MjModel) -> dict[str, Servo]:
             if limit > 0:
                 servos[name] = Servo(limit, driven=False)
     return servos
+
+
+def windings(found: Mapping[str, Winding], joints: Sequence[str]) -> Winding | None:
+    """Join the windings of single joints.
+
+    Args:
+        found: Joint -> winding, arrays of shape (1,).
+        joints: All joints, in order.
+
+    Returns:
+        The windings of all joints. None if a joint has none.
+    """
+    if not joints or not set(joints) <= set(found):
+        return None
+    each = [found[joint] for joint in joints]
+    motorconst, current = (np.concatenate([getattr(one, name) for one in each]) for name in ("motorconst", "current"))
+    resistance = np.concatenate([one.resistance for one in each if one.resistance is not None])
+    thermal = [one.thermal for one in each if one.thermal is not None]
+    arrays = ("resistance", "capacitance", "tempcoef", "reftemp", "ambient", "limit")
+    joined = Thermal(*(np.concatenate([getattr(one, name) for one in thermal]) for name in arrays), assumed=True)
+    return Winding(motorconst, current, resistance, joined)
+
+
+def _winding(model: mujoco.MjModel, actuator: int, torque: float) -> Winding | None:
+    """Read the winding of a DC motor. None without thermal data: voltage and resistance may then be in arbitrary units."""
+    gain, dynamics = model.actuator_gainprm[actuator], model.actuator_dynprm[actuator]
+    if model.actuator_gaintype[actuator] != mujoco.mjtGain.mjGAIN_DCMOTOR:
+        return None
+    resistance, motorconst, tempcoef, reftemp = (np.array([float(value)]) for value in gain[:4])
+    thermal_resistance, capacitance, ambient = (np.array([float(value)]) for value in dynamics[2:5])
+    motorconst *= abs(float(model.actuator_gear[actuator, 0]))
+    if not (thermal_resistance > 0 and capacitance > 0 and resistance > 0 and motorconst > 0):
+        return None
+    limit = np.maximum(HOTTEST, ambient + 1.0)
+    thermal = Thermal(thermal_resistance, capacitance, tempcoef, reftemp, ambient, limit, assumed=True)
+    return Winding(motorconst, torque / motorconst, resistance, thermal)

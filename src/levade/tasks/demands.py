@@ -12,7 +12,7 @@ from levade.errors import LevadeError
 class Demands:
     """Thresholds of a check; None measures without judging.
 
-    Descriptions of robots give no limits for heat, power, flow, forces and impacts, so by default nothing is demanded there.
+    Descriptions of robots give no limits for power, flow, forces and impacts, so by default nothing is demanded there.
 
     Attributes:
         share: Least share of the perturbed runs that succeed.
@@ -25,6 +25,9 @@ class Demands:
         linkage: Least slack to the torque that each linkage transmits at its angle, as a share of it.
         torque_rms: Least slack of the root mean square torque over the motion, which heats the drive, to each torque limit,
             as a share of it.
+        current: Least slack to each winding's current limit, as a share of it. Judged if the robot's description has windings.
+        winding_temperature: Least slack to the highest temperature of each winding, as a share of the rise from the ambient
+            temperature, at which the motion begins. Judged as ``current`` is.
         power: Largest power of one joint [W].
         robot_power: Largest power of all driving joints together, at any time [W].
         flow: Largest flow of a hydraulic joint [l/min].
@@ -48,6 +51,8 @@ class Demands:
     torque_speed: float | None = 0.0
     linkage: float | None = 0.0
     torque_rms: float | None = None
+    current: float | None = 0.0
+    winding_temperature: float | None = 0.0
     power: float | None = None
     robot_power: float | None = None
     flow: float | None = None
@@ -65,7 +70,16 @@ class Demands:
         Returns:
             The demands.
         """
-        return cls(position=None, speed=None, torque=None, torque_speed=None, linkage=None, self_collision=None)
+        return cls(
+            position=None,
+            speed=None,
+            torque=None,
+            torque_speed=None,
+            linkage=None,
+            current=None,
+            winding_temperature=None,
+            self_collision=None,
+        )
 
     def __post_init__(self) -> None:
         for one in fields(self):
