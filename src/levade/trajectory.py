@@ -139,6 +139,8 @@ class Trajectories:
             3). None if not recorded.
         body_contact_force: Body -> magnitude of the net force that ground and obstacles exert on it [N], shape (n, steps), for
             the recorded bodies.
+        self_force: Magnitude of the strongest contact between two parts of the robot during each step [N], shape (n, steps).
+            None if not recorded.
         self_distance: Least distance between two parts of the robot at the end of each step [m], shape (n, steps). It is
             negative if they overlap, and at most the clearance (`levade.engines.clearance`). None if not recorded.
         begin: Row in which each trial begins, shape (n,). Rows before it repeat that row and do not count. None if all begin in
@@ -159,6 +161,7 @@ class Trajectories:
     diverged: NDArray[np.bool_]
     foot_contact_force: Array | None = None
     body_contact_force: Mapping[str, Array] = field(default_factory=dict)
+    self_force: Array | None = None
     self_distance: Array | None = None
     begin: NDArray[np.intp] | None = None
 

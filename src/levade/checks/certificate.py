@@ -154,7 +154,8 @@ class Certificate:
 
 MEASURED = (
     *("power", "robot_power", "flow", "pump_flow"),
-    *("foot_force", "impact_speed", "part_force", "trunk_acceleration", "self_collision"),
+    *("foot_force", "impact_speed", "part_force", "part_impact_speed", "trunk_acceleration"),
+    *("self_collision", "self_force", "self_impact_speed"),
 )
 """Margins with an upper bound on what is measured; the others have a lower bound on the slack."""
 
@@ -167,7 +168,7 @@ def _off(apart: Mapping[str, float]) -> str:
 
 def _number(margin: Margin) -> str:
     if margin.value is None:
-        return margin.said or ("none" if margin.unit == "m" else "")
+        return margin.said or ("none" if margin.unit in ("m", "m/s", "robot weights") and not margin.reason else "")
     if margin.unit.startswith("share"):
         return f"{margin.value:+.1%} left, {margin.least}{margin.said and f': {margin.said}'}"
     return f"{margin.value:.4g} {margin.unit}, {margin.least}"

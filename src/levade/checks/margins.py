@@ -10,6 +10,7 @@ import numpy as np
 
 from levade.arrays import Array
 from levade.checks.contacts import landings, poses, scene_forces
+from levade.checks.impacts import SCENE, replay_contacts
 from levade.embodiment import TorqueCurve
 from levade.errors import LevadeError
 from levade.motions import RecordedSimulation
@@ -401,7 +402,7 @@ def _contacts(simulation: RecordedSimulation, demands: Demands) -> dict[str, Mar
 
 
 def _impacts(simulation: RecordedSimulation, demands: Demands) -> dict[str, Margin]:
-    """Measure forces of the scene on any part of the robot, by a replay in MuJoCo, and the trunk's recorded acceleration."""
+    """Measure forces and impacts of any part of the robot, by a replay in MuJoCo, and the trunk's recorded acceleration."""
     weight = float(simulation.model.body_mass.sum()) * GRAVITY
     bodies = simulation.engine.bodies
     forces = simulation.rollout(record=bodies).body_contact_force
@@ -417,4 +418,38 @@ def _impacts(simulation: RecordedSimulation, demands: Demands) -> dict[str, Marg
     velocity = simulation.motion["trunk_linear_velocity"]
     change = np.linalg.norm(np.diff(velocity, axis=0), axis=-1).max(initial=0.0) / simulation.timestep
     trunk = {simulation.embodiment.trunk: float(change / GRAVITY)}
-    return {"part_force": part, "trunk_acceleration": _most("g", trunk, demands.trunk_acceleration)}
+    return {
+        "part_force": part,
+        **_collisions(simulation, weight, demands),
+        "trunk_acceleration": _most("g", trunk, demands.trunk_acceleration),
+    }
+
+
+def _collisions(simulation: RecordedSimulation, weight: float, demands: Demands) -> dict[str, Margin]:
+    """Measure how fast parts meet the scene and each other, and the forces of parts on each other."""
+    contacts = replay_contacts(simulation)
+    hardest = contacts.hardest()
+
+    def impacts(scene: bool) -> dict[str, Any]:
+        return {"impacts": [asdict(one) for one in contacts.impacts if (one.bodies[1] == SCENE) == scene]}
+
+    return {
+        "part_impact_speed": _most(
+            "m/s",
+            {one: speed for (one, other), speed in hardest.items() if other == SCENE},
+            demands.part_impact_speed,
+            more=impacts(scene=True),
+        ),
+        "self_force": _most(
+            "robot weights",
+            {" and ".join(pair): force / weight for pair, force in contacts.forces.items()},
+            demands.self_force,
+            more={"peak_N": {" and ".join(pair): force for pair, force in contacts.forces.items()}},
+        ),
+        "self_impact_speed": _most(
+            "m/s",
+            {" and ".join(pair): speed for pair, speed in hardest.items() if pair[1] != SCENE},
+            demands.self_impact_speed,
+            more=impacts(scene=False),
+        ),
+    }

@@ -15,7 +15,7 @@ A term is a function that takes Trajectories and returns one number per trial, u
 """
 
 from levade.costs.clearance import clearance_of
-from levade.costs.contact import GroundContact
+from levade.costs.contact import GroundContact, SelfContact
 from levade.costs.duration import Duration
 from levade.costs.effort import Effort
 from levade.costs.evaluate import DIVERGED, HIGHEST, Term, evaluate, total
@@ -47,6 +47,7 @@ __all__ = [
     "Posture",
     "Quantity",
     "ReferenceLimitExcess",
+    "SelfContact",
     "SpeedLimitExcess",
     "Term",
     "TorqueLimitExcess",

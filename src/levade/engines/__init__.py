@@ -7,7 +7,7 @@ trajectories = engine.rollout(start, policy.reference(weights))
 
 from levade.engines.clearance import SELF_DISTANCE
 from levade.engines.engine import Engine
-from levade.engines.layout import FOOT_CONTACT_FORCE, Layout
+from levade.engines.layout import FOOT_CONTACT_FORCE, SELF_FORCE, Layout
 from levade.engines.models import Models, perturbed_models
 from levade.engines.mujoco import MujocoEngine
 from levade.engines.perturbation import Perturbation, Sample
@@ -21,6 +21,7 @@ __all__ = [
     "ENGINES",
     "FOOT_CONTACT_FORCE",
     "SELF_DISTANCE",
+    "SELF_FORCE",
     "Engine",
     "EngineKind",
     "Fall",

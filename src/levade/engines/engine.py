@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from levade.arrays import Array
 from levade.embodiment import Embodiment
 from levade.engines.clearance import SELF_DISTANCE, distances_at
-from levade.engines.layout import FOOT_CONTACT_FORCE, Layout
+from levade.engines.layout import FOOT_CONTACT_FORCE, SELF_FORCE, Layout
 from levade.engines.models import FIELDS, Models, delayed
 from levade.engines.physics import Physics
 from levade.engines.state import State
@@ -76,6 +76,8 @@ class Engine(ABC):
     name: ClassVar[str]
     stops: ClassVar[bool] = False
     """Whether each trial ends at its own horizon and hold."""
+    feels: ClassVar[bool] = False
+    """Whether it measures the forces of the robot's parts on each other."""
 
     def __init__(
         self,
@@ -148,8 +150,8 @@ class Engine(ABC):
             feedback: Stabiliser that corrects the reference by each trial's sensor readings.
             sensor_errors: Errors that are added to the sensor readings, shape (n, ticks, sensed): see
                 `levade.feedback.SensorErrors`.
-            record: What to record in addition: `FOOT_CONTACT_FORCE`, `levade.engines.SELF_DISTANCE`, and names of `bodies` for
-                their contact force with the scene.
+            record: What to record in addition: `FOOT_CONTACT_FORCE`, `levade.engines.SELF_FORCE`,
+                `levade.engines.SELF_DISTANCE`, and names of `bodies` for their contact force with the scene.
 
         Returns:
             The trajectories. Trials whose simulation breaks down are marked in ``diverged``; their later rows repeat the last
@@ -164,8 +166,16 @@ class Engine(ABC):
                 raise LevadeError(
                     "record: the model measures no distances between the robot's parts; make it with a clearance"
                 )
-            if name not in (FOOT_CONTACT_FORCE, SELF_DISTANCE, *self.bodies):
-                hint = did_you_mean(name, (FOOT_CONTACT_FORCE, SELF_DISTANCE, *self.bodies))
+            if name == SELF_FORCE and not self.feels:
+                raise LevadeError(
+                    f"record: the engine {self.name} measures no forces between the robot's parts; use mujoco"
+                )
+            if name == SELF_FORCE and self.layout.force_sensor is None:
+                raise LevadeError(
+                    "record: the model measures no forces between the robot's parts; make it with self_force"
+                )
+            if name not in (FOOT_CONTACT_FORCE, SELF_FORCE, SELF_DISTANCE, *self.bodies):
+                hint = did_you_mean(name, (FOOT_CONTACT_FORCE, SELF_FORCE, SELF_DISTANCE, *self.bodies))
                 raise LevadeError(f"record: no body {name!r} in the model; {hint}")
         ends = reference.ends
         if ends is None:

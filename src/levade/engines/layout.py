@@ -20,6 +20,12 @@ from levade.trajectory import JointReference, Trajectories
 FOOT_CONTACT_FORCE = "foot_contact_force"
 """Name of the contact forces on the feet, among the quantities that a roll-out records. Other names are those of bodies."""
 
+SELF_FORCE = "self_force"
+"""Name of the strongest contact between parts of the robot, among the quantities that a roll-out records."""
+
+_SELF_SENSOR = "_self_force"
+"""Name of its sensor."""
+
 _FOOT_SENSOR, _BODY_SENSOR = "_contact_force", "_scene_force"
 """Suffixes of a foot's geom, and of a body, in the names of their sensors."""
 
@@ -35,6 +41,7 @@ class Layout(Addresses):
         ctrl_velocity: Addresses of their velocity references.
         foot_sensors: Addresses of the force on each foot in sensordata.
         body_sensors: Body -> addresses of the force on it in sensordata.
+        force_sensor: Address of the strongest contact between the robot's parts in sensordata. None if it is not measured.
         distance_sensor: Address of the least distance between the robot's parts in sensordata. None if it is not measured.
         clearance: Distance from which parts count as apart [m]. None if it is not measured.
     """
@@ -45,6 +52,7 @@ class Layout(Addresses):
     ctrl_velocity: Index
     foot_sensors: tuple[int, ...]
     body_sensors: Mapping[str, int]
+    force_sensor: int | None = None
     distance_sensor: int | None = None
     clearance: float | None = None
 
@@ -77,6 +85,7 @@ class Layout(Addresses):
                 for name, address in sensors.items()
                 if name.endswith(_BODY_SENSOR)
             },
+            force_sensor=sensors.get(_SELF_SENSOR),
             distance_sensor=sensor_address(model),
             clearance=clearance_in(model),
         )
@@ -129,7 +138,7 @@ class Layout(Addresses):
             out: qpos, qvel, actuator_force, and sensordata if forces are recorded; shape (n, steps, ...) each.
             reference: Joint references of the same n trials.
             diverged: Trials that broke down, shape (n,).
-            record: Forces to include: `FOOT_CONTACT_FORCE`, and bodies for their contact force with the scene.
+            record: Forces to include: `FOOT_CONTACT_FORCE`, `SELF_FORCE`, and bodies for their contact force with the scene.
 
         Returns:
             The trajectories.
@@ -152,13 +161,14 @@ class Layout(Addresses):
             body_contact_force={
                 body: self.force_on(body, out["sensordata"]) for body in record if body in self.body_sensors
             },
+            self_force=None if SELF_FORCE not in record else self._magnitude(self.force_sensor, out["sensordata"]),
         )
 
     def addresses(self, record: Sequence[str]) -> list[int]:
         """Return the addresses in sensordata of what a roll-out records.
 
         Args:
-            record: What is recorded: `FOOT_CONTACT_FORCE`, `levade.engines.SELF_DISTANCE`, and names of bodies.
+            record: What is recorded: `FOOT_CONTACT_FORCE`, `SELF_FORCE`, `levade.engines.SELF_DISTANCE`, and names of bodies.
 
         Returns:
             Index of the first value of each sensor. Names without a sensor have none.
@@ -166,6 +176,8 @@ class Layout(Addresses):
         found = [self.body_sensors[name] for name in record if name in self.body_sensors]
         if FOOT_CONTACT_FORCE in record:
             found += self.foot_sensors
+        if SELF_FORCE in record and self.force_sensor is not None:
+            found.append(self.force_sensor)
         if SELF_DISTANCE in record and self.distance_sensor is not None:
             found.append(self.distance_sensor)
         return found
@@ -191,7 +203,12 @@ class Layout(Addresses):
         Returns:
             Magnitude of the force [N], shape (n, steps).
         """
-        address = self.body_sensors[body]
+        return self._magnitude(self.body_sensors[body], sensordata)
+
+    @staticmethod
+    def _magnitude(address: int | None, sensordata: Array) -> Array:
+        """Return the length of the vector at an address, shape (n, steps)."""
+        assert address is not None
         return np.linalg.norm(sensordata[..., address : address + 3], axis=-1)
 
 
@@ -220,6 +237,25 @@ def add_contact_sensors(spec: mujoco.MjSpec, feet: Sequence[str], whole: Sequenc
         add(element.name + _BODY_SENSOR, objtype=body, objname=element.name, reftype=body, refname="world")
 
 
+def measure_self_force(spec: mujoco.MjSpec, trunk: str) -> None:
+    """Add the sensor of the strongest contact between two parts of the robot.
+
+    Args:
+        spec: The robot, with or without its scene; it is changed.
+        trunk: Name of the body that holds all other bodies of the robot.
+    """
+    tree, strongest = mujoco.mjtObj.mjOBJ_XBODY, 2
+    sensor = spec.add_sensor(
+        name=_SELF_SENSOR,
+        type=mujoco.mjtSensor.mjSENS_CONTACT,
+        objtype=tree,
+        objname=trunk,
+        reftype=tree,
+        refname=trunk,
+    )
+    sensor.intprm[:3] = [1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE), strongest, 1]
+
+
 def sole(model: mujoco.MjModel, foot: str) -> list[int]:
     """Return the geoms whose contact forces the sensor of a foot adds up.
 
@@ -235,12 +271,14 @@ def sole(model: mujoco.MjModel, foot: str) -> list[int]:
 
 
 def remove_contact_sensors(spec: mujoco.MjSpec, feet: Sequence[str]) -> None:
-    """Take away what `add_contact_sensors` added.
+    """Take away what `add_contact_sensors` and `measure_self_force` added.
 
     Args:
         spec: The robot, with or without its scene; it is changed.
         feet: Geom names of the feet.
     """
-    names = {foot + _FOOT_SENSOR for foot in feet} | {body.name + _BODY_SENSOR for body in spec.bodies[1:]}
+    names = (
+        {_SELF_SENSOR} | {foot + _FOOT_SENSOR for foot in feet} | {body.name + _BODY_SENSOR for body in spec.bodies[1:]}
+    )
     for sensor in [sensor for sensor in spec.sensors if sensor.name in names]:
         spec.delete(sensor)

@@ -32,6 +32,7 @@ class MujocoEngine(Engine):
 
     name: ClassVar[str] = "mujoco"
     stops: ClassVar[bool] = True
+    feels: ClassVar[bool] = True
 
     def _prepare(self) -> None:
         self._batches: dict[tuple[tuple[int, ...] | None, bool], Batch] = {}

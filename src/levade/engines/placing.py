@@ -13,7 +13,7 @@ from levade.arrays import Array
 from levade.engines.clearance import measure_clearance
 from levade.engines.engine import Engine
 from levade.engines.folding import fold_posture, folded
-from levade.engines.layout import add_contact_sensors
+from levade.engines.layout import add_contact_sensors, measure_self_force
 from levade.engines.physics import Physics
 from levade.engines.start import Fallen, GivenState, Settled, Start
 from levade.engines.state import State
@@ -36,7 +36,13 @@ _FAMILY = 1_178_686_574
 
 
 def model_xml(
-    robot: Robot, scene: Scene, physics: Physics, *, gain_scale: float = 1.0, clearance: float | None = None
+    robot: Robot,
+    scene: Scene,
+    physics: Physics,
+    *,
+    gain_scale: float = 1.0,
+    clearance: float | None = None,
+    self_force: bool = False,
 ) -> str:
     """Write the model of a robot in a scene: MJCF with actuators, contact sensors and the numerical settings.
 
@@ -46,6 +52,7 @@ def model_xml(
         physics: Numerical settings.
         gain_scale: Factor on the gains of the joints.
         clearance: Distance up to which the robot's parts are measured [m]. None for no measurement.
+        self_force: Whether to measure the forces of the robot's parts on each other.
 
     Returns:
         The text.
@@ -58,13 +65,21 @@ def model_xml(
     option.impratio = physics.impratio
     option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
     add_contact_sensors(spec, robot.feet, [leg.foot for leg in robot.legs if leg.pads])
+    if self_force:
+        measure_self_force(spec, robot.trunk)
     if clearance is not None:
         measure_clearance(spec, robot.trunk, clearance)
     return spec.to_xml()
 
 
 def make_engine(
-    robot: Robot, scene: Scene, physics: Physics, *, threads: int = 0, clearance: float | None = None
+    robot: Robot,
+    scene: Scene,
+    physics: Physics,
+    *,
+    threads: int = 0,
+    clearance: float | None = None,
+    self_force: bool = False,
 ) -> Engine:
     """Put a robot into a scene, in the engine that ``physics.engine`` names.
 
@@ -74,6 +89,7 @@ def make_engine(
         physics: Engine and numerical settings.
         threads: Number of threads or processes (0: one per core). Results do not depend on it.
         clearance: Distance up to which the robot's parts are measured [m]. None for no measurement.
+        self_force: Whether to measure the forces of the robot's parts on each other.
 
     Returns:
         The engine.
@@ -81,7 +97,7 @@ def make_engine(
     Raises:
         LevadeError: If the engine needs a missing library, or cannot simulate the robot.
     """
-    xml = model_xml(robot, scene, physics, clearance=clearance)
+    xml = model_xml(robot, scene, physics, clearance=clearance, self_force=self_force)
     return engine_kind(physics.engine).make(xml, robot.assets, robot.embodiment, physics, threads=threads)
 
 

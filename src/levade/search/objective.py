@@ -20,6 +20,7 @@ from levade.costs import evaluate
 from levade.engines import (
     FOOT_CONTACT_FORCE,
     SELF_DISTANCE,
+    SELF_FORCE,
     Engine,
     Models,
     State,
@@ -77,7 +78,14 @@ class Simulation:
         """
         if robot is None:
             robot = task.robot.load()
-        engine = make_engine(robot, task.scene, task.physics, threads=threads, clearance=task.clearance)
+        engine = make_engine(
+            robot,
+            task.scene,
+            task.physics,
+            threads=threads,
+            clearance=task.clearance,
+            self_force=task.self_force,
+        )
         return cls(robot, engine, start_state(engine, robot, task.scene, task.start.choice))
 
     def starting(self, start: State) -> Simulation:
@@ -415,12 +423,23 @@ def _recorded(task: Task, simulation: Simulation) -> tuple[str, ...]:
                 hint = did_you_mean(body, simulation.engine.bodies)
                 raise LevadeError(f"costs.{name}.bodies: no body {body!r} in {simulation.robot.name}; {hint}")
             named.add(body)
+    if task.self_force:
+        if not simulation.engine.feels:
+            raise LevadeError(
+                f"self_contact: the engine {simulation.engine.name} measures no forces between the robot's parts;"
+                " use the engine mujoco"
+            )
+        if simulation.engine.layout.force_sensor is None:
+            raise LevadeError(
+                "self_contact: the simulation measures no forces between the robot's parts; build it for this task"
+            )
+    found = (*((SELF_FORCE,) if task.self_force else ()), *sorted(named))
     if task.clearance is None:
-        return tuple(sorted(named))
+        return found
     measured = simulation.engine.layout.clearance
     if measured is None or measured < task.clearance:
         raise LevadeError(
             f"self_distance: the task asks for {task.clearance:g} m between the robot's parts, but the simulation measures"
             f" {'no distance' if measured is None else f'up to {measured:g} m'}; build the simulation for this task"
         )
-    return (SELF_DISTANCE, *sorted(named))
+    return (SELF_DISTANCE, *found)

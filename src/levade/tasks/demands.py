@@ -35,6 +35,9 @@ class Demands:
         foot_force: Largest force on one foot [robot weights].
         impact_speed: Largest speed with which a foot meets the scene [m/s].
         part_force: Largest force of the scene on any one part, feet and trunk included [robot weights].
+        part_impact_speed: Largest speed with which any part meets the scene [m/s].
+        self_force: Largest force of two parts of the robot on each other [robot weights].
+        self_impact_speed: Largest speed with which two parts of the robot meet [m/s].
         trunk_acceleration: Largest acceleration of the trunk [g].
         self_collision: Largest depth to which two parts of the robot may enter each other [m].
 
@@ -60,6 +63,9 @@ class Demands:
     foot_force: float | None = None
     impact_speed: float | None = None
     part_force: float | None = None
+    part_impact_speed: float | None = None
+    self_force: float | None = None
+    self_impact_speed: float | None = None
     trunk_acceleration: float | None = None
     self_collision: float | None = 0.0
 

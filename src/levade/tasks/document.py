@@ -25,6 +25,7 @@ from levade.costs import (
     Position,
     Posture,
     ReferenceLimitExcess,
+    SelfContact,
     SpeedLimitExcess,
     TorqueLimitExcess,
 )
@@ -64,6 +65,7 @@ TERMS = {
     "speed_limits": SpeedLimitExcess,
     "margins": Margins,
     "ground_contact": GroundContact,
+    "self_contact": SelfContact,
 }
 """Name in a task file -> class of the term."""
 
@@ -77,6 +79,9 @@ _LATER = (
     *(("robust", "perturb", "softness"), ("start", "fallen", "fold")),
 )
 """Keys that were added after the first runs with a checksum, and are null, zero or empty by default."""
+_LATER_OF_TERMS = {"margins": ("linkage",)}
+"""The same for keys of a term."""
+
 _SEQUENCE = "tag:yaml.org,2002:seq"
 
 
@@ -440,6 +445,10 @@ def task_checksum(task: Task, *more: object) -> int:
             table = table.get(key) if isinstance(table, dict) else None
         if isinstance(table, dict) and name in table and table[name] in (None, [], 0):
             del table[name]
+    for cost in content["costs"].values():
+        for name in _LATER_OF_TERMS.get(cost.get("term"), ()):
+            if cost[name] is None:
+                del cost[name]
     first = {name: alias for alias, name in ALIASES.items()}
     name = content["search"]["optimizer"]
     content["search"]["optimizer"] = first.get(name, name) if isinstance(name, str) else name

@@ -108,6 +108,11 @@ class Task:
         return clearance_of(looking)
 
     @property
+    def self_force(self) -> bool:
+        """Whether a cost looks at forces of the robot's parts on each other."""
+        return any(getattr(cost.term, "self_force", False) for cost in self.costs.values())
+
+    @property
     def usual_horizon(self) -> float:
         """T [s]; if it is free, the one with which a search begins."""
         return self.horizon.begin if isinstance(self.horizon, HorizonRange) else self.horizon
