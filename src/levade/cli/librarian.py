@@ -15,12 +15,14 @@ from rich.console import Console
 from rich.markup import escape
 
 from levade.arrays import Array
+from levade.cli.checking import changed
 from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console
 from levade.document import read_yaml
 from levade.errors import LevadeError, did_you_mean
 from levade.feedback import up_in_trunk
-from levade.library import Library, LibraryCheck, Progress, build, check_library
+from levade.library import Hardware, Library, LibraryCheck, Progress, build, check_library
+from levade.library.asking import LIBRARY
 from levade.library.exporting import export_library
 from levade.library.falls import FACES, face
 from levade.library.figure import draw
@@ -29,7 +31,7 @@ from levade.library.merging import merge
 from levade.library.page import write_library
 from levade.library.records import motion_path
 from levade.library.refining import refine as refined_answer
-from levade.library.storing import WHOLE, Shard
+from levade.library.storing import WHOLE, Shard, read_hardware
 from levade.tasks import load_task
 from levade.tasks.units import to_si
 from levade.trajectory import JointReference
@@ -54,6 +56,9 @@ def build_library(
     threads: int,
     jobs: int,
     shard: str | None,
+    hardware: bool,
+    trials: int | None,
+    demand: list[str],
     as_json: bool,
 ) -> int:
     """Build a library.
@@ -68,6 +73,9 @@ def build_library(
         threads: Number of engine threads (0: one per core).
         jobs: Number of processes at a time.
         shard: Part to build, as ``I/N``. None for the whole library.
+        hardware: Whether motions have to keep the limits of the hardware.
+        trials: Most trials of the searches of one fall, for hardware. None for the directory's own number, or the usual one.
+        demand: Changes of the demands of hardware: files, or ``name=value``.
         as_json: Whether to print one JSON object.
 
     Returns:
@@ -76,6 +84,7 @@ def build_library(
     part = WHOLE if shard is None else _shard(shard)
     loaded = load_task(task, robot=robot, changes=changes)
     directory = out or Path(f"{loaded.name}-library")
+    demanded = _demanded(directory, hardware, trials, demand)
     console = make_console(stderr=as_json)
     began = time.monotonic()
 
@@ -95,6 +104,7 @@ def build_library(
             threads=threads,
             processes=jobs,
             shard=part,
+            hardware=demanded,
             directory=directory,
             observe=observe,
             stopping=stopping,
@@ -114,6 +124,19 @@ def build_library(
         else:
             console.print(f"To try it on falls that it has never seen: levade library check {place}")
     return 1 if stopped else 0
+
+
+def _demanded(directory: Path, hardware: bool, trials: int | None, demand: list[str]) -> Hardware | None:
+    """Return what a build demands of hardware: what the directory's library does, with the changes asked for."""
+    if not hardware:
+        for option, given in (("--trials", trials is not None), ("--demand", bool(demand))):
+            if given:
+                raise LevadeError(f"{option} only works with --hardware")
+        return None
+    known = read_hardware(directory) if (directory / LIBRARY).is_file() else None
+    known = known or Hardware()
+    demands = changed(known.demands, demand, option="--demand")
+    return Hardware(demands, known.trials if trials is None else trials)
 
 
 def _later(directory: Path) -> str:

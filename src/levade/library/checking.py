@@ -17,9 +17,9 @@ from levade.checks.statistics import wilson
 from levade.engines import MujocoEngine, Perturbation
 from levade.errors import LevadeError
 from levade.library.asking import Answer, Library
-from levade.library.falls import FACES, Falls, Play, Plays, face, tried, tried_on_others
+from levade.library.falls import FACES, Falls, Play, Plays, face, posed, tried, tried_on_others
 from levade.library.refining import refined
-from levade.library.storing import read_library
+from levade.library.storing import read_falls, read_library
 from levade.robots import Robot
 from levade.search.evaluation import Mask
 from levade.search.objective import Objective, Rollouts
@@ -153,12 +153,12 @@ def check_library(
     Raises:
         LevadeError: If the seed is that of the library's own falls, or the task is not consistent.
     """
-    task, own = read_library(library.directory)
+    _, own = read_library(library.directory)
     if seed == own:
         raise LevadeError(f"{seed} is the seed of the library's own falls; give another", field="seed")
     if starts < 1:
         raise LevadeError(f"{starts} falls are too few; give 1 or more, such as 200", field="starts")
-    falls = Falls(task, robot=robot, seed=seed, threads=threads)
+    falls, _ = read_falls(library.directory, robot=robot, seed=seed, threads=threads)
     trial = _Trial(library, falls, seed, perturbation or Perturbation(), refine)
     for first in range(0, starts, _AT_ONCE):
         if stopping():
@@ -244,8 +244,9 @@ class _Trial:
             return 0
         parts = []
         for objective, play in zip(objectives, plays, strict=True):
-            policy, hold = objective.policy, objective.task.hold_steps
-            parts.append(Rollouts(objective.state, policy.reference(play.decisions(policy), hold_steps=hold), None))
+            own, weights = posed(objective, play)
+            reference = own.policy.reference(weights, hold_steps=own.task.hold_steps)
+            parts.append(Rollouts(own.state, reference, None))
         joined = Rollouts.joined(parts)
         out, diverged = engine.states(joined.starts, joined.reference, ["qpos", "qvel", "act"])
         recovered = 0
