@@ -6,7 +6,9 @@ import json
 import os
 import shlex
 import time
+from collections import Counter
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +31,7 @@ from levade.library.figure import draw
 from levade.library.learning import learn, save
 from levade.library.merging import merge
 from levade.library.page import write_library
+from levade.library.pursuing import read_certificate
 from levade.library.records import motion_path
 from levade.library.refining import refine as refined_answer
 from levade.library.storing import WHOLE, Shard, read_hardware
@@ -43,6 +46,15 @@ _WORDS = {
     "cold": "by a search from nothing",
     "none": "not at all",
 }
+
+
+_WITHIN_LIMITS = {
+    "known": "by a known motion, within the limits and on perturbed models",
+    "near": "by a search around a known motion, with a certificate",
+    "cold": "by a search from nothing, with a certificate",
+    "none": "by no motion whose certificate passes; the best one is kept",
+}
+"""The same in a library for hardware."""
 
 
 def build_library(
@@ -136,7 +148,7 @@ def _demanded(directory: Path, hardware: bool, trials: int | None, demand: list[
     known = read_hardware(directory) if (directory / LIBRARY).is_file() else None
     known = known or Hardware()
     demands = changed(known.demands, demand, option="--demand")
-    return Hardware(demands, known.trials if trials is None else trials)
+    return replace(known, demands=demands, trials=known.trials if trials is None else trials)
 
 
 def _later(directory: Path) -> str:
@@ -278,6 +290,12 @@ def show_library(directory: Path, *, figures: Path | None, format: str, report: 
 
 def _summary(library: Library, directory: Path, written: Sequence[Path]) -> dict[str, Any]:
     """Return what ``build`` and ``show`` print as JSON."""
+    certificates = {}
+    if library.hardware:
+        passed = [number for number, failed in library.certificates.items() if not failed]
+        certificates = {
+            "certificates": {"motions": len(library.certificates), "passed": passed, "failed": _failing(library)}
+        }
     return {
         "library": str(directory),
         "done": len(library.records),
@@ -285,23 +303,47 @@ def _summary(library: Library, directory: Path, written: Sequence[Path]) -> dict
         "trials": sum(record.trials for record in library.records),
         "coverage": library.coverage,
         "cover": [{"motion": number, "falls": works} for number, works in library.knowledge.cover()],
+        **certificates,
         "written": [str(path) for path in written],
     }
 
 
+def _failing(library: Library) -> dict[str, int]:
+    """Return each demand of hardware that certificates fail, and how many fail it; the most frequent first."""
+    return dict(Counter(name for failed in library.certificates.values() for name in failed).most_common())
+
+
 def _tell_library(console: Console, library: Library) -> None:
     falls, cover = len(library.records), library.knowledge.cover()
-    for name, words in _WORDS.items():
+    words = {**_WORDS, **(_WITHIN_LIMITS if library.hardware else {})}
+    for name in _WORDS:
         n = sum(record.method == name for record in library.records)
         if n:
-            console.print(f"{n} fall{'s' * (n != 1)} solved {words}.")
+            console.print(f"{n} fall{'s' * (n != 1)} solved {words[name]}.")
     motions = sum(record.motion == record.fall for record in library.records)
     images = " and their mirror images" if library.knowledge.mirror else ""
-    console.print(f"{motions} motions{images} get up from {library.coverage:.1%} of {falls} falls.")
-    if not cover:
-        return
-    enough = ", ".join(f"{k + 1}: {works / falls:.1%}" for k, (_, works) in enumerate(cover[:6]))
-    console.print(f"The best few of them: {enough}.")
+    within = " within the limits" * library.hardware
+    console.print(f"{motions} motions{images} get up{within} from {library.coverage:.1%} of {falls} falls.")
+    if cover:
+        enough = ", ".join(f"{k + 1}: {works / falls:.1%}" for k, (_, works) in enumerate(cover[:6]))
+        console.print(f"The best few of them: {enough}.")
+    if library.hardware:
+        _tell_certificates(console, library)
+
+
+def _tell_certificates(console: Console, library: Library) -> None:
+    """Say how many certificates pass, which demands the others fail, and what binds the best few motions."""
+    passed = sum(not failed for failed in library.certificates.values())
+    failing = ", ".join(f"{name} ({n})" for name, n in _failing(library).items())
+    others = f" The others fail {escape(failing)}." if failing else ""
+    console.print(f"The certificates of {passed} of {len(library.certificates)} motions pass.{others}")
+    for number, _ in library.knowledge.cover()[:6]:
+        certificate = read_certificate(library.directory, number)
+        share, binds = certificate["perturbed"]["share"], certificate.get("binding") or "no limit is known"
+        said = f"succeeds on {share:.1%} of perturbed robots; {binds}"
+        console.print(
+            f"  {_named(Path(motion_path(library.directory, number).name), number)}: {escape(said)}", style="dim"
+        )
 
 
 def check_the_library(
@@ -339,12 +381,23 @@ def _told(found: LibraryCheck) -> list[tuple[str, str]]:
         (f"{found.starts} falls of seed {found.seed}", ""),
         ("the first answer works", str(found.first)),
         *lying,
+        *_told_of_hardware(found),
         *after,
         *([("the first answer, refined in simulation", str(found.refined))] if found.refined else []),
         ("within two attempts, the second from where it lies", str(found.twice)),
         ("the first answer, on perturbed models", str(found.perturbed)),
         ("mean probability predicted by the answers", f"{found.expected:.1%}"),
         ("an answer takes", f"{found.answer_ms[0]:.2f} ms, 99 % at most {found.answer_ms[1]:.2f} ms"),
+    ]
+
+
+def _told_of_hardware(found: LibraryCheck) -> list[tuple[str, str]]:
+    if found.certified is None:
+        return []
+    missed = ", ".join(f"{name} {n}" for name, n in found.missed.items()) or "none"
+    return [
+        ("  works within the limits, with a certificate", str(found.certified)),
+        ("  falls from which it misses a criterion or limit", missed),
     ]
 
 
@@ -386,6 +439,9 @@ def ask_library(directory: Path, *, state: Path, reference: Path | None, refine:
             "motion": str(answer.path),
             "mirrored": answer.mirror is not None,
             "probability": answer.probability,
+            **(
+                {} if answer.failed is None else {"certificate": {"passed": not answer.failed, "failed": answer.failed}}
+            ),
             "others": [
                 {"motion": str(motion_path(directory, number)), "mirrored": number < 0, "probability": probability}
                 for number, probability in answer.others
@@ -401,6 +457,9 @@ def ask_library(directory: Path, *, state: Path, reference: Path | None, refine:
         return 0 if better is None or better.works else 1
     console = make_console()
     console.print(f"{_named(answer.path, answer.number)}: works with a probability of {answer.probability:.1%}")
+    if answer.failed is not None:
+        said = f"fails {', '.join(answer.failed)}" if answer.failed else "passes"
+        console.print(f"  Its certificate, from its own fall, {escape(said)}.")
     for number, probability in answer.others[:3]:
         place = _named(Path(motion_path(directory, number).name), number)
         console.print(f"  next: {place}, {probability:.1%}", style="dim")

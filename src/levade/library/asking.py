@@ -166,10 +166,15 @@ class Library:
         Args:
             motion: Number of the motion. The certificate of an image is that of the original.
         """
-        return self._failed.get(fall_of(motion))
+        return self.certificates.get(fall_of(motion))
 
     @cached_property
-    def _failed(self) -> dict[int, tuple[str, ...]]:
+    def certificates(self) -> dict[int, tuple[str, ...]]:
+        """Number of each motion with a certificate -> the demands that it fails, none if it passes.
+
+        Falls without a motion that passes keep the one with the best certificate. It counts here, but answers only if it keeps
+        the limits on the model.
+        """
         return {record.fall: record.failed for record in self.records if record.failed is not None}
 
     @property

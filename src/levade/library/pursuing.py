@@ -43,6 +43,7 @@ class Hardware:
         demands: Demands of the certificate.
         trials: Most roll-outs of the searches of one fall. Those that try known motions, and those of certificates, do not
             count.
+        runs: Most perturbed runs of each certificate.
 
     Raises:
         LevadeError: If there are no trials.
@@ -50,6 +51,7 @@ class Hardware:
 
     demands: Demands = field(default_factory=Demands)
     trials: int = TRIALS
+    runs: int = 500
 
     def __post_init__(self) -> None:
         if self.trials < 1:
@@ -120,6 +122,7 @@ def pursue_fall(
             around=near,
             feedback=False,
             demands=hardware.demands,
+            runs=hardware.runs,
             stopping=stopping,
         )
         if found.stopped == "interrupted":

@@ -115,11 +115,8 @@ def _check_same(directory: Path, hardware: Hardware | None) -> None:
     if known is None:
         remedies = (Remedy("build without --hardware"), elsewhere)
         raise LevadeError(f"{directory}: holds a library without the limits of hardware", remedies=remedies)
-    if known.trials != hardware.trials:
-        what = f"{known.trials} trials a fall, not {hardware.trials}"
-    else:
-        own, other = asdict(known.demands), asdict(hardware.demands)
-        what = ", ".join(f"{name} {own[name]}, not {other[name]}" for name in own if own[name] != other[name])
+    own, other = ({"trials": one.trials, "runs": one.runs, **asdict(one.demands)} for one in (known, hardware))
+    what = ", ".join(f"{name} {own[name]}, not {other[name]}" for name in own if own[name] != other[name])
     raise LevadeError(f"{directory}: holds a library with other demands: {what}", remedies=(elsewhere,))
 
 
@@ -140,8 +137,8 @@ def read_hardware(directory: Path) -> Hardware | None:
         return None
     if not isinstance(content, dict) or not isinstance(content.get("demands"), dict):
         raise LevadeError(f"{where}: should have trials and demands; the file is damaged")
-    trials = _whole(content.get("trials"), directory, "hardware.trials")
-    return Hardware(build(Demands, content["demands"], where=f"{where}.demands"), trials)
+    trials, runs = (_whole(content.get(name), directory, f"hardware.{name}") for name in ("trials", "runs"))
+    return Hardware(build(Demands, content["demands"], where=f"{where}.demands"), trials, runs)
 
 
 def read_falls(
