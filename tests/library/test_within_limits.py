@@ -1,4 +1,4 @@
-"""Libraries for hardware: the limits decide what works, a certificate what counts as solved, and nothing that was found is lost."""
+"""Libraries for hardware: limits decide what works, a certificate what counts as solved, and nothing that was found is lost."""
 
 from __future__ import annotations
 
@@ -125,6 +125,7 @@ def test_a_motion_that_works_on_the_model_is_not_known_beyond_a_limit(library: L
     assert {fall_of(number) for number in again.knowledge.motions} <= {0, 1}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("cuts", [(3, 30), (60,)])
 def test_stopped_in_a_search_and_gone_on_with_it_has_the_same_bytes(
     library: Library, tmp_path: Path, cuts: tuple[int, ...]
