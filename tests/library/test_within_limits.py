@@ -12,11 +12,13 @@ import numpy as np
 import pytest
 from tests.library.test_library import contents
 
+from levade.cli.app import main
 from levade.costs import Criterion
 from levade.errors import LevadeError
 from levade.library import Falls, Hardware, Library, Method, build, check_library
 from levade.library.falls import Plays, tried, tried_on_others
 from levade.library.merging import merge
+from levade.library.page import library_data, library_page
 from levade.library.pursuing import read_certificate
 from levade.library.records import fall_of
 from levade.library.storing import Shard, read_hardware
@@ -213,3 +215,39 @@ def test_shards_keep_their_certificates(tmp_path: Path) -> None:
     (parts[1] / "library.yaml").write_text(text.replace('"trials": 8', '"trials": 9'))
     with pytest.raises(LevadeError, match="makes other demands of hardware"):
         merge(parts, tmp_path / "other")
+
+
+def test_the_command_line_says_which_certificates_pass(library: Library, capsys: pytest.CaptureFixture[str]) -> None:
+    def run(*words: str) -> tuple[int, str, str]:
+        with pytest.raises(SystemExit) as ended:
+            main(["library", *words])
+        return int(str(ended.value.code)), *capsys.readouterr()
+
+    directory = str(library.directory)
+    failed = library.certificates
+    passed = [number for number, names in failed.items() if not names]
+    status, out, _ = run("show", directory, "--json")
+    assert status == 0
+    assert json.loads(out)["certificates"]["passed"] == passed
+    _, out, _ = run("show", directory, "--no-report")
+    assert f"The certificates of {len(passed)} of {len(failed)} motions pass." in " ".join(out.split())
+    assert "comes nearest to a limit" in out
+    for words, said in (
+        (["--trials", "5"], "--trials only works with --hardware"),
+        (["--demand", "share=0.9"], "--demand only works with --hardware"),
+        (["--hardware", "--trials", "0"], "--trials: 0 trials are too few"),
+    ):
+        status, _, err = run("build", "self-righting", "--out", directory, *words)
+        assert (status, err.count("\n")) == (2, 1)
+        assert said in err
+
+
+def test_the_page_says_which_certificates_pass(library: Library) -> None:
+    data = library_data(library)
+    failed = library.certificates
+    assert data["certificates"]["motions"] == len(failed)
+    assert data["certificates"]["passed"] == sum(not names for names in failed.values())
+    for row in data["listed"]:
+        assert tuple(row["certificate"]["failed"]) == failed[row["fall"]]
+        assert row["certificate"]["share"] >= (FAST.share or 0.0) or row["certificate"]["failed"]
+    assert "Certificates" in library_page(library)
