@@ -71,8 +71,7 @@ class Falls:
         """
         if task.robust is not None or task.hardware is not None:
             raise LevadeError(
-                "library: the task has robust or hardware; remove them, and build with --hardware to keep limits on perturbed"
-                " models"
+                "library: remove robust and hardware from the task; with --hardware, a build keeps limits and perturbs models"
             )
         robot = robot or task.robot.load()
         fallen = task.start.fallen or _usual(task, robot)
@@ -265,8 +264,9 @@ def posed(objective: Objective, play: Playable) -> tuple[Objective, Array]:
     Returns:
         The objective, with the policy of what is played, and the weights, shape (1, d).
     """
-    if play.policy is not None and play.policy != objective.task.policy:
-        objective = objective.with_task(replace(objective.task, policy=play.policy))
+    own = _policy(objective, play)
+    if own != objective.task.policy:
+        objective = objective.with_task(replace(objective.task, policy=own))
     return objective, play.decisions(objective.policy)
 
 
@@ -296,11 +296,17 @@ def simulated(objective: Objective, play: Play) -> Motion:
     return record(own, solution, seed=play.motion.provenance.seed)
 
 
+def _policy(objective: Objective, play: Playable) -> PolicyChoice:
+    """Return the policy of what is played. Only tasks that are judged on perturbed models, for hardware, have several."""
+    own = None if objective.task.robust is None else play.policy
+    return own or objective.task.policy
+
+
 def _by_policy(objective: Objective, plays: Sequence[Playable]) -> list[tuple[Objective, list[int]]]:
     """Group what is played by its policy: objectives with that policy, and the indices of what it plays."""
     groups: list[tuple[Objective, list[int]]] = []
     for k, play in enumerate(plays):
-        policy = play.policy or objective.task.policy
+        policy = _policy(objective, play)
         members = next((members for one, members in groups if one.task.policy == policy), None)
         if members is None:
             groups.append((posed(objective, play)[0], members := []))
