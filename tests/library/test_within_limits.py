@@ -129,12 +129,8 @@ def test_a_motion_that_works_on_the_model_is_not_known_beyond_a_limit(library: L
     assert {fall_of(number) for number in again.knowledge.motions} <= {0, 1}
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("cuts", [(3, 30), (60,)])
-def test_stopped_in_a_search_and_gone_on_with_it_has_the_same_bytes(
-    library: Library, tmp_path: Path, cuts: tuple[int, ...]
-) -> None:
-    """Stopped between generations of searches, and between parts of certificates."""
+def built_in_parts(directory: Path, cuts: tuple[int, ...], *, starts: int, hardware: Hardware, threads: int) -> Library:
+    """Build, and stop at each of these calls of ``stopping``: between generations, and between parts of certificates."""
     for cut in (*cuts, 10**9):
         calls: list[int] = []
 
@@ -142,14 +138,29 @@ def test_stopped_in_a_search_and_gone_on_with_it_has_the_same_bytes(
             calls.append(1)
             return len(calls) > cut
 
-        build(
+        library = build(
             rolling(),
-            starts=STARTS,
-            directory=tmp_path,
-            hardware=HARDWARE,
-            threads=2,
+            starts=starts,
+            directory=directory,
+            hardware=hardware,
+            threads=threads,
             stopping=partial(stopping, calls, cut),
         )
+    return library
+
+
+def test_stopped_in_a_search_and_gone_on_with_it_has_the_same_bytes(tmp_path: Path) -> None:
+    small = replace(HARDWARE, trials=10, runs=4)
+    whole = built_in_parts(tmp_path / "whole", (), starts=1, hardware=small, threads=1)
+    parts = built_in_parts(tmp_path / "parts", (2, 7), starts=1, hardware=small, threads=2)
+    assert len(whole.records) == 1
+    assert contents(parts.directory) == contents(whole.directory)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("cuts", [(3, 30), (60,)])
+def test_stopped_anywhere_it_has_the_same_bytes(library: Library, tmp_path: Path, cuts: tuple[int, ...]) -> None:
+    built_in_parts(tmp_path, cuts, starts=STARTS, hardware=HARDWARE, threads=2)
     assert contents(tmp_path) == contents(library.directory)
 
 
