@@ -20,6 +20,7 @@ const LOOKS = {
 const MANY = 24; // failures that are listed one by one
 
 export function createLibrary(element, data) {
+  LOOKS.none.words = data.certificates ? "no motion whose certificate passes" : "not solved";
   const falls = fallsOf(data);
   const theme = createThemeButton();
   const parts = { stage: el("div", { class: "stage" }), controls: el("div", { class: "controls" }), theme };
@@ -47,12 +48,12 @@ export function createLibrary(element, data) {
   });
 }
 
-function fallsOf({ falls, methods, lying }) {
+function fallsOf({ falls, methods, lying, certificates }) {
   const column = (name) => falls[name] && unpack(falls[name]);
   const [number, method, spent, face, tilt, above, place, works, perturbed] = ["number", "method", "trials", "face", "tilt", "above", "place", "works", "perturbed"].map(column);
   return Array.from(number, (_, k) => {
     const fall = { number: number[k], look: methods[method[k]], motion: falls.motion[k], trials: spent[k], face: lying[face[k]], tilt: tilt[k], above: above[k] === 1, x: place[2 * k], y: place[2 * k + 1], works: works[k], perturbed: perturbed && perturbed[k] };
-    return { ...fall, title: `Fall ${fall.number}: on its ${fall.face}, tilted ${degrees(fall.tilt, 0)}. ${fall.look === "none" ? "Not solved" : `Solved by ${LOOKS[fall.look].words}`}${fall.motion === null || fall.motion === fall.number ? "" : `, ${motionName(fall.motion)}`}, ${fall.trials} trials.` };
+    return { ...fall, title: `Fall ${fall.number}: on its ${fall.face}, tilted ${degrees(fall.tilt, 0)}. ${fall.look === "none" ? (certificates ? "No motion passes its certificate" : "Not solved") : `Solved by ${LOOKS[fall.look].words}`}${fall.motion === null || fall.motion === fall.number ? "" : `, ${motionName(fall.motion)}`}, ${fall.trials} trials.` };
   });
 }
 
@@ -70,13 +71,14 @@ function percent(n, all) {
   return `${n === all ? "100" : fixed(Math.min(share, 99.9), 1)} %`;
 }
 
-function head({ task, robot, description, falls, starts, complete, motions, mirrored, coverage, perturbed, provenance: { seed, trials } }, themeButton) {
+function head({ task, robot, description, falls, starts, complete, motions, mirrored, coverage, perturbed, certificates, provenance: { seed, trials } }, themeButton) {
   const done = falls.motion.length;
   const good = complete && coverage === done && done === starts;
   const text = `from ${coverage} of ${done} falls${done < starts ? `; ${starts - done} are still to do` : ""}`;
   const facts = [
     ["Motions", `${motions}${mirrored ? ", and their mirror images" : ""}`],
     perturbed === null ? null : ["On robots that differ", `${percent(perturbed, done)} of the falls`],
+    certificates ? ["Certificates", `${certificates.passed} of ${certificates.motions} pass`] : null,
     ["Trials", trials.toLocaleString("en")],
     ["Seed", String(seed)],
   ].filter(Boolean);
@@ -85,7 +87,7 @@ function head({ task, robot, description, falls, starts, complete, motions, mirr
     el("h1", {}, task.replaceAll("-", " "), el("span", {}, ` on ${robot}`)),
     description ? el("p", { class: "lead" }, description) : null,
     el("div", { class: "line facts" },
-      el("p", { class: `verdict ${good ? "good" : coverage < done ? "bad" : ""}` }, good ? icon(true) : coverage < done ? icon(false) : null, el("strong", {}, done ? percent(coverage, done) : "Empty"), el("span", {}, `gets up ${text}`)),
+      el("p", { class: `verdict ${good ? "good" : coverage < done ? "bad" : ""}` }, good ? icon(true) : coverage < done ? icon(false) : null, el("strong", {}, done ? percent(coverage, done) : "Empty"), el("span", {}, `gets up ${certificates ? "within the limits " : ""}${text}`)),
       el("dl", {}, facts.map(([name, value]) => el("div", {}, el("dt", {}, name), el("dd", {}, value))))));
 }
 
@@ -131,7 +133,7 @@ function words({ title, works, perturbed }) {
 }
 
 // Motions, each a button; one at a time is chosen.
-function createList({ listed, falls, motions, mirrored, cover: few }) {
+function createList({ listed, falls, motions, mirrored, cover: few, certificates }) {
   const all = falls.motion.length;
   let choose = () => {}, chosen = null;
   const buttons = new Map();
@@ -142,7 +144,8 @@ function createList({ listed, falls, motions, mirrored, cover: few }) {
       el("th", { scope: "row" }, button, el("small", { class: "also" }, `fall ${row.fall}, ${row.trials.toLocaleString("en")} trials`)),
       el("td", {}, percent(row.works, all)),
       el("td", {}, row.perturbed === null ? "\u2013" : percent(row.perturbed, all)),
-      el("td", {}, row.covered === null ? "" : percent(row.covered, all)));
+      el("td", {}, row.covered === null ? "" : percent(row.covered, all)),
+      row.certificate ? el("td", {}, verdict(row.certificate)) : null);
   });
   function set(motion) {
     chosen = motion;
@@ -151,12 +154,19 @@ function createList({ listed, falls, motions, mirrored, cover: few }) {
   }
   const count = motions * (mirrored ? 2 : 1);
   const more = count > listed.length ? ` The ${count - listed.length} that work from fewer falls are not listed.` : "";
-  const note = `${few.length === 1 ? "The first one covers" : `The first ${few.length} together cover`} every fall that any motion gets up from; the others can be spared.${more}`;
-  const heads = [["Motion", ""], ["Works", "number"], ["Robots that differ", "number"], ["Together", "number"]];
+  const demands = certificates && certificates.failed.length ? ` Demands that certificates fail: ${certificates.failed.map(({ name, motions: n }) => `${name} (${n})`).join(", ")}.` : "";
+  const note = `${few.length === 1 ? "The first one covers" : `The first ${few.length} together cover`} every fall that any motion gets up from; the others can be spared.${more}${demands}`;
+  const heads = [["Motion", ""], ["Works", "number"], ["Robots that differ", "number"], ["Together", "number"], ...(certificates ? [["Certificate", ""]] : [])];
   const element = el("section", { class: "panel", id: "motions" },
     el("header", {}, el("h2", {}, "Motions"), el("p", { class: "note" }, listed.length ? note : "There is none yet.")),
     listed.length ? el("div", { class: "scroll" }, el("table", { class: "goals" }, el("thead", {}, el("tr", {}, heads.map(([text, cls]) => el("th", { scope: "col", class: cls }, text)))), el("tbody", {}, rows))) : null);
   return { element, onChoose(fn) { choose = fn; } };
+}
+
+// What a motion's certificate says, and the limit that it comes nearest to.
+function verdict({ failed, share, binding }) {
+  const said = failed.length ? `fails ${failed.join(", ")}` : "passes";
+  return [said, el("small", { class: "also" }, `${fixed(100 * share, 1)} % of perturbed robots${binding ? `; ${binding}` : ""}`)];
 }
 
 // How many falls are left at each number of motions.

@@ -13,6 +13,7 @@ ACTIONS = {
     "solve again": "levade solve {at} --force",
     "replace": "--force",
     "elsewhere": "--out DIR",
+    "hardware": "--hardware",
     "name tasks": "--tasks rearing",
     "give a plan": "levade bench FILE",
 }

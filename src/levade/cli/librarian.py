@@ -6,7 +6,9 @@ import json
 import os
 import shlex
 import time
+from collections import Counter
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,21 +17,24 @@ from rich.console import Console
 from rich.markup import escape
 
 from levade.arrays import Array
+from levade.cli.checking import changed
 from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console
 from levade.document import read_yaml
 from levade.errors import LevadeError, did_you_mean
 from levade.feedback import up_in_trunk
-from levade.library import Library, LibraryCheck, Progress, build, check_library
+from levade.library import Hardware, Library, LibraryCheck, Progress, build, check_library
+from levade.library.asking import LIBRARY
 from levade.library.exporting import export_library
 from levade.library.falls import FACES, face
 from levade.library.figure import draw
 from levade.library.learning import learn, save
 from levade.library.merging import merge
 from levade.library.page import write_library
+from levade.library.pursuing import read_certificate
 from levade.library.records import motion_path
 from levade.library.refining import refine as refined_answer
-from levade.library.storing import WHOLE, Shard
+from levade.library.storing import WHOLE, Shard, read_hardware
 from levade.tasks import load_task
 from levade.tasks.units import to_si
 from levade.trajectory import JointReference
@@ -43,6 +48,15 @@ _WORDS = {
 }
 
 
+_WITHIN_LIMITS = {
+    "known": "by a known motion, within the limits and on perturbed models",
+    "near": "by a search around a known motion, with a certificate",
+    "cold": "by a search from nothing, with a certificate",
+    "none": "by no motion whose certificate passes; the best one is kept",
+}
+"""The same in a library for hardware."""
+
+
 def build_library(
     task: str,
     *,
@@ -54,6 +68,9 @@ def build_library(
     threads: int,
     jobs: int,
     shard: str | None,
+    hardware: bool,
+    trials: int | None,
+    demand: list[str],
     as_json: bool,
 ) -> int:
     """Build a library.
@@ -68,6 +85,9 @@ def build_library(
         threads: Number of engine threads (0: one per core).
         jobs: Number of processes at a time.
         shard: Part to build, as ``I/N``. None for the whole library.
+        hardware: Whether motions have to keep the limits of the hardware.
+        trials: Most trials of the searches of one fall, for hardware. None for the directory's own number, or the usual one.
+        demand: Changes of the demands of hardware: files, or ``name=value``.
         as_json: Whether to print one JSON object.
 
     Returns:
@@ -76,6 +96,7 @@ def build_library(
     part = WHOLE if shard is None else _shard(shard)
     loaded = load_task(task, robot=robot, changes=changes)
     directory = out or Path(f"{loaded.name}-library")
+    demanded = _demanded(directory, hardware, trials, demand)
     console = make_console(stderr=as_json)
     began = time.monotonic()
 
@@ -95,6 +116,7 @@ def build_library(
             threads=threads,
             processes=jobs,
             shard=part,
+            hardware=demanded,
             directory=directory,
             observe=observe,
             stopping=stopping,
@@ -114,6 +136,19 @@ def build_library(
         else:
             console.print(f"To try it on falls that it has never seen: levade library check {place}")
     return 1 if stopped else 0
+
+
+def _demanded(directory: Path, hardware: bool, trials: int | None, demand: list[str]) -> Hardware | None:
+    """Return what a build demands of hardware: what the directory's library does, with the changes asked for."""
+    if not hardware:
+        for option, given in (("--trials", trials is not None), ("--demand", bool(demand))):
+            if given:
+                raise LevadeError(f"{option} only works with --hardware")
+        return None
+    known = read_hardware(directory) if (directory / LIBRARY).is_file() else None
+    known = known or Hardware()
+    demands = changed(known.demands, demand, option="--demand")
+    return replace(known, demands=demands, trials=known.trials if trials is None else trials)
 
 
 def _later(directory: Path) -> str:
@@ -255,6 +290,12 @@ def show_library(directory: Path, *, figures: Path | None, format: str, report: 
 
 def _summary(library: Library, directory: Path, written: Sequence[Path]) -> dict[str, Any]:
     """Return what ``build`` and ``show`` print as JSON."""
+    certificates = {}
+    if library.hardware:
+        passed = [number for number, failed in library.certificates.items() if not failed]
+        certificates = {
+            "certificates": {"motions": len(library.certificates), "passed": passed, "failed": _failing(library)}
+        }
     return {
         "library": str(directory),
         "done": len(library.records),
@@ -262,23 +303,47 @@ def _summary(library: Library, directory: Path, written: Sequence[Path]) -> dict
         "trials": sum(record.trials for record in library.records),
         "coverage": library.coverage,
         "cover": [{"motion": number, "falls": works} for number, works in library.knowledge.cover()],
+        **certificates,
         "written": [str(path) for path in written],
     }
 
 
+def _failing(library: Library) -> dict[str, int]:
+    """Return each demand of hardware that certificates fail, and how many fail it; the most frequent first."""
+    return dict(Counter(name for failed in library.certificates.values() for name in failed).most_common())
+
+
 def _tell_library(console: Console, library: Library) -> None:
     falls, cover = len(library.records), library.knowledge.cover()
-    for name, words in _WORDS.items():
+    words = {**_WORDS, **(_WITHIN_LIMITS if library.hardware else {})}
+    for name in _WORDS:
         n = sum(record.method == name for record in library.records)
         if n:
-            console.print(f"{n} fall{'s' * (n != 1)} solved {words}.")
+            console.print(f"{n} fall{'s' * (n != 1)} solved {words[name]}.")
     motions = sum(record.motion == record.fall for record in library.records)
     images = " and their mirror images" if library.knowledge.mirror else ""
-    console.print(f"{motions} motions{images} get up from {library.coverage:.1%} of {falls} falls.")
-    if not cover:
-        return
-    enough = ", ".join(f"{k + 1}: {works / falls:.1%}" for k, (_, works) in enumerate(cover[:6]))
-    console.print(f"The best few of them: {enough}.")
+    within = " within the limits" * library.hardware
+    console.print(f"{motions} motions{images} get up{within} from {library.coverage:.1%} of {falls} falls.")
+    if cover:
+        enough = ", ".join(f"{k + 1}: {works / falls:.1%}" for k, (_, works) in enumerate(cover[:6]))
+        console.print(f"The best few of them: {enough}.")
+    if library.hardware:
+        _tell_certificates(console, library)
+
+
+def _tell_certificates(console: Console, library: Library) -> None:
+    """Say how many certificates pass, which demands the others fail, and what binds the best few motions."""
+    passed = sum(not failed for failed in library.certificates.values())
+    failing = ", ".join(f"{name} ({n})" for name, n in _failing(library).items())
+    others = f" The others fail {escape(failing)}." if failing else ""
+    console.print(f"The certificates of {passed} of {len(library.certificates)} motions pass.{others}")
+    for number, _ in library.knowledge.cover()[:6]:
+        certificate = read_certificate(library.directory, number)
+        share, binds = certificate["perturbed"]["share"], certificate.get("binding") or "no limit is known"
+        said = f"succeeds on {share:.1%} of perturbed robots; {binds}"
+        console.print(
+            f"  {_named(Path(motion_path(library.directory, number).name), number)}: {escape(said)}", style="dim"
+        )
 
 
 def check_the_library(
@@ -316,12 +381,23 @@ def _told(found: LibraryCheck) -> list[tuple[str, str]]:
         (f"{found.starts} falls of seed {found.seed}", ""),
         ("the first answer works", str(found.first)),
         *lying,
+        *_told_of_hardware(found),
         *after,
         *([("the first answer, refined in simulation", str(found.refined))] if found.refined else []),
         ("within two attempts, the second from where it lies", str(found.twice)),
         ("the first answer, on perturbed models", str(found.perturbed)),
         ("mean probability predicted by the answers", f"{found.expected:.1%}"),
         ("an answer takes", f"{found.answer_ms[0]:.2f} ms, 99 % at most {found.answer_ms[1]:.2f} ms"),
+    ]
+
+
+def _told_of_hardware(found: LibraryCheck) -> list[tuple[str, str]]:
+    if found.certified is None:
+        return []
+    missed = ", ".join(f"{name} {n}" for name, n in found.missed.items()) or "none"
+    return [
+        ("  works within the limits, with a certificate", str(found.certified)),
+        ("  falls from which it misses a criterion or limit", missed),
     ]
 
 
@@ -363,6 +439,9 @@ def ask_library(directory: Path, *, state: Path, reference: Path | None, refine:
             "motion": str(answer.path),
             "mirrored": answer.mirror is not None,
             "probability": answer.probability,
+            **(
+                {} if answer.failed is None else {"certificate": {"passed": not answer.failed, "failed": answer.failed}}
+            ),
             "others": [
                 {"motion": str(motion_path(directory, number)), "mirrored": number < 0, "probability": probability}
                 for number, probability in answer.others
@@ -378,6 +457,9 @@ def ask_library(directory: Path, *, state: Path, reference: Path | None, refine:
         return 0 if better is None or better.works else 1
     console = make_console()
     console.print(f"{_named(answer.path, answer.number)}: works with a probability of {answer.probability:.1%}")
+    if answer.failed is not None:
+        said = f"fails {', '.join(answer.failed)}" if answer.failed else "passes"
+        console.print(f"  Its certificate, from its own fall, {escape(said)}.")
     for number, probability in answer.others[:3]:
         place = _named(Path(motion_path(directory, number).name), number)
         console.print(f"  next: {place}, {probability:.1%}", style="dim")

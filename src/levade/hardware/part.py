@@ -84,7 +84,7 @@ class Pursued:
         best: The part with the best certificate.
         directory: Directory that holds everything.
         seed: Seed of the pursuit.
-        stopped: Why it ended early: "interrupted" or "time". "" if it did not.
+        stopped: Why it ended early: "interrupted", "time" or "trials". "" if it did not.
     """
 
     plan: Plan

@@ -107,21 +107,24 @@ class Plan:
         robot: Its robot, with its linkage in this case.
         goal: Criterion -> what is good enough on hardware: the task's own criterion, with a tolerance of at least `tolerance`.
         limits: Criterion -> the slack to keep for each kind of limit that the robot has, or what the task itself asks for.
+        feedback: Whether motions may have feedback.
     """
 
     task: Task
     robot: Robot
     goal: Mapping[str, Criterion]
     limits: Mapping[str, Criterion]
+    feedback: bool = True
 
     @classmethod
-    def of(cls, task: Task, robot: Robot, demands: Demands | None = None) -> Plan:
+    def of(cls, task: Task, robot: Robot, demands: Demands | None = None, *, feedback: bool = True) -> Plan:
         """Make the plan for a task.
 
         Args:
             task: The task. Its criteria for perturbed models also hold on the nominal model.
             robot: Its robot.
             demands: Demands of the certificate. Defaults to the task's, or else to `levade.tasks.Demands`.
+            feedback: Whether motions may have feedback.
         """
         demands = demands or task.hardware or Demands()
         if robot.curves and demands.linkage is not None:
@@ -131,7 +134,7 @@ class Plan:
         asked = {name: one for name, one in task.success.items() if one.quantity in ROOM}
         known = {one.quantity for one in asked.values()}
         limits = {name: one for name, one in _limits(robot, demands).items() if name not in known}
-        return cls(task, robot, goal, {**limits, **asked})
+        return cls(task, robot, goal, {**limits, **asked}, feedback)
 
     @property
     def on_others(self) -> Mapping[str, Criterion]:
@@ -177,6 +180,14 @@ class Plan:
                 smoothness=_SMOOTHNESS,
             ),
         )
+
+    def number_of(self, policy: PolicyChoice) -> int:
+        """Return the number of the first search within limits with a given policy; 0 if none has it.
+
+        Args:
+            policy: Policy of a motion.
+        """
+        return next((number for number in (0, RUN_UP) if self.within_limits(number).policy == policy), 0)
 
     def nearer(self, number: int, horizon: float) -> Task:
         """Make the task of `within_limits` for a search around a motion that nearly keeps the limits.
@@ -272,15 +283,20 @@ class Plan:
         Args:
             motion: A motion of one of the plan's searches.
         """
-        if motion.task.robust is not None:
-            return motion
-        task = replace(motion.task, robust=Robust(success=self.on_others, perturb=self.perturb))
-        return motion.with_task(task)
+        return motion if motion.task.robust is not None else motion.with_task(self.judging(motion.task))
+
+    def judging(self, task: Task) -> Task:
+        """Add to a task within limits what is good enough on perturbed models: the goal alone.
+
+        Args:
+            task: A task of one of the plan's searches on the nominal model.
+        """
+        return replace(task, robust=Robust(success=self.on_others, perturb=self.perturb))
 
     @property
     def can_close_the_loop(self) -> bool:
-        """Whether the task's engine simulates feedback."""
-        return engine_kind(self.task.physics.engine).feedback
+        """Whether motions may have feedback, and the task's engine simulates it."""
+        return self.feedback and engine_kind(self.task.physics.engine).feedback
 
     @property
     def _held(self) -> bool | float:

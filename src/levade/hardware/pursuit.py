@@ -21,6 +21,8 @@ A robust search follows around the motion that succeeds on most robots, and a se
 robots succeed in open loop, the search with feedback follows at once. Fine searches then begin around a motion if it succeeds
 on nearly enough robots, if its lead is so small that other robots could change the verdict, or if it fails because of how
 contact is computed. Searches that are no longer needed are left out.
+
+A pursuit around a given motion has one search within limits, ``near``, which begins around it.
 """
 
 from __future__ import annotations
@@ -46,6 +48,7 @@ from levade.hardware.state import (
     FINER,
     LIMITS,
     MORE,
+    NEAR,
     PAGE,
     ROBUST,
     State,
@@ -68,6 +71,9 @@ from levade.writing import write_text
 
 _ON_LIMITS = (0.25, 0.6, 1.0)
 """Shares of the time after which searches within limits, in order, end if they have no success."""
+
+_ON_NEAR = 0.6
+"""The same share for a search around a given motion."""
 
 _ENOUGH = 0.4
 """The same share once another search has succeeded. No further search within limits begins after it."""
@@ -114,6 +120,9 @@ def pursue(
     threads: int = 0,
     directory: Path,
     minutes: float | None = None,
+    trials: int | None = None,
+    around: Motion | None = None,
+    feedback: bool = True,
     demands: Demands | None = None,
     runs: int = 500,
     replace: bool = False,
@@ -133,6 +142,11 @@ def pursue(
             unfinished ones go on.
         minutes: Time for all searches and checks together [min]. They end with the best motion so far, and a later call goes
             on. None sets no limit except the searches' numbers of trials.
+        trials: Most roll-outs of all searches together, to the nearest generation. Unlike ``minutes`` the result then depends
+            on no computer's speed, and a call that goes on after an interruption gives the same one. Those of certificates
+            do not count. None sets no limit.
+        around: A motion that nearly keeps the limits, to search around instead of from nothing.
+        feedback: Whether the motion may have feedback.
         demands: Demands of the certificate. Defaults to the task's, or else to `levade.tasks.Demands`.
         runs: Most perturbed runs of each certificate. After 100 runs, it ends once the demanded share is out of reach.
         replace: Whether to replace the content of the directory and begin from nothing.
@@ -150,10 +164,12 @@ def pursue(
     """
     if minutes is not None and not minutes > 0:
         raise LevadeError(f"{minutes:g} should be a positive number of minutes; 5 is usual", field="minutes")
+    if trials is not None and trials < 1:
+        raise LevadeError(f"{trials} trials are too few; give 1 or more, such as 6000", field="trials")
     if robot is None:
         robot = task.robot.load()
     demands = demands or task.hardware or Demands()
-    plan = Plan.of(task, robot, demands)
+    plan = Plan.of(task, robot, demands, feedback=feedback)
     if not plan.goal:
         raise LevadeError(f"hardware: the task {task.name} has no success criteria to certify; add some to the task")
     check_page(directory / PAGE, instead="give another directory")
@@ -165,29 +181,36 @@ def pursue(
         check_same(directory, task, seed)
     with locked(directory, "pursuit"):
         state = State.of(directory, task, seed, demands)
+        if trials is not None:  # all searches are made again, to the same result
+            state.chosen = None
         state.write()
         began = time.monotonic()
         end = None if minutes is None else began + 60 * minutes
-        first = _Pursuit(plan, seed, threads, state, end, demands, runs, begin, observe, tell, stopping)
+        how = (end, demands, runs, begin, observe, tell, stopping)
+        first = _Pursuit(plan, seed, threads, state, *how, trials=trials, around=around)
         found, number = first.go(), 1
-        while not found.passed and not found.stopped:
+        while not found.passed and not found.stopped and around is None:
             place = again(directory, number)
+            more = None if trials is None else trials - found.trials
             left = end is not None and end - time.monotonic() > _AGAIN * (end - began)
-            if not (left or is_pursuit(place)):
+            left = left or (trials is not None and trials - found.trials > _AGAIN * trials)
+            if not (left or (trials is None and is_pursuit(place))):
                 break
-            found = first.joined(found, _again(first, place, number))
+            found = first.joined(found, _again(first, place, number, more))
             number += 1
         return found
 
 
-def _again(first: _Pursuit, directory: Path, number: int) -> Pursued:
+def _again(first: _Pursuit, directory: Path, number: int, trials: int | None) -> Pursued:
     """Repeat the searches with another seed."""
     known = first.state
     with storing(directory, then=Remedy("make room, then go on", "resume", known.directory)):
         directory.mkdir(exist_ok=True)
     state = State.of(directory, known.task, known.seed + _FAR_APART * number, known.demands)
+    if trials is not None:
+        state.chosen = None
     state.write()
-    return first.like(state, f"{directory.name}/").go()
+    return first.like(state, f"{directory.name}/", trials).go()
 
 
 class _Pursuit:
@@ -205,11 +228,14 @@ class _Pursuit:
         tell: Tell | None,
         stopping: Callable[[], bool],
         prefix: str = "",
+        trials: int | None = None,
+        around: Motion | None = None,
     ) -> None:
         self._plan, self._seed, self._threads, self._state = plan, seed, threads, state
         self._directory, self._prefix = state.directory, prefix
         self._end, self._demands, self._runs = end, demands, runs
         self._begin, self._observe, self._tell, self._stopping = begin, observe, tell, stopping
+        self._trials, self._around = trials, around
         self._began = time.monotonic()
         self._parts: list[Part] = []
         self._kinds: dict[str, int] = {}  # which of the plan's searches within limits each is
@@ -221,15 +247,16 @@ class _Pursuit:
         """The arguments of the pursuit, and its directory."""
         return self._state
 
-    def like(self, state: State, prefix: str) -> _Pursuit:
+    def like(self, state: State, prefix: str, trials: int | None) -> _Pursuit:
         """Make the same pursuit with another seed in another directory.
 
         Args:
             state: Its arguments, and its directory.
             prefix: Prefix of its searches' names in reports.
+            trials: Most roll-outs of its searches. None sets no limit.
         """
         how = (self._end, self._demands, self._runs, self._begin, self._observe, self._tell, self._stopping)
-        return _Pursuit(self._plan, state.seed, self._threads, state, *how, prefix)
+        return _Pursuit(self._plan, state.seed, self._threads, state, *how, prefix, trials)
 
     def joined(self, found: Pursued, other: Pursued) -> Pursued:
         """Join the result so far with that of another pursuit, and keep the better motion in this directory.
@@ -258,6 +285,12 @@ class _Pursuit:
 
     def _keep_to_limits(self) -> None:
         """Look for motions of the nominal model within its limits."""
+        if self._around is not None:
+            near = self._around
+            number = self._kinds[NEAR] = self._plan.number_of(near.task.policy)
+            self._share = _ON_NEAR
+            self._search(NEAR, self._plan.nearer(number, near.horizon), near, seed=self._seed)
+            return
         for number, name in enumerate((*LIMITS, *MORE)):
             if self._state.chosen not in (None, name):
                 continue
@@ -338,11 +371,16 @@ class _Pursuit:
             self._state.chosen = part.name
             self._state.write()
 
-    def _late(self, share: float) -> bool:
-        """Whether a share of the time is over."""
-        if self._end is None:
-            return False
-        return time.monotonic() > self._began + share * (self._end - self._began)
+    def _late(self, share: float, trials: int = 0) -> bool:
+        """Whether a share of the time is over, or of the trials, including those of the search that goes on."""
+        if self._spent(share, trials):
+            return True
+        return self._end is not None and time.monotonic() > self._began + share * (self._end - self._began)
+
+    def _spent(self, share: float, trials: int) -> bool:
+        """Whether a share of the trials is spent, including those of the search that goes on."""
+        spent = sum(part.trials for part in self._parts) + trials
+        return self._trials is not None and spent >= share * self._trials
 
     @property
     def _best(self) -> Part:
@@ -439,9 +477,17 @@ class _Pursuit:
             self._stopped = "interrupted"
         elif self._end is not None and time.monotonic() > self._end and not generation.replayed:
             self._stopped, wish = "time", Stopped.INTERRUPTED
-        elif self._late(self._share) and generation.trials_to_success is None and not generation.replayed:
+        elif self._spent(1.0, generation.trials):  # also when it is replayed: a later call stops there, too
+            self._stopped, wish = "trials", Stopped.INTERRUPTED
+        elif generation.trials_to_success is None and self._gives_up(generation):
             wish = Stopped.INTERRUPTED
         return wish
+
+    def _gives_up(self, generation: Generation) -> bool:
+        """Whether a search without success ends, because it has had its share."""
+        if self._spent(self._share, generation.trials):
+            return True
+        return not generation.replayed and self._late(self._share)
 
     def _better_there(self, part: Part) -> bool:
         """Whether an earlier call left a motion with a better certificate for the same demands."""

@@ -21,6 +21,9 @@ FINER = ("finer-1", "finer-2", "finer-3")
 MORE = ("limits-4", "limits-5", "limits-6", "limits-7", "limits-8")
 """Searches within limits that may follow those in `LIMITS`. Each has other random numbers."""
 
+NEAR = "near"
+"""The search around a given motion, which takes the place of those in `LIMITS`."""
+
 AGAIN = "again"
 """Prefix of the directories for searches that are repeated with another seed: ``again-1``, ..."""
 
@@ -130,7 +133,7 @@ def discard(directory: Path) -> None:
     Raises:
         LevadeError: If one of them is still running.
     """
-    searches = [directory, *(directory / name for name in (*LIMITS, *MORE, ROBUST, CLOSED, *FINER))]
+    searches = [directory, *(directory / name for name in (*LIMITS, *MORE, NEAR, ROBUST, CLOSED, *FINER))]
     for search in searches:
         check_unlocked(search)
     number = 1

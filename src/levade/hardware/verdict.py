@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from levade.checks import Certificate, Margin
 from levade.hardware.part import Pursued
-from levade.hardware.state import LIMITS, MORE
+from levade.hardware.state import LIMITS, MORE, NEAR
 from levade.motions import Motion
 
 _SHARES = {"speed": "speed limit", "torque_speed": "torque-speed line", "linkage": "linkage's torque"}
@@ -52,7 +52,7 @@ def obstacles(pursued: Pursued) -> list[str]:
     if missed:
         off = ", ".join(f"{name} {part.motion.result.errors[name]:+.3g}" for name in missed)
         said.append(f"the goal is missed within the limits ({off}): ask for less, or allow a longer horizon")
-    within_limits = part.name.rpartition("/")[2] in (*LIMITS, *MORE)
+    within_limits = part.name.rpartition("/")[2] in (*LIMITS, *MORE, NEAR)
     if "perturbed" in failed and not (missed and within_limits):
         said.append(_of_perturbed(certificate))
     others = [name for name in sorted(failed) if name != "perturbed" and name not in _names(certificate)]

@@ -9,11 +9,13 @@ from levade.library.asking import Answer, Library
 from levade.library.building import Progress, build
 from levade.library.checking import LibraryCheck, Share, check_library
 from levade.library.falls import Falls
+from levade.library.pursuing import Hardware
 from levade.library.records import Method, Record
 
 __all__ = [
     "Answer",
     "Falls",
+    "Hardware",
     "Library",
     "LibraryCheck",
     "Method",

@@ -23,7 +23,7 @@ from levade.errors import LevadeError
 from levade.exports.asker import Learned, Model, unpacked
 from levade.library.knowledge import Knowledge
 from levade.library.mirror import Mirror
-from levade.library.records import FALLS, Record, motion_path
+from levade.library.records import FALLS, Record, fall_of, motion_path
 from levade.motions import Motion
 from levade.trajectory import JointReference
 
@@ -49,6 +49,8 @@ class Answer:
         joint_position: Joint angles at which the reference begins [rad], shape (joints,): the measured ones, or the
             commanded ones if the robot folds up first.
         mirror: The mirror, if the answer is the mirror image of a motion. None if it is the motion itself.
+        failed: Demands of hardware that the motion's certificate fails; none if it passes. None in a library that demands
+            nothing of hardware. The certificate is that of the motion from its own fall.
     """
 
     number: int
@@ -57,6 +59,7 @@ class Answer:
     path: Path
     joint_position: Array
     mirror: Mirror | None = None
+    failed: tuple[str, ...] | None = None
 
     @cached_property
     def motion(self) -> Motion:
@@ -100,6 +103,7 @@ class Library:
         fold: Joint angles to which the robot folds up before it asks [rad], shape (joints,). None if it asks as it fell.
         learned: Learned model, if it was fitted to these very falls and motions. None if the library answers by the
             nearest falls.
+        hardware: Whether motions have to keep the limits of hardware. A motion then works only if it does.
     """
 
     directory: Path
@@ -107,6 +111,7 @@ class Library:
     knowledge: Knowledge
     fold: Array | None = None
     learned: Learned | None = None
+    hardware: bool = False
 
     @classmethod
     def load(cls, directory: str | Path) -> Library:
@@ -128,7 +133,8 @@ class Library:
         knowledge = Knowledge.of(records, mirror)
         fold = _read_fold(content.get("fold"), where=str(place))
         learned = _read_learned(directory / LEARNED, knowledge)
-        return cls(directory, records, knowledge.merged(read_success(directory, knowledge)), fold, learned)
+        known = knowledge.merged(read_success(directory, knowledge))
+        return cls(directory, records, known, fold, learned, content.get("hardware") is not None)
 
     def ask(self, up: Any, joint_position: Any) -> Answer:
         """Choose the motion to play.
@@ -151,7 +157,25 @@ class Library:
         (number, probability), *others = self.model.ranked(up, joints)
         mirror = self.knowledge.mirror if number < 0 else None
         begins = joints if self.fold is None else self.fold
-        return Answer(number, probability, tuple(others), motion_path(self.directory, number), begins, mirror)
+        failed = self.failed_by(number)
+        return Answer(number, probability, tuple(others), motion_path(self.directory, number), begins, mirror, failed)
+
+    def failed_by(self, motion: int) -> tuple[str, ...] | None:
+        """Return the demands of hardware that a motion's certificate fails; none if it passes, None if it has none.
+
+        Args:
+            motion: Number of the motion. The certificate of an image is that of the original.
+        """
+        return self.certificates.get(fall_of(motion))
+
+    @cached_property
+    def certificates(self) -> dict[int, tuple[str, ...]]:
+        """Number of each motion with a certificate -> the demands that it fails, none if it passes.
+
+        Falls without a motion that passes keep the one with the best certificate. It counts here, but answers only if it keeps
+        the limits on the model.
+        """
+        return {record.fall: record.failed for record in self.records if record.failed is not None}
 
     @property
     def model(self) -> Model | Learned:

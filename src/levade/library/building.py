@@ -6,6 +6,7 @@ DIR/task.yaml            the task, with every default filled in, from the first 
 DIR/library.yaml         seed and number of falls
 DIR/falls/000012.json    how the robot lies, and the result: written when the fall is done
 DIR/motions/000012.npz   the motion that was found for this fall
+DIR/certificates/000012.json  the motion's certificate, in a library for hardware
 DIR/success.npz          which motion works from which fall, on the model and on a perturbed model
 
 Falls are solved in rounds, and each fall sees the library as it was when its round began. So the result depends neither on
@@ -14,6 +15,7 @@ threads and processes nor on where an earlier build was stopped. In one process,
 
 from __future__ import annotations
 
+import shutil
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext, suppress
@@ -29,6 +31,7 @@ from levade.library.asking import LIBRARY, SUCCESS, Library, read_success
 from levade.library.falls import Falls
 from levade.library.knowledge import Knowledge
 from levade.library.pieces import Fall, Row, Workshop
+from levade.library.pursuing import PURSUITS, Hardware
 from levade.library.records import FALLS, MOTIONS, Method
 from levade.library.solving import Solver
 from levade.library.storing import WHOLE, Shard, begin, read_library
@@ -70,6 +73,7 @@ def build(
     threads: int = 0,
     processes: int = 1,
     shard: Shard = WHOLE,
+    hardware: Hardware | None = None,
     directory: Path,
     observe: Callable[[Progress], object] | None = None,
     stopping: Callable[[], bool] = lambda: False,
@@ -85,6 +89,7 @@ def build(
         processes: Number of processes that solve the falls of a round in parallel, with one thread each. The result does
             not depend on it.
         shard: The share of the falls that this library covers. `merge` joins shards.
+        hardware: Demands of the hardware on each motion, and the budget of a fall. None for motions without regard to limits.
         directory: Directory to write to.
         observe: Function that is called after each part of a round.
         stopping: Function that is called between generations. When it returns True, the build ends and keeps all falls that
@@ -105,14 +110,15 @@ def build(
         raise LevadeError(f"{starts} falls have no shard {shard}; give as many falls as shards", field="starts")
     if task.start.fallen is None and (directory / LIBRARY).is_file():  # keep its falls, even if the default has changed
         task = replace(task, start=read_library(directory)[0].start)
-    falls = Falls(task, robot=robot, seed=seed, threads=threads)
+    demands = None if hardware is None else hardware.demands
+    falls = Falls(task, robot=robot, seed=seed, threads=threads, demands=demands)
     with storing(directory, then=Remedy("give another directory", "elsewhere")):
         for name in (FALLS, MOTIONS):
             (directory / name).mkdir(parents=True, exist_ok=True)
     with locked(directory, "library"):
-        begin(directory, falls, seed, starts, shard)
+        begin(directory, falls, seed, starts, shard, hardware)
         pool = Pool(Workshop(directory, robot), processes) if processes > 1 else nullcontext()
-        _Builder(falls, directory, seed, shard.of(starts), observe, stopping).go(pool)
+        _Builder(falls, directory, seed, shard.of(starts), hardware, observe, stopping).go(pool)
     return Library.load(directory)
 
 
@@ -147,12 +153,13 @@ class _Builder:
         directory: Path,
         seed: int,
         own: tuple[int, ...],
+        hardware: Hardware | None,
         observe: Callable[[Progress], object] | None,
         stopping: Callable[[], bool],
     ) -> None:
         self._falls, self._directory, self._own = falls, directory, own
         self._observe, self._stopping = observe, stopping
-        self._solver = Solver(falls, directory, seed, stopping=stopping, observe=self._tell)
+        self._solver = Solver(falls, directory, seed, hardware=hardware, stopping=stopping, observe=self._tell)
         self._solver.load(own)
 
     def go(self, pool: AbstractContextManager[_Workers | None]) -> None:
@@ -202,6 +209,7 @@ class _Builder:
         with storing(place, then=Remedy("make room, then build again")), replacing(place) as partial:
             tables = {"success": success == 1.0, "perturbed": perturbed == 1.0}
             np.savez(partial, falls=known.falls, motions=known.motions, **tables)
+        shutil.rmtree(self._directory / PURSUITS, ignore_errors=True)  # left by a build that was killed
 
     def _tell(self) -> None:
         if self._observe is None:

@@ -7,8 +7,9 @@ found.first, found.after[3], found.perturbed, found.twice
 from __future__ import annotations
 
 import time
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -17,11 +18,11 @@ from levade.checks.statistics import wilson
 from levade.engines import MujocoEngine, Perturbation
 from levade.errors import LevadeError
 from levade.library.asking import Answer, Library
-from levade.library.falls import FACES, Falls, Play, Plays, face, tried, tried_on_others
+from levade.library.falls import FACES, Falls, Play, Plays, face, posed, tried, tried_on_others
 from levade.library.refining import refined
-from levade.library.storing import read_library
+from levade.library.storing import read_falls, read_library
 from levade.robots import Robot
-from levade.search.evaluation import Mask
+from levade.search.evaluation import Evaluation, Mask
 from levade.search.objective import Objective, Rollouts
 
 AFTER = (2, 3, 5)
@@ -83,6 +84,10 @@ class LibraryCheck:
             `perturbed`, since the library's own falls are tried on both.
         answer_ms: Median and 99th percentile of the time of an answer [ms], without a simulator.
         failed: Indices of the falls from which the first answer did not work.
+        certified: How often the first answer works and has a certificate that passes. None in a library that demands nothing
+            of hardware. Motions of one that does work only if they keep its limits.
+        missed: Criterion or limit -> number of falls from which the first answer missed it on the model. Empty in a library
+            that demands nothing of hardware.
         interrupted: Whether the check was stopped before its end.
     """
 
@@ -98,12 +103,17 @@ class LibraryCheck:
     answer_ms: tuple[float, float]
     failed: tuple[int, ...]
     interrupted: bool = False
+    certified: Share | None = None
+    missed: Mapping[str, int] = field(default_factory=dict)
 
     def to_json(self) -> dict[str, object]:
         """Convert the result to plain numbers."""
         after = {str(k): share.to_json() for k, share in self.after.items()}
         lying = {name: share.to_json() for name, share in self.lying.items()}
         refined = {} if self.refined is None else {"refined": self.refined.to_json()}
+        hardware = {}
+        if self.certified is not None:
+            hardware = {"hardware": {"certified": self.certified.to_json(), "missed": dict(self.missed)}}
         nominal = {
             "first": self.first.to_json(),
             "after": after,
@@ -116,6 +126,7 @@ class LibraryCheck:
             "seed": self.seed,
             "nominal": nominal,
             "perturbed": {"first": self.perturbed.to_json()},
+            **hardware,
             "expected": self.expected,
             "answer_ms": {"median": self.answer_ms[0], "p99": self.answer_ms[1]},
             "failed": list(self.failed),
@@ -153,12 +164,12 @@ def check_library(
     Raises:
         LevadeError: If the seed is that of the library's own falls, or the task is not consistent.
     """
-    task, own = read_library(library.directory)
+    _, own = read_library(library.directory)
     if seed == own:
         raise LevadeError(f"{seed} is the seed of the library's own falls; give another", field="seed")
     if starts < 1:
         raise LevadeError(f"{starts} falls are too few; give 1 or more, such as 200", field="starts")
-    falls = Falls(task, robot=robot, seed=seed, threads=threads)
+    falls, _ = read_falls(library.directory, robot=robot, seed=seed, threads=threads)
     trial = _Trial(library, falls, seed, perturbation or Perturbation(), refine)
     for first in range(0, starts, _AT_ONCE):
         if stopping():
@@ -177,7 +188,8 @@ class _Trial:
         self._works: list[Mask] = []  # whether each of the likeliest motions works, per fall
         self._perturbed: list[bool] = []
         self._faces: list[str] = []
-        self._recovered = 0
+        self._recovered, self._certified = 0, 0
+        self._missed: Counter[str] = Counter()
         self._times: list[float] = []
         self._expected: list[float] = []
 
@@ -193,8 +205,11 @@ class _Trial:
         self._faces += [face(up) for up, _ in sensed]
         numbers = [(one.number, *(number for number, _ in one.others))[: max(AFTER)] for one in answers]
         plays = [[self._plays[number] for number in own] for own in numbers]
-        works: list[Mask] = [found.success for found in tried(objectives, plays)]
+        found = tried(objectives, plays)
+        works: list[Mask] = [one.success for one in found]
         self._works += works
+        if self._library.hardware:
+            self._judge(answers, found)
         self._expected += [one.probability for one in answers]
         first = [own[0] for own in plays]
         self._perturbed += [
@@ -208,6 +223,13 @@ class _Trial:
             self._refined += better.works
         if failed:
             self._recovered += self._again([objectives[j] for j in failed], [first[j] for j in failed])
+
+    def _judge(self, answers: Sequence[Answer], found: Sequence[Evaluation]) -> None:
+        """Count first answers with a certificate, and the criteria and limits that first answers miss."""
+        for answer, one in zip(answers, found, strict=True):
+            self._certified += bool(one.success[0]) and answer.failed == ()
+            for name, criterion in self._falls.judged.success.items():
+                self._missed[name] += not criterion.met(one.errors[name][:1])[0]
 
     def found(self, *, interrupted: bool) -> LibraryCheck:
         n, first = self.n, sum(bool(one[0]) for one in self._works)
@@ -225,6 +247,8 @@ class _Trial:
             answer_ms=(1e3 * float(median), 1e3 * float(late)),
             failed=tuple(i for i, one in enumerate(self._works) if not one[0]),
             interrupted=interrupted,
+            certified=Share(self._certified, n) if self._library.hardware else None,
+            missed={name: count for name, count in self._missed.items() if count},
         )
 
     def _of_those_on(self, name: str) -> Share:
@@ -244,8 +268,9 @@ class _Trial:
             return 0
         parts = []
         for objective, play in zip(objectives, plays, strict=True):
-            policy, hold = objective.policy, objective.task.hold_steps
-            parts.append(Rollouts(objective.state, policy.reference(play.decisions(policy), hold_steps=hold), None))
+            own, weights = posed(objective, play)
+            reference = own.policy.reference(weights, hold_steps=own.task.hold_steps)
+            parts.append(Rollouts(own.state, reference, None))
         joined = Rollouts.joined(parts)
         out, diverged = engine.states(joined.starts, joined.reference, ["qpos", "qvel", "act"])
         recovered = 0

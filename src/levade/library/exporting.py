@@ -30,17 +30,13 @@ from levade.exports.as_csv import write_json, write_player, write_script
 from levade.exports.asker import Model, apart, checksum
 from levade.exports.directory import filling
 from levade.library.asking import Library
-from levade.library.falls import Falls, Plays
+from levade.library.falls import Falls, Plays, simulated
 from levade.library.knowledge import Knowledge
 from levade.library.learning import arrays_of
 from levade.library.records import fall_of, image_of
-from levade.library.storing import read_library
+from levade.library.storing import read_falls
 from levade.motions import Motion
 from levade.robots import Robot
-from levade.search.evaluation import Trials
-from levade.search.objective import Objective
-from levade.search.outcome import Solution, Stopped, Trial
-from levade.search.recording import record
 
 _APART = 0.3
 """Distance between two lying poses [rad] beyond which a motion is simulated from both."""
@@ -94,8 +90,8 @@ def export_library(
             f"{library.directory}: the robot does not fold up first, so a player cannot check where a motion begins;"
             " build a library whose start has fallen: {fold: {}}"
         )
-    task, seed = read_library(library.directory)
-    falls = Falls(task, robot=robot, seed=seed, threads=1)
+    falls, seed = read_falls(library.directory, robot=robot)
+    task = falls.task
     fold = task.start.fallen and task.start.fallen.fold
     assert fold is not None
     plays = Plays(library.directory, knowledge.mirror)
@@ -107,10 +103,10 @@ def export_library(
             motion = f"motions/{fall_of(number):06}{'-mirrored' * (number < 0)}"
             for fall, image in lying:
                 folder = f"{motion}/from-{fall:06}{'-mirrored' * image}"
-                simulated = _simulated(falls, plays, number, fall, image=image)
-                if not simulated.result.success:
+                motion_there = _simulated(falls, plays, number, fall, image=image)
+                if not motion_there.result.success:
                     failed.append(folder)
-                export(simulated, "csv", partial / folder, rate=rate, reference="commanded", command=command)
+                export(motion_there, "csv", partial / folder, rate=rate, reference="commanded", command=command)
                 (partial / folder / "player.py").unlink()
                 folders.setdefault(number, []).append(folder)
                 written += 1
@@ -169,8 +165,7 @@ def _lying(known: Knowledge, row: int, *, image: bool) -> tuple[Array, Array]:
 def _simulated(falls: Falls, plays: Plays, number: int, fall: int, *, image: bool) -> Motion:
     """Simulate a motion from a fall; or, after folding up, from the mirror image of the fall."""
     lying, play = falls.objective(fall), plays[number]
-    objective = falls.from_state(_mirrored(falls, lying.state)) if image else lying
-    return record(objective, _as_found(objective, play.decisions(objective.policy)), seed=play.motion.provenance.seed)
+    return simulated(falls.from_state(_mirrored(falls, lying.state)) if image else lying, play)
 
 
 def _mirrored(falls: Falls, lying: State) -> State:
@@ -184,20 +179,3 @@ def _mirrored(falls: Falls, lying: State) -> State:
     told = mirror.posture(lying.joint_reference[0])
     still = np.zeros_like(lying.qvel[0]), np.zeros_like(lying.act[0])
     return falls.folded(layout.state(qpos, *still, joint_reference=told))
-
-
-def _as_found(objective: Objective, weights: np.ndarray) -> Solution:
-    """Evaluate a motion on the model, as if a search had found it."""
-    found = objective.evaluate(Trials(weights, objective.task.hold_steps))
-    own = {name: one.weight for name, one in objective.task.costs.items()}
-    best = Trial.of(weights[0], float(found.cost(own)[0]), found, 0)
-    return Solution(
-        best=best,
-        trials=0,
-        generations=0,
-        trials_to_success=None,
-        diverged=0,
-        stopped=Stopped.SUCCESS,
-        cost_weights=own,
-        changes=(),
-    )

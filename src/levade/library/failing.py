@@ -12,8 +12,8 @@ import numpy as np
 
 from levade.costs import errors
 from levade.library.asking import Library
-from levade.library.falls import Falls, Plays
-from levade.library.storing import read_library
+from levade.library.falls import Plays, posed
+from levade.library.storing import read_falls
 from levade.motions import Motion
 from levade.robots import Robot
 
@@ -53,14 +53,15 @@ def failures(library: Library, *, most: int, robot: Robot | None = None) -> list
     rows = np.flatnonzero(~(known.success == 1.0).any(axis=1))[:most]
     if not len(rows) or not len(known.motions):
         return []
-    task, seed = read_library(library.directory)
-    falls = Falls(task, robot=robot, seed=seed, threads=1)
+    falls, _ = read_falls(library.directory, robot=robot)
+    success = falls.judged.success
     plays = Plays(library.directory, falls.mirror)
     found = []
     for row in rows:
         fall, number = int(known.falls[row]), library.model.ranked(known.up[row], known.joint_position[row])[0][0]
-        objective, play = falls.objective(fall), plays[number]
-        done = objective.rollout(play.decisions(objective.policy), feet=True).alone(0)
+        play = plays[number]
+        objective, weights = posed(falls.objective(fall), play)
+        done = objective.rollout(weights, feet=True).alone(0)
         assert done.foot_contact_force is not None
         arrays = {
             "qpos0": objective.state.qpos[0],
@@ -72,8 +73,8 @@ def failures(library: Library, *, most: int, robot: Robot | None = None) -> list
             "trunk_com_position": done.trunk_com_position()[0],
             "foot_contact_force": done.foot_contact_force[0],
         }
-        off = {name: error[:1] for name, error in errors(task.success, done).items()}
-        missed = {name: float(error[0]) for name, error in off.items() if not task.success[name].met(error)[0]}
+        off = {name: error[:1] for name, error in errors(success, done).items()}
+        missed = {name: float(error[0]) for name, error in off.items() if not success[name].met(error)[0]}
         horizon = {"horizon_steps": done.horizon_steps, "horizon": done.horizon_steps * play.motion.timestep}
         motion = replace(play.motion, meta={**play.motion.meta, **horizon}, arrays={**play.motion.arrays, **arrays})
         found.append(Failure(fall, number, motion, missed))

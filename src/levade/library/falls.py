@@ -15,14 +15,17 @@ from levade.engines import Fallen, Fold, Perturbation, State, perturbed_models, 
 from levade.engines.folding import fold_posture, folded
 from levade.errors import LevadeError
 from levade.feedback import up_in_trunk
+from levade.hardware import Plan
 from levade.library.mirror import Mirror
 from levade.library.records import fall_of, motion_path
 from levade.motions import Motion
 from levade.policies import FreePolicy, JointPolicy
 from levade.robots import Robot, dimensions
-from levade.search.evaluation import Evaluation, Mask, Trials
+from levade.search.evaluation import Evaluation, Mask, Trials, joined
 from levade.search.objective import AT_ONCE, Objective, Simulation, evaluate_many
-from levade.tasks import StartChoice, Task
+from levade.search.outcome import Solution, Stopped, Trial
+from levade.search.recording import record
+from levade.tasks import Demands, PolicyChoice, StartChoice, Task
 
 FACES = ("tail", "nose", "right", "left", "belly", "back")
 """What a robot lies on if up is mostly along x, -x, y, -y, z, -z of its trunk. "belly" includes standing on the feet."""
@@ -36,12 +39,23 @@ class Falls:
 
     Attributes:
         task: The task, from the first fall of the family.
+        plan: The plan of searches for hardware. None for motions of the nominal model without regard to limits.
+        judged: The task by which motions are judged. With a plan, its criteria include limits, and its duration is free.
+        threads: Number of engine threads (0: one per core).
         simulation: The simulation that all falls share.
         fold: Joint angles to which the robot folds up first [rad], shape (joints,). None if it does not fold up.
         mirror: Mirror of the robot. None unless robot, scene and policy are all symmetric.
     """
 
-    def __init__(self, task: Task, *, robot: Robot | None = None, seed: int = 0, threads: int = 0) -> None:
+    def __init__(
+        self,
+        task: Task,
+        *,
+        robot: Robot | None = None,
+        seed: int = 0,
+        threads: int = 0,
+        demands: Demands | None = None,
+    ) -> None:
         """Build the simulation.
 
         Args:
@@ -50,19 +64,25 @@ class Falls:
             robot: The robot. Defaults to the one that the task names.
             seed: Seed of the family.
             threads: Number of engine threads (0: one per core).
+            demands: Demands of the hardware on each motion. None for none.
 
         Raises:
             LevadeError: If the task is not consistent.
         """
         if task.robust is not None or task.hardware is not None:
             raise LevadeError(
-                "library: a library is built on the nominal model; remove robust and hardware from the task"
+                "library: remove robust and hardware from the task; with --hardware, a build keeps limits and perturbs models"
             )
         robot = robot or task.robot.load()
         fallen = task.start.fallen or _usual(task, robot)
+        self.threads = threads
         self._fallen = replace(fallen, seed=seed, index=0)
         self.task = replace(task, start=StartChoice(fallen=self._fallen))
-        self.simulation = Simulation.of(self.task, robot=robot, threads=threads)
+        self.plan = None if demands is None else Plan.of(self.task, robot, demands, feedback=False)
+        if self.plan is not None and not self.plan.goal:
+            raise LevadeError(f"hardware: the task {task.name} has no success criteria to certify; add some")
+        self.judged = self.task if self.plan is None else self.plan.judging(self.plan.within_limits())
+        self.simulation = Simulation.of(self.judged, robot=robot, threads=threads)
         self.fold = None if fallen.fold is None else fold_posture(robot, fallen.fold)
         self.mirror = None if task.scene.boxes or task.scene.terrain else self._mirror()
 
@@ -77,10 +97,18 @@ class Falls:
         Args:
             index: Index of the fall in its family.
         """
-        start = StartChoice(fallen=replace(self._fallen, index=index))
+        start = self.task_from(index).start
         engine, robot = self.simulation.engine, self.simulation.robot
         state = start_state(engine, robot, self.task.scene, start.choice)
-        return Objective(self.simulation.starting(state), replace(self.task, start=start))
+        return Objective(self.simulation.starting(state), replace(self.judged, start=start))
+
+    def task_from(self, index: int) -> Task:
+        """Return the task, as the user gave it, from one of the falls.
+
+        Args:
+            index: Index of the fall in its family.
+        """
+        return replace(self.task, start=StartChoice(fallen=replace(self._fallen, index=index)))
 
     def folded(self, state: State) -> State:
         """Simulate folding up, which the robot does first after a fall or a failure.
@@ -101,7 +129,7 @@ class Falls:
         Args:
             state: The state.
         """
-        return Objective(self.simulation.starting(state), self.task)
+        return Objective(self.simulation.starting(state), self.judged)
 
     def sensed(self, state: State) -> tuple[Array, Array]:
         """Return what a robot at rest senses.
@@ -165,6 +193,11 @@ class Play:
     motion: Motion
     mirror: Mirror | None = None
 
+    @property
+    def policy(self) -> PolicyChoice:
+        """The motion's policy. Searches for hardware have several."""
+        return self.motion.task.policy
+
     def decisions(self, policy: JointPolicy) -> Array:
         """Convert the motion to weights of a policy that differs from the motion's own only in its start.
 
@@ -189,6 +222,11 @@ class Play:
 
 class Playable(Protocol):
     """Can be played from a fall: a motion, or weights."""
+
+    @property
+    def policy(self) -> PolicyChoice | None:
+        """Policy that the weights belong to. None if it is that of the objective."""
+        ...
 
     def decisions(self, policy: JointPolicy) -> Array:
         """Return the weights for a policy.
@@ -216,6 +254,66 @@ class Plays:
         return Play(self._motions[fall], None if number == fall else self._mirror)
 
 
+def posed(objective: Objective, play: Playable) -> tuple[Objective, Array]:
+    """Pose what is to be played from a fall.
+
+    Args:
+        objective: The task from that fall.
+        play: What to play.
+
+    Returns:
+        The objective, with the policy of what is played, and the weights, shape (1, d).
+    """
+    own = _policy(objective, play)
+    if own != objective.task.policy:
+        objective = objective.with_task(replace(objective.task, policy=own))
+    return objective, play.decisions(objective.policy)
+
+
+def simulated(objective: Objective, play: Play) -> Motion:
+    """Simulate a motion from a fall, as if a search had found it there.
+
+    Args:
+        objective: The task from that fall.
+        play: The motion, or its mirror image.
+
+    Returns:
+        The motion from there.
+    """
+    own, weights = posed(objective, play)
+    found = own.evaluate(Trials(weights, own.task.hold_steps))
+    cost_weights = {name: one.weight for name, one in own.task.costs.items()}
+    solution = Solution(
+        best=Trial.of(weights[0], float(found.cost(cost_weights)[0]), found, 0),
+        trials=0,
+        generations=0,
+        trials_to_success=None,
+        diverged=0,
+        stopped=Stopped.SUCCESS,
+        cost_weights=cost_weights,
+        changes=(),
+    )
+    return record(own, solution, seed=play.motion.provenance.seed)
+
+
+def _policy(objective: Objective, play: Playable) -> PolicyChoice:
+    """Return the policy of what is played. Only tasks that are judged on perturbed models, for hardware, have several."""
+    own = None if objective.task.robust is None else play.policy
+    return own or objective.task.policy
+
+
+def _by_policy(objective: Objective, plays: Sequence[Playable]) -> list[tuple[Objective, list[int]]]:
+    """Group what is played by its policy: objectives with that policy, and the indices of what it plays."""
+    groups: list[tuple[Objective, list[int]]] = []
+    for k, play in enumerate(plays):
+        policy = _policy(objective, play)
+        members = next((members for one, members in groups if one.task.policy == policy), None)
+        if members is None:
+            groups.append((posed(objective, play)[0], members := []))
+        members.append(k)
+    return groups
+
+
 def tried_on_others(
     objective: Objective, plays: Mapping[int, Playable], perturbation: Perturbation, *, seed: tuple[int, ...]
 ) -> Mask:
@@ -230,19 +328,21 @@ def tried_on_others(
     Returns:
         Whether each one works, shape (plays,).
     """
-    engine, policy, hold = objective.engine, objective.policy, objective.task.hold_steps
+    engine, hold = objective.engine, objective.task.hold_steps
     numbers = np.array(list(plays), dtype=int)
     drawn = perturbation.draw(engine.model, engine.embodiment.joints, n=int(numbers.max()) + 1, seed=(*seed, _TAG))
     works = np.zeros(len(plays), dtype=bool)
-    for first in range(0, len(plays), AT_ONCE):
-        rows = slice(first, first + AT_ONCE)
-        sample = drawn[numbers[rows].tolist()]
-        starts, models = perturbed_models(engine.model, engine.layout, sample, objective.state)
-        weights = np.concatenate([plays[int(number)].decisions(policy) for number in numbers[rows]])
-        # until the first reference arrives, the joints keep their last command
-        reference = replace(policy.reference(weights, hold_steps=hold), before=objective.state.joint_reference[0])
-        trajectories = engine.rollout(starts, reference, models=models, record=objective.recorded)
-        works[rows] = objective.judge(trajectories, hold, perturbed=True).success
+    for one, members in _by_policy(objective, list(plays.values())):
+        for first in range(0, len(members), AT_ONCE):
+            rows = members[first : first + AT_ONCE]
+            sample = drawn[numbers[rows].tolist()]
+            starts, models = perturbed_models(engine.model, engine.layout, sample, objective.state)
+            weights = np.concatenate([plays[int(number)].decisions(one.policy) for number in numbers[rows]])
+            # until the first reference arrives, the joints keep their last command
+            made = one.policy.reference(weights, hold_steps=hold)
+            reference = replace(made, before=objective.state.joint_reference[0])
+            trajectories = engine.rollout(starts, reference, models=models, record=one.recorded)
+            works[rows] = one.judge(trajectories, hold, perturbed=True).success
     return works
 
 
@@ -256,8 +356,18 @@ def tried(objectives: Sequence[Objective], plays: Sequence[Sequence[Playable]]) 
     Returns:
         One evaluation per fall.
     """
-    asked = []
+    asked, groups = [], []
     for objective, own in zip(objectives, plays, strict=True):
-        weights = np.concatenate([play.decisions(objective.policy) for play in own])
-        asked.append((objective, Trials(weights, objective.task.hold_steps)))
-    return evaluate_many(asked)
+        groups.append(_by_policy(objective, own))
+        for one, members in groups[-1]:
+            weights = np.concatenate([own[k].decisions(one.policy) for k in members])
+            asked.append((one, Trials(weights, one.task.hold_steps)))
+    found = iter(evaluate_many(asked))
+    return [_in_order([(next(found), members) for _, members in group]) for group in groups]
+
+
+def _in_order(parts: Sequence[tuple[Evaluation, list[int]]]) -> Evaluation:
+    """Join evaluations, each with the indices of its rows."""
+    if len(parts) == 1:
+        return parts[0][0]
+    return joined([part for part, _ in parts], np.argsort(np.concatenate([members for _, members in parts])))

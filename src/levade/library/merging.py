@@ -14,9 +14,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from levade.errors import LevadeError, Remedy
-from levade.library.falls import Falls
-from levade.library.records import FALLS, MOTIONS, Record, motion_path, record_path
-from levade.library.storing import WHOLE, begin, read_library, read_shard, read_starts
+from levade.library.records import FALLS, MOTIONS, Record, certificate_path, motion_path, record_path
+from levade.library.storing import WHOLE, begin, read_falls, read_hardware, read_library, read_shard, read_starts
 from levade.locking import locked
 from levade.robots import Robot
 from levade.search.storage import storing
@@ -55,13 +54,15 @@ def merge(shards: Sequence[Path], directory: Path, *, robot: Robot | None = None
     """
     if not shards:
         raise LevadeError("there are no shards to merge; give their directories")
-    task, seed = read_library(shards[0])
+    (task, seed), hardware = read_library(shards[0]), read_hardware(shards[0])
     n = read_shard(shards[0]).shards
     seen: dict[int, Path] = {}
     for place in shards:
         other, of = read_library(place), read_shard(place)
         if (task_to_dict(other[0]), other[1]) != (task_to_dict(task), seed):
             raise LevadeError(f"{place}: has another task, robot or seed than {shards[0]}; merge shards of one library")
+        if read_hardware(place) != hardware:
+            raise LevadeError(f"{place}: makes other demands of hardware than {shards[0]}; merge shards of one library")
         if of == WHOLE:
             raise LevadeError(f"{place}: is a whole library, not a shard; give directories of shards")
         if of.shards != n:
@@ -73,9 +74,9 @@ def merge(shards: Sequence[Path], directory: Path, *, robot: Robot | None = None
     with storing(directory, then=Remedy("give another directory", "elsewhere")):
         for name in (FALLS, MOTIONS):
             (directory / name).mkdir(parents=True, exist_ok=True)
-    falls = Falls(task, robot=robot, seed=seed, threads=1)
+    falls, _ = read_falls(shards[0], robot=robot)
     with locked(directory, "library"):
-        begin(directory, falls, seed, starts)
+        begin(directory, falls, seed, starts, hardware=hardware)
         with storing(directory, then=Remedy("make room, then merge again")):
             for place in shards:
                 _copy(place, directory)
@@ -84,13 +85,14 @@ def merge(shards: Sequence[Path], directory: Path, *, robot: Robot | None = None
 
 
 def _copy(shard: Path, directory: Path) -> None:
-    """Copy the finished falls of a shard that are not there yet: first the motion of a fall, then its record."""
+    """Copy the finished falls of a shard that are not there yet: first a fall's motion and certificate, then its record."""
     for path in sorted((shard / FALLS).glob("[0-9]*.json")):
         record = Record.load(path)
         if record_path(directory, record.fall).exists():  # what has been tried of its motion is there, too
             continue
-        if record.motion == record.fall:
-            with replacing(motion_path(directory, record.fall)) as partial:
-                shutil.copyfile(motion_path(shard, record.fall), partial)
-        with replacing(record_path(directory, record.fall)) as partial:
-            shutil.copyfile(path, partial)
+        own = [] if record.motion != record.fall and record.failed is None else [motion_path]
+        own += [] if record.failed is None else [certificate_path]
+        for place_of in (*own, record_path):
+            place_of(directory, record.fall).parent.mkdir(exist_ok=True)
+            with replacing(place_of(directory, record.fall)) as partial:
+                shutil.copyfile(place_of(shard, record.fall), partial)

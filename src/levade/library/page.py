@@ -8,6 +8,7 @@ be under construction: the page says how far it has come.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -20,6 +21,7 @@ from levade.library.building import rounds
 from levade.library.failing import failures
 from levade.library.falls import FACES, face
 from levade.library.figure import projected
+from levade.library.pursuing import read_certificate
 from levade.library.records import Method, Record, fall_of, image_of, motion_path
 from levade.library.storing import read_library, read_shard, read_starts
 from levade.motions import Motion
@@ -109,6 +111,7 @@ def library_data(library: Library) -> dict[str, Any]:
         "mirrored": known.mirror is not None,
         "coverage": int(works.any(axis=1).sum()),
         "perturbed": int(perturbed.any(axis=1).sum()) if complete else None,
+        "certificates": _certificates(library) if library.hardware else None,
         "falls": {
             "number": pack([record.fall for record in records], "u4"),
             "method": pack([_METHODS.index(record.method) for record in records], "u2"),
@@ -208,7 +211,29 @@ def _listed(library: Library, works: Array, perturbed: Array | None) -> Iterator
             "works": int(which.sum()),
             "perturbed": None if perturbed is None else int(perturbed[:, column[number]].sum()),
             "falls": pack(np.flatnonzero(which), "u4"),
+            "certificate": _certificate(library, number) if library.hardware else None,
         }
+
+
+def _certificates(library: Library) -> dict[str, Any]:
+    """Return how many motions have a certificate that passes, and how many fail each demand, the most frequent first."""
+    failed = library.certificates
+    counts = Counter(name for one in failed.values() for name in one)
+    return {
+        "motions": len(failed),
+        "passed": sum(not one for one in failed.values()),
+        "failed": [{"name": name, "motions": n} for name, n in counts.most_common()],
+    }
+
+
+def _certificate(library: Library, motion: int) -> dict[str, Any]:
+    """Return what a motion's certificate says: the demands it fails, its share of perturbed robots, and the nearest limit."""
+    content = read_certificate(library.directory, motion)
+    return {
+        "failed": list(content["failed"]),
+        "share": content["perturbed"]["share"],
+        "binding": content.get("binding", ""),
+    }
 
 
 def _played(library: Library) -> list[dict[str, Any]]:

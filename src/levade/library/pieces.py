@@ -17,10 +17,9 @@ from typing import Any
 
 from levade.arrays import Array
 from levade.library.asking import read_success
-from levade.library.falls import Falls
 from levade.library.knowledge import Knowledge
 from levade.library.solving import Solver
-from levade.library.storing import read_library
+from levade.library.storing import read_falls, read_hardware
 from levade.robots import Robot
 
 
@@ -72,9 +71,8 @@ class Workshop:
 
     @cached_property
     def _solver(self) -> Solver:
-        task, seed = read_library(self._directory)
-        self._falls = Falls(task, robot=self._robot, seed=seed, threads=1)
-        return Solver(self._falls, self._directory, seed)
+        self._falls, seed = read_falls(self._directory, robot=self._robot)
+        return Solver(self._falls, self._directory, seed, hardware=read_hardware(self._directory))
 
     def __call__(self, piece: Fall | Row) -> tuple[Array, Array] | None:
         """Do a piece of work. Return the result of `Solver.rows` for a row; for a fall, write its record and return None."""

@@ -20,11 +20,14 @@ from levade.document import read_text
 from levade.errors import LevadeError
 from levade.writing import write_text
 
-FALLS, MOTIONS = "falls", "motions"
+FALLS, MOTIONS, CERTIFICATES = "falls", "motions", "certificates"
 
 
 class Method(StrEnum):
-    """Names how a fall was solved: by a known motion, by a search around one, by a search from nothing, or not at all."""
+    """Names how a fall was solved: by a known motion, by a search around one, by a search from nothing, or not at all.
+
+    In a library for hardware, a fall is solved only by a motion whose certificate passes.
+    """
 
     KNOWN = "known"
     NEAR = "near"
@@ -45,6 +48,8 @@ class Record:
         trials: Number of roll-outs that this took.
         tried: Numbers of the known motions that were tried from here.
         worked: Numbers of those that work.
+        failed: Demands of hardware that the motion which a search found for this fall does not meet; none if its certificate
+            passes. None if it has no certificate.
     """
 
     fall: int
@@ -55,6 +60,7 @@ class Record:
     trials: int
     tried: tuple[int, ...]
     worked: tuple[int, ...]
+    failed: tuple[str, ...] | None = None
 
     @classmethod
     def load(cls, path: Path) -> Record:
@@ -73,6 +79,7 @@ class Record:
                 raise ValueError
             motion = content["motion"]
             tried, worked = (tuple(int(one) for one in content[name]) for name in ("tried", "worked"))
+            failed = content.get("failed")
             return cls(
                 int(content["fall"]),
                 up,
@@ -82,6 +89,7 @@ class Record:
                 int(content["trials"]),
                 tried,
                 worked,
+                None if failed is None else tuple(str(one) for one in failed),
             )
         except (ValueError, TypeError, LookupError, RecursionError, OverflowError):
             raise LevadeError(
@@ -106,6 +114,7 @@ class Record:
             "trials": self.trials,
             "tried": list(self.tried),
             "worked": list(self.worked),
+            **({} if self.failed is None else {"failed": list(self.failed)}),
         }
         write_text(record_path(directory, self.fall), json.dumps(content) + "\n")
 
@@ -148,6 +157,19 @@ def record_path(directory: Path, fall: int) -> Path:
         Path of the JSON file. It need not exist.
     """
     return directory / FALLS / f"{fall:06}.json"
+
+
+def certificate_path(directory: Path, motion: int) -> Path:
+    """Return the path of a motion's certificate; for a mirror image, that of the original.
+
+    Args:
+        directory: Directory of the library.
+        motion: Number of the motion. It is negative for a mirror image.
+
+    Returns:
+        Path of the JSON file. It exists in a library for hardware only.
+    """
+    return directory / CERTIFICATES / f"{fall_of(motion):06}.json"
 
 
 def motion_path(directory: Path, motion: int) -> Path:

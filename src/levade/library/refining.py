@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -20,9 +20,9 @@ from levade.arrays import Array
 from levade.engines import Fall, Perturbation, State, start_state
 from levade.errors import LevadeError
 from levade.library.asking import Library
-from levade.library.falls import Falls, Plays, tried, tried_on_others
+from levade.library.falls import Falls, Play, Plays, posed, tried, tried_on_others
 from levade.library.hardening import harden
-from levade.library.storing import read_library
+from levade.library.storing import read_falls
 from levade.policies import JointPolicy
 from levade.robots import Robot
 from levade.search import Generation, InitialGuess, Objective, Stopped, solve_many
@@ -90,8 +90,7 @@ def refine(
         LevadeError: If ``up`` or ``joint_position`` is invalid, or the robot cannot be put down in this pose.
     """
     answer = library.ask(up, joint_position)
-    task, own = read_library(library.directory)
-    falls = Falls(task, robot=robot, seed=own, threads=threads)
+    falls, _ = read_falls(library.directory, robot=robot, threads=threads)
     objective = falls.from_state(_lying(falls, np.asarray(up, dtype=float), answer.joint_position))
     numbers = [answer.number, *(number for number, _ in answer.others)]
     return refined(falls, Plays(library.directory, falls.mirror), objective, numbers, seconds=seconds, seed=seed)
@@ -124,26 +123,27 @@ def refined(
     cost = found.cost({name: one.weight for name, one in objective.task.costs.items()})
     works = bool(found.success.any())
     best = int(np.argmax(found.success)) if works else int(np.argmin(cost))
-    weights, trials, share, searched = plays[likeliest[best]].decisions(objective.policy), len(likeliest), 0.0, False
+    play, trials, share, searched = plays[likeliest[best]], len(likeliest), 0.0, False
+    own, weights = posed(objective, play)
 
     def observe(number: int, generation: Generation) -> Stopped | None:
         return Stopped.INTERRUPTED if time.monotonic() - began > seconds else None
 
     if not works and time.monotonic() - began < seconds:
         guess = InitialGuess(weights, step=AROUND)
-        solution = solve_many([objective], seeds=[seed], initial=[guess], observe=observe)[0]
+        solution = solve_many([_searching(falls, own, play)], seeds=[seed], initial=[guess], observe=observe)[0]
         trials += solution.trials
         if solution.success:
             works = searched = True
             weights = solution.best.weights[None]
     if works:
-        share = _share(objective, weights, seed)
+        share = _share(own, weights, seed)
         trials += _ROBOTS
         if share < 1.0 and time.monotonic() - began < seconds:
-            better = harden([objective], [weights], seeds=[seed], observe=observe)[0]
+            better = harden([own], [weights], seeds=[seed], observe=observe)[0]
             if better is not None:
                 trials += better.trials
-                now = _share(objective, better.best.weights[None], seed) if better.success else 0.0
+                now = _share(own, better.best.weights[None], seed) if better.success else 0.0
                 if now > share:
                     weights, share, searched = better.best.weights[None], now, True
     return Refined(
@@ -151,10 +151,18 @@ def refined(
         works=works,
         share=share,
         searched=searched,
-        reference=objective.policy.reference(weights),
+        reference=own.policy.reference(weights),
         trials=trials,
         seconds=time.monotonic() - began,
     )
+
+
+def _searching(falls: Falls, objective: Objective, play: Play) -> Objective:
+    """Return the objective of a search around a motion; with demands of hardware, of a search within limits."""
+    if falls.plan is None:
+        return objective
+    task = falls.plan.nearer(falls.plan.number_of(play.policy), play.motion.horizon)
+    return objective.with_task(replace(task, policy=play.policy))
 
 
 def _share(objective: Objective, weights: Array, seed: int) -> float:
@@ -168,6 +176,7 @@ class _Weights:
     """Holds weights to play, shape (1, d)."""
 
     weights: Array
+    policy: None = None
 
     def decisions(self, policy: JointPolicy) -> Array:
         """Return the weights, whatever the policy."""

@@ -7,11 +7,15 @@
 When a search finds a motion, it goes on with perturbed models until the motion works on nearly all of them. So it does for a
 known motion that works on the model but seldom on perturbed models, unless a motion was found from a nearby fall.
 
+With demands of hardware, a known motion solves a fall only if its certificate passes, and if from this fall it keeps every
+limit on the model and reaches the goal on nearly every perturbed model. Otherwise `levade.library.pursuing` searches.
+
 The result for a fall depends only on the falls ``after`` which it is solved, not on the others of its round.
 """
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -19,11 +23,13 @@ from pathlib import Path
 import numpy as np
 
 from levade.arrays import Array
+from levade.checks import Certificate
 from levade.engines import Perturbation
 from levade.errors import Remedy
-from levade.library.falls import Falls, Plays, tried, tried_on_others
+from levade.library.falls import Falls, Play, Plays, posed, simulated, tried, tried_on_others
 from levade.library.hardening import harden
 from levade.library.knowledge import Knowledge
+from levade.library.pursuing import PURSUITS, Hardware, pursue_fall, write_certificate
 from levade.library.records import Method, Record, fall_of, motion_path, record_path
 from levade.motions import Motion
 from levade.search import Generation, InitialGuess, Objective, Solution, Stopped, solve_many
@@ -41,11 +47,14 @@ _NEAR = 240
 _ROBOTS, _SURE, _TOLD = 6, 0.8, 2
 """Number of perturbed models; how many of the working motions are tried on them; the share at which a motion is reliable."""
 
+_MANY = 20
+"""Number of perturbed models within the limits of hardware. They have to tell the demanded share from a smaller one."""
+
 _ELSEWHERE = 0.1
 """Distance from a fall with its own motion [rad], beyond which another motion may be worth finding."""
 
-_APART = 1000
-"""Difference between the seeds of searches from consecutive falls."""
+_APART, _FAR_APART = 1000, 1_000_000
+"""Differences between the seeds of searches, and of pursuits for hardware, from consecutive falls."""
 
 
 class Solver:
@@ -61,6 +70,7 @@ class Solver:
         directory: Path,
         seed: int,
         *,
+        hardware: Hardware | None = None,
         stopping: Callable[[], bool] = lambda: False,
         observe: Callable[[], object] = lambda: None,
     ) -> None:
@@ -70,11 +80,12 @@ class Solver:
             falls: The family of falls.
             directory: Directory of the library.
             seed: Seed of the library.
+            hardware: Demands of the hardware on each motion, the same as those of the falls. None for none.
             stopping: Function that is called between generations. When it returns True, unfinished falls are abandoned.
             observe: Function that is called after each part.
         """
         self._falls, self._directory, self._seed = falls, directory, seed
-        self._stopping, self._observe = stopping, observe
+        self._hardware, self._stopping, self._observe = hardware, stopping, observe
         self.records: dict[int, Record] = {}
         self._plays = Plays(directory, falls.mirror)
 
@@ -100,13 +111,17 @@ class Solver:
         knowledge = Knowledge.of([self.records[i] for i in after], self._falls.mirror)
         objectives = {i: self._falls.objective(i) for i in pending}
         begun = self._try_known(knowledge, objectives)
+        if self._hardware is not None:
+            for i in [i for i in begun if i not in self.records]:
+                self._pursue(i, begun[i], objectives[i], self._hardware)
+            return
         self._harden_known(
             [i for i in begun if i not in self.records and begun[i].works is not None], begun, objectives
         )
         for method in (Method.NEAR, Method.COLD):
             left = [i for i, one in begun.items() if i not in self.records and one.works is None]
             if method == Method.NEAR:
-                left = [i for i in left if begun[i].guess is not None]
+                left = [i for i in left if begun[i].nearest is not None]
             self._search(left, begun, objectives, method)
 
     def _try_known(self, knowledge: Knowledge, objectives: Mapping[int, Objective]) -> dict[int, _Begun]:
@@ -122,24 +137,67 @@ class Solver:
         ):
             worked = tuple(motion for motion, works in zip(likely[i], found.success, strict=True) if works)
             cost = found.cost({name: one.weight for name, one in objective.task.costs.items()})
-            nearest = plays[int(np.argmin(cost))].decisions(objective.policy)
-            begun[i] = replace(begun[i], worked=worked, guess=InitialGuess(nearest, step=AROUND))
-            if worked:
-                begun[i] = self._asked(begun[i], i, objective)
+            if worked and self._hardware is not None:  # costs of the goal may outweigh a limit
+                cost = np.where(found.success, cost, np.inf)
+            nearest = plays[int(np.argmin(cost))]
+            begun[i] = replace(begun[i], worked=worked, nearest=nearest)
+            if self._hardware is not None:
+                self._keep_if_known(i, begun, objective, self._hardware)
+            elif worked:
+                begun[i] = self._asked(begun[i], i, objective, worked[:_TOLD], _ROBOTS, _SURE)
                 if begun[i].sure or knowledge.apart(*sensed[i]) < _ELSEWHERE:
                     self._keep(i, begun[i], Method.KNOWN, begun[i].works)
         self._observe()
         return begun
 
-    def _asked(self, begun: _Begun, fall: int, objective: Objective) -> _Begun:
-        """Find the working motion that works on most perturbed models, and whether it works on enough of them."""
-        told = begun.worked[:_TOLD]
-        plays = {len(told) * robot + k: self._plays[told[k]] for robot in range(_ROBOTS) for k in range(len(told))}
-        works = tried_on_others(objective, plays, Perturbation(), seed=(self._seed, fall, _ROBOTS))
-        share = works.reshape(_ROBOTS, len(told)).mean(axis=0)
+    def _keep_if_known(self, i: int, begun: dict[int, _Begun], objective: Objective, hardware: Hardware) -> None:
+        """Finish a fall if a motion with a certificate also keeps the limits from here and works on enough perturbed models.
+
+        Otherwise the search begins around that motion.
+        """
+        worked = begun[i].worked
+        certified = [motion for motion in worked if self.records[fall_of(motion)].failed == ()][:_TOLD]
+        if not certified:
+            return
+        begun[i] = self._asked(begun[i], i, objective, certified, _MANY, hardware.demands.share or 0.0)
+        if begun[i].sure:
+            self._keep(i, begun[i], Method.KNOWN, begun[i].works)
+        else:
+            begun[i] = replace(begun[i], nearest=self._plays[_given(begun[i].works)])
+
+    def _asked(
+        self, begun: _Begun, fall: int, objective: Objective, told: Sequence[int], robots: int, enough: float
+    ) -> _Begun:
+        """Find which of the motions works on most perturbed models, and whether it works on a large enough share of them."""
+        plays = {len(told) * robot + k: self._plays[told[k]] for robot in range(robots) for k in range(len(told))}
+        works = tried_on_others(objective, plays, Perturbation(), seed=(self._seed, fall, robots))
+        share = works.reshape(robots, len(told)).mean(axis=0)
         best = int(np.argmax(share))
         trials = begun.trials + len(plays)
-        return replace(begun, works=told[best], sure=bool(share[best] >= _SURE), trials=trials)
+        return replace(begun, works=told[best], sure=bool(share[best] >= enough), trials=trials)
+
+    def _pursue(self, i: int, begun: _Begun, objective: Objective, hardware: Hardware) -> None:
+        """Search within the limits of hardware, and keep the motion with the best certificate, whether or not it passes."""
+        if self._stopping():
+            return
+        place = self._directory / PURSUITS / f"{i:06}"
+        with storing(self._directory, then=Remedy("make room, then build again")):
+            found = pursue_fall(
+                self._falls,
+                i,
+                around=None if begun.nearest is None else simulated(objective, begun.nearest),
+                hardware=hardware,
+                seed=self._seed + _FAR_APART * i,
+                directory=place,
+                stopping=self._stopping,
+            )
+        if found is None:
+            return
+        begun = replace(begun, trials=begun.trials + found.trials)
+        works = i if found.motion.met else None
+        self._keep(i, begun, found.method, works, found.motion, found.certificate)
+        shutil.rmtree(place, ignore_errors=True)
+        self._observe()
 
     def _harden_known(self, left: Sequence[int], begun: dict[int, _Begun], objectives: Mapping[int, Objective]) -> None:
         """Search on from motions that work, but seldom on perturbed models. The results become motions of the library."""
@@ -173,7 +231,7 @@ class Solver:
         guesses: list[InitialGuess | None] = [None] * len(asked)
         if method == Method.NEAR:
             asked = [one.with_task(_near(one.task)) for one in asked]
-            guesses = [begun[i].guess for i in left]
+            guesses = [_around(one, begun[i]) for i, one in zip(left, asked, strict=True)]
         seeds = [self._seed + _APART * i for i in left]
         solutions = solve_many(asked, seeds=seeds, initial=guesses, observe=self._interrupted)
         solutions = self._hardened(asked, solutions, seeds)
@@ -206,14 +264,25 @@ class Solver:
                 after[j] = replace(first, best=best, trials=first.trials + then.trials, stopped=then.stopped)
         return after
 
-    def _keep(self, i: int, begun: _Begun, method: Method, motion: int | None, found: Motion | None = None) -> None:
-        """Write a finished fall: first the motion, if a search found one, then the record."""
-        record = Record(i, *begun.sensed, method, motion, begun.trials, begun.tried, begun.worked)
+    def _keep(
+        self,
+        i: int,
+        begun: _Begun,
+        method: Method,
+        motion: int | None,
+        found: Motion | None = None,
+        certificate: Certificate | None = None,
+    ) -> None:
+        """Write a finished fall: first the motion and its certificate, if a search found one, then the record."""
+        failed = None if certificate is None else certificate.failed
+        record = Record(i, *begun.sensed, method, motion, begun.trials, begun.tried, begun.worked, failed)
         with storing(
             self._directory, then=Remedy("make room, then build again"), kept="all falls that are done are kept"
         ):
             if found is not None:
                 found.save(motion_path(self._directory, i))
+            if certificate is not None:
+                write_certificate(self._directory, i, certificate)
             record.write(self._directory)
         self.records[i] = record
 
@@ -246,7 +315,7 @@ class Solver:
 
 @dataclass(frozen=True, eq=False)
 class _Begun:
-    """Holds an unfinished fall: what is sensed, the motions that were tried and worked, where a search begins.
+    """Holds an unfinished fall: what is sensed, the motions that were tried and worked, what a search begins around.
 
     Attributes:
         works: The working motion that works on most perturbed models. None if no motion works.
@@ -256,10 +325,15 @@ class _Begun:
     sensed: tuple[Array, Array]
     tried: tuple[int, ...]
     worked: tuple[int, ...]
-    guess: InitialGuess | None
+    nearest: Play | None
     trials: int
     works: int | None = None
     sure: bool = False
+
+
+def _around(objective: Objective, begun: _Begun) -> InitialGuess:
+    assert begun.nearest is not None
+    return InitialGuess(posed(objective, begun.nearest)[1], step=AROUND)
 
 
 def _given(motion: int | None) -> int:

@@ -7,16 +7,18 @@ task, seed = read_library(directory)
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from levade.document import read_yaml
+from levade.document import build, read_yaml
 from levade.errors import LevadeError, Remedy
 from levade.library.asking import LIBRARY
 from levade.library.falls import Falls
+from levade.library.pursuing import Hardware
+from levade.robots import Robot
 from levade.search.storage import storing
-from levade.tasks import Task, task_from_dict, task_to_dict, task_to_yaml
+from levade.tasks import Demands, Task, task_from_dict, task_to_dict, task_to_yaml
 from levade.writing import write_text
 
 TASK = "task.yaml"
@@ -61,7 +63,14 @@ class Shard:
 WHOLE = Shard(0, 1)
 
 
-def begin(directory: Path, falls: Falls, seed: int, starts: int, shard: Shard = WHOLE) -> None:
+def begin(
+    directory: Path,
+    falls: Falls,
+    seed: int,
+    starts: int,
+    shard: Shard = WHOLE,
+    hardware: Hardware | None = None,
+) -> None:
     """Write what the library is built from.
 
     Args:
@@ -70,12 +79,14 @@ def begin(directory: Path, falls: Falls, seed: int, starts: int, shard: Shard = 
         seed: Seed of the library.
         starts: Total number of falls.
         shard: The share of the falls that the library covers.
+        hardware: Demands of the hardware on each motion. None for none.
 
     Raises:
         LevadeError: If the directory holds another library, or cannot be written.
     """
     place = directory / LIBRARY
     if place.is_file():
+        _check_same(directory, hardware)
         known, began = read_library(directory)
         if (task_to_dict(known), began) != (task_to_dict(falls.task), seed):
             raise LevadeError(
@@ -89,7 +100,68 @@ def begin(directory: Path, falls: Falls, seed: int, starts: int, shard: Shard = 
         mirror = None if falls.mirror is None else falls.mirror.to_json()
         fold = "" if falls.fold is None else f"fold: {json.dumps(falls.fold.tolist())}\n"
         part = "" if shard == WHOLE else f"shard: [{shard.number}, {shard.shards}]\n"
-        write_text(place, f"seed: {seed}\nstarts: {starts}\nmirror: {json.dumps(mirror)}\n{fold}{part}")
+        kept = "" if hardware is None else f"hardware: {json.dumps(asdict(hardware))}\n"
+        write_text(place, f"seed: {seed}\nstarts: {starts}\nmirror: {json.dumps(mirror)}\n{fold}{part}{kept}")
+
+
+def _check_same(directory: Path, hardware: Hardware | None) -> None:
+    """Raise LevadeError unless the library in a directory makes the same demands of hardware."""
+    known, elsewhere = read_hardware(directory), Remedy("write elsewhere", "elsewhere")
+    if known == hardware:
+        return
+    if hardware is None:
+        remedies = (Remedy("keep to them", "hardware"), elsewhere)
+        raise LevadeError(f"{directory}: holds a library within the limits of hardware", remedies=remedies)
+    if known is None:
+        remedies = (Remedy("build without --hardware"), elsewhere)
+        raise LevadeError(f"{directory}: holds a library without the limits of hardware", remedies=remedies)
+    own, other = ({"trials": one.trials, "runs": one.runs, **asdict(one.demands)} for one in (known, hardware))
+    what = ", ".join(f"{name} {own[name]}, not {other[name]}" for name in own if own[name] != other[name])
+    raise LevadeError(f"{directory}: holds a library with other demands: {what}", remedies=(elsewhere,))
+
+
+def read_hardware(directory: Path) -> Hardware | None:
+    """Read what the library in a directory demands of hardware.
+
+    Args:
+        directory: Directory of the library.
+
+    Returns:
+        Demands and budget. None if it demands nothing.
+
+    Raises:
+        LevadeError: If the directory holds no library, or the library is damaged.
+    """
+    content, where = _content(directory).get("hardware"), f"{directory / LIBRARY}: hardware"
+    if content is None:
+        return None
+    if not isinstance(content, dict) or not isinstance(content.get("demands"), dict):
+        raise LevadeError(f"{where}: should have trials and demands; the file is damaged")
+    trials, runs = (_whole(content.get(name), directory, f"hardware.{name}") for name in ("trials", "runs"))
+    return Hardware(build(Demands, content["demands"], where=f"{where}.demands"), trials, runs)
+
+
+def read_falls(
+    directory: Path, *, robot: Robot | None = None, seed: int | None = None, threads: int = 1
+) -> tuple[Falls, int]:
+    """Build the falls of the library in a directory.
+
+    Args:
+        directory: Directory of the library.
+        robot: The library's robot. Defaults to the one that the task names.
+        seed: Seed of the falls. Defaults to the library's own.
+        threads: Number of engine threads (0: one per core).
+
+    Returns:
+        The falls, and the library's own seed.
+
+    Raises:
+        LevadeError: If the directory holds no library, the library is damaged, or its robot cannot be loaded.
+    """
+    task, own = read_library(directory)
+    hardware = read_hardware(directory)
+    demands = None if hardware is None else hardware.demands
+    return Falls(task, robot=robot, seed=own if seed is None else seed, threads=threads, demands=demands), own
 
 
 def read_library(directory: Path) -> tuple[Task, int]:

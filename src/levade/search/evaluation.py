@@ -11,7 +11,7 @@ the results of its candidates on perturbed models.
 from __future__ import annotations
 
 import zlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -203,6 +203,30 @@ class Evaluation:
         known = np.column_stack([np.ones(len(cost), dtype=bool), samples.known])
         measured = risk(costs, known, measure=robust.measure, tail=robust.tail)
         return ranked_behind(measured, samples.complete)
+
+
+def joined(parts: Sequence[Evaluation], order: Index | None = None) -> Evaluation:
+    """Join evaluations without samples.
+
+    Args:
+        parts: Evaluations by the same costs and criteria.
+        order: Which of all rows, one part after another, each row of the result is. None keeps their order.
+
+    Returns:
+        The evaluation of all trials.
+    """
+    if len(parts) == 1 and order is None:
+        return parts[0]
+
+    def whole(values: list[NDArray[Any]]) -> NDArray[Any]:
+        rows = np.concatenate(values)
+        return rows if order is None else rows[order]
+
+    def tables(name: str) -> Mapping[str, Array]:
+        return {key: whole([getattr(part, name)[key] for part in parts]) for key in getattr(parts[0], name)}
+
+    success, diverged = (whole([getattr(part, name) for part in parts]) for name in ("success", "diverged"))
+    return Evaluation(tables("terms"), tables("errors"), success, diverged, tables("slack"))
 
 
 @dataclass(frozen=True, eq=False)

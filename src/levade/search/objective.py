@@ -9,7 +9,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -34,7 +34,7 @@ from levade.optimizers import SearchSpace
 from levade.policies import FreePolicy, JointPolicy, Policy
 from levade.robots import Robot
 from levade.search.closed_loop import ClosedLoop
-from levade.search.evaluation import Evaluation, Trials
+from levade.search.evaluation import Evaluation, Trials, joined
 from levade.search.memory import check_fits, needed
 from levade.search.optimizing import make_attempt
 from levade.search.space import search_space
@@ -367,7 +367,7 @@ def _evaluate_in_parts(asked: Sequence[tuple[Objective, Trials]]) -> Iterable[Ev
     check_fits(objective.engine, steps)
     most = min(fit, AT_ONCE)
     return [
-        _joined(
+        joined(
             [
                 next(iter(_evaluate_together([(one, trials[first : first + most])])))
                 for first in range(0, trials.n, most)
@@ -400,18 +400,7 @@ def _evaluate_together(asked: Sequence[tuple[Objective, Trials]]) -> Iterator[Ev
             judged = trajectories if len(own) == trajectories.n else trajectories[slice(own[0], own[-1] + 1)]
             objective.remember(trials, judged)
             parts[i].append(objective.judge(judged, trials.hold_steps, perturbed=trials.draw is not None))
-    return map(_joined, parts)
-
-
-def _joined(parts: Sequence[Evaluation]) -> Evaluation:
-    if len(parts) == 1:
-        return parts[0]
-
-    def tables(name: str) -> Mapping[str, Array]:
-        return {key: np.concatenate([getattr(part, name)[key] for part in parts]) for key in getattr(parts[0], name)}
-
-    success, diverged = (np.concatenate([getattr(part, name) for part in parts]) for name in ("success", "diverged"))
-    return Evaluation(tables("terms"), tables("errors"), success, diverged, tables("slack"))
+    return map(joined, parts)
 
 
 def _recorded(task: Task, simulation: Simulation) -> tuple[str, ...]:

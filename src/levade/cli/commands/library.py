@@ -36,6 +36,21 @@ def _build_library(
         str | None,
         typer.Option(metavar="I/N", help="Build only every N-th fall, from fall I (0 to N - 1); see library merge."),
     ] = None,
+    hardware: Annotated[
+        bool,
+        typer.Option("--hardware", help="Keep every limit, succeed on perturbed robots, and certify each motion."),
+    ] = False,
+    trials: Annotated[
+        int | None,
+        typer.Option(help="With --hardware: most trials of the searches of one fall. [default: 6000]"),
+    ] = None,
+    demand: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="FILE|NAME=VALUE",
+            help="With --hardware: what certificates demand, as in levade check. Repeatable.",
+        ),
+    ] = None,
     as_json: Json = False,
 ) -> int:
     """Find a motion for each of many falls. Called again, it continues where it stopped.
@@ -43,6 +58,8 @@ def _build_library(
     \b
     levade library build self-righting --robot go1 --starts 24 --out falls
     Next: levade library check falls
+
+    With --hardware, motions keep the robot's limits, and each says whether it passes the certificate of levade check.
 
     Exit status: 0 every fall is done, 1 it was interrupted, 2 the input is wrong.
     """
@@ -58,6 +75,9 @@ def _build_library(
         threads=threads,
         jobs=jobs,
         shard=shard,
+        hardware=hardware,
+        trials=trials,
+        demand=demand or [],
         as_json=as_json,
     )
 
