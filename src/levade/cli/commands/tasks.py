@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from levade.cli.commands.options import Json
 from levade.errors import LevadeError
+
+if TYPE_CHECKING:
+    from levade.tasks import Overview
 
 tasks_app = typer.Typer(
     help="""List the built-in tasks; print one, or the schema of task files.
@@ -24,16 +27,21 @@ tasks_app = typer.Typer(
 
 @tasks_app.callback(invoke_without_command=True)
 def _list_tasks(context: typer.Context, as_json: Json = False) -> None:
-    from levade.tasks import builtin_tasks, load_task
+    from levade.tasks import builtin_tasks, overview
 
     if context.invoked_subcommand is not None:
         return
-    loaded = [load_task(name) for name in builtin_tasks()]
+    listed = [overview(name) for name in builtin_tasks()]
     if as_json:
-        rows = [{"name": task.name, "description": task.description, "robot": task.robot.name} for task in loaded]
+        rows = [{"name": task.name, "description": task.description, "robot": task.robot} for task in listed]
         _print_json({"tasks": rows})
     else:
-        _print_rows([(task.name, task.description) for task in loaded])
+        _print_rows([(task.name, f"{task.description}{_needs(task)}") for task in listed])
+
+
+def _needs(task: Overview) -> str:
+    """Say that a task's own robot cannot be loaded here, and how it could."""
+    return "" if task.lacks is None else f" ({task.lacks}; or give it another robot with --robot)"
 
 
 @tasks_app.command("show")
