@@ -1,9 +1,10 @@
-"""Postures of robots on two legs beyond standing: swayed to the left foot, on the left leg alone, and kneeling.
+"""Postures of robots on two legs beyond standing: swayed over the left foot, on the left leg alone, and kneeling.
 
     load_robot("mjlab:unitree_g1").posture("kneeling")
 
 They are searched when something asks for them, as the neutral posture is (`levade.robots.neutral`): the trunk is level, and
-the centre of mass is over what stands on the ground.
+the centre of mass is over what stands on the ground. Standing on one leg leaves little room, so the first two are commands:
+servos give way by their torque over their stiffness, and come to rest in the posture.
 """
 
 from __future__ import annotations
@@ -71,11 +72,11 @@ class _PoseSearch(PostureSearch):
         self._alone: tuple[list[int], list[int], Array, list[int]] = (joints, [], np.zeros(0), [])
 
     def swayed(self) -> Array:
-        """Search a posture on both feet, which stay where they are, with the centre of mass almost over the left one: commands."""
+        """Search commands for a posture on both feet, which stay in place, with the centre of mass almost over the left one."""
         return self._commanded(self._over_left(), 0.5 + 0.5 * _SWAY).round(DIGITS)
 
     def one_leg(self) -> Array:
-        """Search a posture on the left foot, with the right one lifted: commands with which servos give way to balance."""
+        """Search commands for a posture on the left foot, with the right one lifted: servos give way to balance."""
         lifted = self._search(self._over_left(), self.bare.standing, self._lift_cost, _TRIES, self._alone, spread=0.3)
         return self._commanded(self._over_sole(lifted), 1.0).round(DIGITS)
 
@@ -120,10 +121,14 @@ class _PoseSearch(PostureSearch):
         """Move the left leg until its sole is level, and the centre of mass over the middle of it: Gauss-Newton."""
         leg = [self.joints[joint] for joint in self.left.leg.joints]
 
-        def off(posture: Array) -> Array:
+        def off(posture: Array) -> Array:  # shape (2,) or (4,), to be 0
             self._put(posture)
             away = (self.data.subtree_com[self.bare.trunk] - self._centre(self.left))[:2] / self.scale
-            return np.concatenate([away, self._turned_sole(self.soles.index(self.left))[:2, 2]]) if self.left.flat else away
+            return (
+                np.concatenate([away, self._turned_sole(self.soles.index(self.left))[:2, 2]])
+                if self.left.flat
+                else away
+            )
 
         best, least = angles, off(angles)
         for _ in range(_NEWTON):

@@ -1,7 +1,7 @@
-"""What the built-in tasks say of themselves, without loading their robots: a robot's files may belong to a package that is missing.
+"""What the built-in tasks say of themselves, without loading their robots: a package that holds a robot's files may be missing.
 
-[name for name in available_tasks()]           # those that can be loaded here
-overview("kneel").lacks                        # None, or "robot mjlab:unitree_g1: mjlab is not installed; pip install ..."
+list(available_tasks())             # those that can be loaded here
+overview("kneel").lacks             # None, or "robot mjlab:unitree_g1: mjlab is not installed; pip install ..."
 """
 
 from __future__ import annotations
