@@ -182,11 +182,12 @@ def main() -> None:
     if arguments.films:
         filmed = [film(task, robot, arguments.seed) for task, robot in FILMS]
         FILMED.write_text(json.dumps(filmed, indent=1) + "\n", encoding="utf-8")
-    from levade.tasks import available_tasks, overview
+    from levade.robots import missing_package
+    from levade.tasks import overview
 
     for task in [] if arguments.write or arguments.films else arguments.tasks:
-        if task not in available_tasks():
-            print(f"{task}: left out: {overview(task).lacks}", flush=True)
+        if (lack := missing_package(overview(task).robot)) is not None:
+            print(f"{task}: left out: {lack}", flush=True)
             continue
         for robot in robots(task):
             row = make(task, robot, arguments.seed)

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import pytest
 
 from levade.cli import main
-from levade.robots import Robot
+from levade.robots import Robot, missing_package
 from levade.tasks import Overview, available_tasks, builtin_tasks, is_builtin, load_task, overview
 from levade.tasks.task import Task
 
@@ -29,7 +29,7 @@ def said(task: Task) -> Overview:
 def test_an_overview_is_what_the_loaded_task_says() -> None:
     for name in ("rearing", "rearing-within-limits", "self-righting-robust"):  # on its own, and by way of others
         assert overview(name) == said(load_task(name))
-        assert overview(name).lacks is None
+        assert missing_package(overview(name).robot) is None
 
 
 @pytest.mark.slow
@@ -42,8 +42,9 @@ def test_an_overview_is_what_the_loaded_task_says_on_two_legs(name: str, package
 
 
 def test_without_its_package_a_task_is_listed_and_cannot_be_loaded(bare: None) -> None:
-    assert [name for name in builtin_tasks() if name not in available_tasks()] == ON_TWO_LEGS
-    assert {overview(name).lacks for name in ON_TWO_LEGS} == {MISSING}
+    there = available_tasks()
+    assert [name for name in builtin_tasks() if name not in there] == ON_TWO_LEGS
+    assert {missing_package(overview(name).robot) for name in ON_TWO_LEGS} == {MISSING}
 
 
 def test_a_motion_of_a_task_without_its_package_is_known_to_be_none_of_the_built_in_ones(bare: None) -> None:

@@ -1,7 +1,7 @@
 """What the built-in tasks say of themselves, without loading their robots: a package that holds a robot's files may be missing.
 
-list(available_tasks())             # those that can be loaded here
-overview("kneel").lacks             # None, or "robot mjlab:unitree_g1: mjlab is not installed; pip install ..."
+list(available_tasks())                     # those that can be loaded here
+missing_package(overview("kneel").robot)    # None, or "robot mjlab:unitree_g1: mjlab is not installed; pip install ..."
 """
 
 from __future__ import annotations
@@ -31,11 +31,6 @@ class Overview:
     description: str
     robot: str
 
-    @property
-    def lacks(self) -> str | None:
-        """The package that holds the robot's files and is not installed, in one line; None if nothing is missing."""
-        return missing_package(self.robot)
-
 
 def overview(name_or_path: str) -> Overview:
     """Read what a task file says of itself.
@@ -63,7 +58,9 @@ def available_tasks() -> dict[str, Path]:
     Returns:
         Name -> file, sorted by name.
     """
-    return {name: path for name, path in builtin_tasks().items() if overview(name).lacks is None}
+    robots = {name: overview(name).robot for name in builtin_tasks()}
+    there = {robot for robot in set(robots.values()) if missing_package(robot) is None}
+    return {name: path for name, path in builtin_tasks().items() if robots[name] in there}
 
 
 def is_builtin(task: Task) -> bool:

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
 from levade.cli.commands.options import Json
 from levade.errors import LevadeError
-
-if TYPE_CHECKING:
-    from levade.tasks import Overview
 
 tasks_app = typer.Typer(
     help="""List the built-in tasks; print one, or the schema of task files.
@@ -27,6 +24,7 @@ tasks_app = typer.Typer(
 
 @tasks_app.callback(invoke_without_command=True)
 def _list_tasks(context: typer.Context, as_json: Json = False) -> None:
+    from levade.robots import missing_package
     from levade.tasks import builtin_tasks, overview
 
     if context.invoked_subcommand is not None:
@@ -36,12 +34,9 @@ def _list_tasks(context: typer.Context, as_json: Json = False) -> None:
         rows = [{"name": task.name, "description": task.description, "robot": task.robot} for task in listed]
         _print_json({"tasks": rows})
     else:
-        _print_rows([(task.name, f"{task.description}{_needs(task)}") for task in listed])
-
-
-def _needs(task: Overview) -> str:
-    """Say that a task's own robot cannot be loaded here, and how it could."""
-    return "" if task.lacks is None else f" ({task.lacks}; or give it another robot with --robot)"
+        lacks = {robot: missing_package(robot) for robot in {task.robot for task in listed}}
+        needs = {robot: "" if lack is None else f" ({lack})" for robot, lack in lacks.items()}
+        _print_rows([(task.name, f"{task.description}{needs[task.robot]}") for task in listed])
 
 
 @tasks_app.command("show")
