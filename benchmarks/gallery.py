@@ -47,7 +47,11 @@ def picture(task: str, robot: str) -> Path:
 
 
 def robots(task: str) -> tuple[str, ...]:
-    return (OWN,) if task in (*FIRST, "levade") else (OWN, OTHER)  # stated for the joints of the paper's robot
+    from levade.tasks import overview
+
+    own = overview(task).robot
+    # some are stated for the joints of the paper's robot, others for robots on two legs
+    return (own,) if own != OWN or task in (*FIRST, "levade") else (OWN, OTHER)
 
 
 def make(task: str, robot: str, seed: int) -> dict[str, Any]:
@@ -122,7 +126,7 @@ def section(task: str, runs: list[dict[str, Any]]) -> str:
     """What a task asks, word for word from its file, and what it looks like."""
     import yaml
 
-    from levade.tasks import task_text
+    from levade.tasks import overview, task_text
 
     text = task_text(task)
     lines = [f"## {task}", "", f"{yaml.safe_load(text)['description']}.", "", "```yaml"]
@@ -131,7 +135,7 @@ def section(task: str, runs: list[dict[str, Any]]) -> str:
     if not runs:
         lines += ["No picture yet.", ""]
     for run in runs:
-        where = "" if run["robot"] == OWN else f" --robot {run['robot']}"
+        where = "" if run["robot"] == overview(task).robot else f" --robot {run['robot']}"
         found = (
             f"first success at trial {run['trials_to_success']}, the cheapest of {run['trials']} trials shown"
             if run["success"]
@@ -178,7 +182,13 @@ def main() -> None:
     if arguments.films:
         filmed = [film(task, robot, arguments.seed) for task, robot in FILMS]
         FILMED.write_text(json.dumps(filmed, indent=1) + "\n", encoding="utf-8")
+    from levade.robots import missing_package
+    from levade.tasks import overview
+
     for task in [] if arguments.write or arguments.films else arguments.tasks:
+        if (lack := missing_package(overview(task).robot)) is not None:
+            print(f"{task}: left out: {lack}", flush=True)
+            continue
         for robot in robots(task):
             row = make(task, robot, arguments.seed)
             print(task, robot, row["trials_to_success"], flush=True)

@@ -54,6 +54,10 @@ class LevadeError(Exception):
         return f"{begin}{self.message}{what and f'; {what}'}"
 
 
+class MissingPackage(LevadeError):
+    """A package that holds a robot's files is not installed; the message says how to get it."""
+
+
 def one_line(text: str) -> str:
     r"""Make text fit for a line on a terminal.
 

@@ -17,7 +17,7 @@ from levade.report.series import policy_names
 from levade.robots import load_robot
 from levade.search import make_objective, solve
 from levade.search.recording import record
-from levade.tasks import builtin_tasks, load_task
+from levade.tasks import available_tasks, load_task
 from levade.tasks.policy import make_policy
 
 
@@ -113,7 +113,7 @@ def test_a_policy_that_is_not_what_was_recorded_is_not_believed(moving: Motion, 
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("task", builtin_tasks())
+@pytest.mark.parametrize("task", available_tasks())
 def test_every_built_in_task_has_an_analytic_reference(
     task: str, moving: Motion, changed: Callable[..., Motion]
 ) -> None:

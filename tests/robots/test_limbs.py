@@ -9,6 +9,7 @@ import mujoco
 import numpy as np
 import pytest
 
+from levade.costs.success import success
 from levade.engines import FOOT_CONTACT_FORCE, Fall, Physics, Settled, make_engine, start_state
 from levade.engines.ode.library import load as load_ode
 from levade.errors import LevadeError
@@ -23,7 +24,7 @@ from levade.scenes import Scene
 from levade.search.objective import make_objective
 from levade.tasks import load_task
 from levade.tasks.policy import leg_groups
-from levade.trajectory import JointReference
+from levade.trajectory import JointReference, Trajectories
 
 HEAD = '<mujoco><compiler angle="radian" autolimits="true"/><worldbody>'
 
@@ -482,27 +483,46 @@ def lowest(robot: Robot, data: mujoco.MjData, geoms: tuple[str, ...]) -> np.ndar
 
 
 @pytest.mark.slow
-def test_on_one_leg_the_centre_of_mass_is_over_its_sole(walker: Robot) -> None:
-    data = walker.data_at(walker.posture("one-leg"))
-    left, right = walker.leg("l"), walker.leg("r")
-    com = data.subtree_com[walker.model.body(walker.trunk).id]
-    sole = np.mean([data.geom(pad).xpos for pad in left.pads], axis=0)
-    assert np.abs(com[:2] - sole[:2]).max() < 0.02
-    lift = lowest(walker, data, right.pads)[2] - lowest(walker, data, left.pads)[2]
+def test_commanded_onto_one_leg_servos_give_way_until_the_centre_of_mass_is_over_the_sole(walker: Robot) -> None:
+    """Servos and weight are in balance where the energy of both is stationary, with the left sole level on the ground."""
+    command, kp = walker.posture("one-leg"), walker.actuation.kp
+    trunk, left = walker.model.body(walker.trunk).id, walker.leg("l")
+    weight = 9.81 * float(walker.model.body_mass.sum())
+
+    def seen(angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The centre of mass from the middle of the left sole, and the trunk's up, in axes of the sole."""
+        data = walker.data_at(angles)
+        turn = data.body("one6").xmat.reshape(3, 3)
+        sole = np.mean([data.geom(pad).xpos for pad in left.pads], axis=0)
+        return turn.T @ (data.subtree_com[trunk] - sole), turn.T @ data.body(walker.trunk).xmat.reshape(3, 3)[:, 2]
+
+    angles = command.copy()
+    for _ in range(40):
+        slopes = [(seen(angles + h)[0][2] - seen(angles - h)[0][2]) / 2e-4 for h in 1e-4 * np.eye(len(angles))]
+        angles += 0.5 * (command - weight * np.array(slopes) / kp - angles)
+    com, up = seen(angles)
+    assert np.abs(com[:2]).max() < 0.005
+    assert up[2] > np.cos(0.01)
+    data = walker.data_at(angles)
+    lift = lowest(walker, data, walker.leg("r").pads)[2] - lowest(walker, data, left.pads)[2]
     assert lift > 0.1 * dimensions(walker).leg
-    assert all(data.geom(pad).xmat[8] > np.cos(0.06) for pad in left.pads)
 
 
 @pytest.mark.slow
-def test_swayed_the_feet_stay_and_the_weight_goes_to_the_left(walker: Robot) -> None:
-    neutral, swayed = (walker.data_at(walker.posture(name)) for name in ("neutral", "swayed"))
-    steps = [data.geom("one_toe").xpos - data.geom("two_toe").xpos for data in (neutral, swayed)]
-    np.testing.assert_allclose(steps[1], steps[0], atol=0.02)
-    trunk = walker.model.body(walker.trunk).id
-    places = [data.subtree_com[trunk][1] - 0.5 * (data.geom("one_toe").xpos + data.geom("two_toe").xpos)[1]
-              for data in (neutral, swayed)]  # fmt: skip
-    assert abs(places[0]) < 0.01
-    assert 0.3 < places[1] / (0.5 * steps[0][1]) < 0.6
+def test_swayed_the_feet_stay_and_the_left_one_carries_most_of_the_weight(walker: Robot) -> None:
+    engine = make_engine(walker, Scene(), Physics(), threads=1)
+    state = start_state(engine, walker, Scene(), Settled(posture="swayed", time=4.0))
+    data = mujoco.MjData(engine.model)
+    data.qpos[:] = state.qpos[0]
+    mujoco.mj_forward(engine.model, data)
+    feet = [np.mean([data.geom(pad).xpos for pad in walker.leg(name).pads], axis=0) for name in ("l", "r")]
+    neutral = walker.data_at(walker.posture("neutral"))
+    apart = [np.mean([neutral.geom(pad).xpos for pad in walker.leg(name).pads], axis=0) for name in ("l", "r")]
+    np.testing.assert_allclose(feet[0] - feet[1], apart[0] - apart[1], atol=0.02)
+    com = data.subtree_com[engine.model.body(walker.trunk).id]
+    step = feet[0][:2] - feet[1][:2]
+    share = (com[:2] - feet[1][:2]) @ step / (step @ step)
+    assert share == pytest.approx(0.925, abs=0.06)  # of the weight, by the lever
 
 
 @pytest.mark.slow
@@ -525,3 +545,62 @@ def test_only_robots_on_two_legs_kneel(tmp_path: Path) -> None:
     robot = load(tmp_path, insect(6))
     with pytest.raises(LevadeError, match="no posture 'kneeling'"):
         robot.posture("kneeling")
+
+
+def at_rest(robot: Robot, posture: str) -> Trajectories:
+    """A trial in which nothing moves: in a posture, level, its lowest part on the ground."""
+    angles = robot.posture(posture)
+    data = robot.data_at(angles)
+    geoms = [g for g in range(robot.model.ngeom) if robot.model.geom_contype[g] or robot.model.geom_conaffinity[g]]
+    low = min(support(robot.model, data, g, np.array([0.0, 0.0, -1.0]))[2] for g in geoms if robot.model.geom_bodyid[g])
+    place = data.body(robot.trunk).xpos - [0.0, 0.0, low]
+    joints, still = np.tile(angles, (1, 20, 1)), np.zeros((1, 20, 3))
+    return Trajectories(
+        joint_position=joints,
+        joint_velocity=np.zeros_like(joints),
+        joint_torque=np.zeros_like(joints),
+        trunk_position=still + place,
+        trunk_quaternion=np.tile([1.0, 0.0, 0.0, 0.0], (1, 20, 1)),
+        trunk_linear_velocity=still,
+        trunk_angular_velocity=still,
+        reference=JointReference(joints, np.zeros_like(joints), 0.1, 10),
+        embodiment=robot.embodiment,
+        timestep=0.1,
+        horizon_steps=10,
+        diverged=np.array([False]),
+    )
+
+
+@pytest.mark.slow
+def test_a_robot_that_rests_kneels_only_on_its_knees_and_stands_on_one_leg_only_with_a_foot_in_the_air(
+    walker: Robot,
+) -> None:
+    """The criteria of both tasks, against the height of every shape over the ground."""
+    names = ("neutral", "crouched", "swayed", "one-leg", "kneeling")
+    met = {task: [name for name in names if success(load_task(task, robot=walker).success, at_rest(walker, name))[0]]
+           for task in ("kneel", "one-leg-stand")}  # fmt: skip
+    assert met == {"kneel": ["kneeling"], "one-leg-stand": ["one-leg"]}
+    model = walker.model
+    touching = {}
+    for name in ("kneeling", "one-leg"):
+        data = walker.data_at(walker.posture(name))
+        lows = {
+            g: support(model, data, g, np.array([0.0, 0.0, -1.0]))[2]
+            for g in range(model.ngeom)
+            if (model.geom_contype[g] or model.geom_conaffinity[g]) and model.geom_bodyid[g]
+        }
+        ground = min(lows.values())
+        touching[name] = {model.body(model.geom_bodyid[g]).name for g, low in lows.items() if low < ground + 0.04}
+    knees = {"one3", "one4", "two3", "two4"}  # a thigh ends where the shank rests
+    assert touching == {"kneeling": {*knees, "one6", "two6"}, "one-leg": {"one6"}}
+
+
+@pytest.mark.parametrize("task", ["kneel", "one-leg-stand"])
+def test_tasks_on_two_legs_say_so_on_four_and_six(task: str, tmp_path: Path, quadruped: type) -> None:
+    four = tmp_path / "four.urdf"
+    four.write_text(quadruped().urdf())
+    for robot in (load_robot(four), load(tmp_path, insect(6))):
+        with pytest.raises(
+            LevadeError, match=f"^{task}: does not apply to {robot.name}: it does not stand on two legs$"
+        ):
+            load_task(task, robot=robot)

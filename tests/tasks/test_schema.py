@@ -10,7 +10,7 @@ import jsonschema
 import pytest
 import yaml
 
-from levade.tasks import builtin_tasks, load_task, task_to_dict
+from levade.tasks import available_tasks, builtin_tasks, load_task, task_to_dict
 from levade.tasks.document import TERMS
 from levade.tasks.schema import task_schema
 
@@ -49,7 +49,7 @@ def test_it_is_a_schema() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", builtin_tasks())
+@pytest.mark.parametrize("name", available_tasks())
 def test_every_built_in_task_is_valid_as_written_and_in_full(name: str) -> None:
     written = yaml.safe_load(builtin_tasks()[name].read_text(encoding="utf-8"))
     assert [error.message for error in VALIDATOR.iter_errors(written)] == []

@@ -23,7 +23,7 @@ from levade.tasks import (
     HorizonRange,
     Search,
     Task,
-    builtin_tasks,
+    available_tasks,
     load_task,
     task_checksum,
     task_from_dict,
@@ -33,7 +33,7 @@ from levade.tasks import (
 )
 from levade.tasks.units import UNITS, to_si
 
-BUILT_IN = list(builtin_tasks())
+BUILT_IN = list(available_tasks())
 HORIZON = "horizon: should be a number of seconds, or bounds for the search such as {minimum: 0.3 s, maximum: 1.5 s}"
 
 

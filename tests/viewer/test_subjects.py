@@ -11,7 +11,7 @@ import pytest
 import levade.viewer.subjects as subjects
 from levade.errors import LevadeError
 from levade.robots import Robot, builtin_robots, load_robot
-from levade.tasks import builtin_tasks, load_task
+from levade.tasks import available_tasks, builtin_tasks, load_task
 from levade.viewer.subjects import find
 
 HYQ = Path(load_robot("hyq2max").source).parent
@@ -38,7 +38,7 @@ def test_names_of_built_in_robots(name: str, packaged: Callable[[str], Robot]) -
 
 @pytest.mark.slow
 def test_names_of_built_in_tasks() -> None:
-    for name in builtin_tasks():
+    for name in available_tasks():
         assert find(name).task == load_task(name)
 
 

@@ -15,7 +15,7 @@ from levade.costs.margins import Margins
 from levade.embodiment import JointLimits
 from levade.errors import LevadeError
 from levade.motions import Motion, RecordedSimulation
-from levade.tasks import Task, builtin_tasks, load_task
+from levade.tasks import Task, builtin_tasks, overview
 
 if TYPE_CHECKING:
     from levade.checks import Numeric
@@ -150,7 +150,7 @@ def hardware_command(motion: Motion, directory: Path) -> str:
     own = task not in builtin_tasks()
     file = directory / "task.yaml" if (directory / "task.yaml").is_file() else f"{task}.yaml"
     words = ["levade", "solve", str(file) if own else task, "--hardware"]
-    if not own and robot != load_task(task).robot.name:
+    if not own and robot != overview(task).robot:
         words += ["--robot", robot]
     if directory == Path(task):  # the pursuit would use the directory of this run
         words += ["--out", f"{task}-hardware"]

@@ -9,7 +9,7 @@ A robot is one YAML file next to its model. ``data/hyq2max/robot.yaml`` is the e
 
 from levade.robots.actuation import PID, Actuation, DCMotor
 from levade.robots.dimensions import Dimensions, dimensions
-from levade.robots.loading import builtin_robots, load_robot
+from levade.robots.loading import builtin_robots, load_robot, missing_package
 from levade.robots.packages import find_package_robot, package_robots
 from levade.robots.robot import Robot
 from levade.robots.spec import robot_of_spec
@@ -28,6 +28,7 @@ __all__ = [
     "find_package_robot",
     "load_robot",
     "mirror_signs",
+    "missing_package",
     "package_robots",
     "robot_of_spec",
 ]

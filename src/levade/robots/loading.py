@@ -11,7 +11,7 @@ import numpy as np
 from levade.arrays import Array
 from levade.document import hides
 from levade.embodiment import JointLimits, TorqueCurve
-from levade.errors import LevadeError, did_you_mean
+from levade.errors import LevadeError, MissingPackage, did_you_mean
 from levade.robots.actuation import DCMotor
 from levade.robots.anatomy import understand
 from levade.robots.driving import SERVO, find_actuation, find_limits
@@ -49,6 +49,25 @@ def builtin_robots() -> list[tuple[str, str]]:
     from levade.robots.description import read_description
 
     return [(name, read_description(path).description) for name, path in _built_in().items()]
+
+
+def missing_package(name_or_path: str | Path) -> str | None:
+    """Tell which package a robot needs that is not installed. Its model is not read.
+
+    Args:
+        name_or_path: Name or path, as in `load_robot`.
+
+    Returns:
+        What is missing, and how to get it, in one line; None if no package is missing.
+
+    Raises:
+        LevadeError: If the robot is unknown, or its description cannot be read.
+    """
+    try:
+        find_package_robot(_describe(_find(str(name_or_path))).model)
+    except MissingPackage as missing:
+        return str(missing)
+    return None
 
 
 def load_robot(

@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from levade.errors import LevadeError, did_you_mean
+from levade.errors import LevadeError, MissingPackage, did_you_mean
 
 PREFIX = "menagerie:"
 _PUBLISHED = ".complete"
@@ -31,6 +31,7 @@ def find_menagerie_robot(name: str) -> Path | None:
         Path of the file. None for names that do not begin with ``menagerie:``.
 
     Raises:
+        MissingPackage: If the package is not installed.
         LevadeError: If there is no such robot, or its files are not on this machine.
     """
     if not name.startswith(PREFIX):
@@ -38,7 +39,7 @@ def find_menagerie_robot(name: str) -> Path | None:
     robot, _, model = name.removeprefix(PREFIX).partition("/")
     root, known = os.environ.get("MENAGERIE_ROOT"), _registry()
     if known is None and not root:
-        raise LevadeError(
+        raise MissingPackage(
             f"robot {name}: mujoco-menagerie is not installed; pip install mujoco-menagerie, or set MENAGERIE_ROOT to a"
             " checkout of Menagerie"
         )

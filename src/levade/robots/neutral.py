@@ -37,7 +37,8 @@ _ATTEMPTS = 4
 _STOP = 0.06
 """Margin between a posture and the ends of a joint's range, as a share of the range; at most 0.1 rad."""
 _DOWN = np.array([0.0, 0.0, -1.0])
-_DIGITS = 4
+DIGITS = 4
+"""Digits of a posture's angles [rad]."""
 
 
 @dataclass(frozen=True)
@@ -135,7 +136,7 @@ class PostureSearch:
                 ankle = bending[-1]  # about +y, what is ahead goes down
                 down = straight[ankle] + np.sign(sideways[ankle]) * self._ahead * _TIPTOE
                 straight[ankle] = np.clip(down, self.lower[ankle], self.upper[ankle])
-        return straight.round(_DIGITS)
+        return straight.round(DIGITS)
 
     def standing(self, angles: Array, extension: float, tries: int = _AGAIN) -> Array:
         """Search a standing posture near given angles. Limbs that do not stand keep their angles.
@@ -248,7 +249,7 @@ class PostureSearch:
         while not es.stop():
             asked = es.ask()
             es.tell(asked, [total(u) for u in asked])
-        return posture(np.asarray(es.result.xbest)).round(_DIGITS)
+        return posture(np.asarray(es.result.xbest)).round(DIGITS)
 
     def _leaders(self, limbs: Sequence[Leg]) -> tuple[list[int], list[int], Array, list[int]]:
         """Return the joints that are searched, those that follow, the signs of these, and whom they follow."""
@@ -328,8 +329,12 @@ class PostureSearch:
         """Cost of a sole that should be flat, and is not level or does not point ahead."""
         if not self.soles[k].flat:
             return 0.0
-        turned = data_rotation(self.data, self.soles[k].body) @ self._links[k].T @ self._flat[k]
+        turned = self._turned_sole(k)
         return 60.0 * (1.0 - turned[2, 2]) + 10.0 * (1.0 - turned[0, 0])
+
+    def _turned_sole(self, k: int) -> Array:
+        """Return the rotation of a sole from level and pointing ahead, shape (3, 3)."""
+        return data_rotation(self.data, self.soles[k].body) @ self._links[k].T @ self._flat[k]
 
     def _arm_cost(self, angles: Array, arms: Sequence[Leg]) -> float:
         self._put(angles)

