@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from levade.checks import Certificate
-from levade.hardware.plan import Plan
+from levade.tasks.plan import Plan
 from levade.motions import Motion
 
 _MOST = 1000

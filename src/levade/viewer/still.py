@@ -33,7 +33,7 @@ from levade.robots.addresses import Addresses
 from levade.rotations import rotate
 from levade.scenes import Scene, compose
 from levade.search import Objective
-from levade.tasks import builtin_tasks, load_task, task_to_dict, task_to_yaml
+from levade.tasks import is_builtin, load_task, task_to_dict, task_to_yaml
 from levade.tasks.policy import goal_posture
 from levade.version import __version__
 
@@ -116,7 +116,7 @@ def task_data(objective: Objective) -> dict[str, Any]:
     scene = put_together(robot.name, robot.legs, shapes, moving, _with_collision(layers, shapes))
     if task.scene.boxes and np.mean([box.position[1] for box in task.scene.boxes]) > position[1]:
         scene["camera"]["azimuth"] = -scene["camera"]["azimuth"]  # from the left: what is there is not behind the robot
-    known = task.name in builtin_tasks() and load_task(task.name) == task
+    known = is_builtin(task.name) and load_task(task.name) == task
     return {
         "what": "task",
         "name": task.name,

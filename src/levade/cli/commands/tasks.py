@@ -25,15 +25,25 @@ tasks_app = typer.Typer(
 @tasks_app.callback(invoke_without_command=True)
 def _list_tasks(context: typer.Context, as_json: Json = False) -> None:
     from levade.tasks import builtin_tasks, load_task
+    from levade.tasks.variants import ABOUT
 
     if context.invoked_subcommand is not None:
         return
     loaded = [load_task(name) for name in builtin_tasks()]
     if as_json:
-        rows = [{"name": task.name, "description": task.description, "robot": task.robot.name} for task in loaded]
+        rows = [
+            {
+                "name": task.name,
+                "description": task.description,
+                "robot": task.robot.name,
+                "variants": [f"{task.name}-{variant}" for variant in ABOUT],
+            }
+            for task in loaded
+        ]
         _print_json({"tasks": rows})
     else:
-        _print_rows([(task.name, task.description) for task in loaded])
+        variants = [(f"NAME-{variant}", f"Any of these, {about}") for variant, about in ABOUT.items()]
+        _print_rows([*((task.name, task.description) for task in loaded), *variants])
 
 
 @tasks_app.command("show")
