@@ -12,9 +12,9 @@ from levade.checks import Demands
 from levade.costs import Criterion, Effort, Margins, Measure, Miss
 from levade.errors import LevadeError
 from levade.hardware import Plan
-from levade.tasks.plan import _miss, tolerance
 from levade.robots import Dimensions, Robot, dimensions, load_robot
 from levade.tasks import Change, Cost, HorizonRange, builtin_tasks, load_task, task_from_dict, task_to_yaml
+from levade.tasks.plan import _miss, tolerance
 from levade.tasks.policy import make_policy
 from levade.trajectory import Trajectories
 

@@ -212,11 +212,9 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
             name: {"term": name, **value} if isinstance(value, Mapping) else value for name, value in costs.items()
         }
 
-    if isinstance(content.get("stages"), list):
+    if isinstance(content.get("stages"), list) and isinstance(content.get("success"), Mapping):
         content["stages"] = [
             _tolerances(stage, content["success"], f"{where}.stages.{i}", measures)
-            if isinstance(stage, Mapping) and isinstance(content.get("success"), Mapping)
-            else stage
             for i, stage in enumerate(content["stages"])
         ]
     content["hardware"] = _demands(content.get("hardware"))
@@ -235,10 +233,7 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
     optimizer = None
     if code:
         optimizer = _missing_optimizer(content)
-        content["success"] = _without_code(content.get("success", {}), f"{where}.success")
-        if isinstance(content.get("robust"), Mapping) and isinstance(content["robust"].get("success"), Mapping):
-            criteria = _without_code(content["robust"]["success"], f"{where}.robust.success")
-            content["robust"] = {**content["robust"], "success": criteria}
+        _without_code_in_criteria(content, where)
     task = build(Task, content, where=where)
     if optimizer is not None:
         task = dataclasses.replace(task, search=dataclasses.replace(task.search, optimizer=optimizer))
@@ -314,6 +309,13 @@ def _without_code(criteria: Mapping[str, Any], where: str) -> dict[str, Any]:
     }
 
 
+def _without_code_in_criteria(content: dict[str, Any], where: str) -> None:
+    content["success"] = _without_code(content.get("success", {}), f"{where}.success")
+    robust = content.get("robust")
+    if isinstance(robust, Mapping) and isinstance(robust.get("success"), Mapping):
+        content["robust"] = {**robust, "success": _without_code(robust["success"], f"{where}.robust.success")}
+
+
 def _demands(hardware: Any) -> Any:
     """Read the key hardware: true stands for the usual demands, false for no certificate."""
     if isinstance(hardware, bool):
@@ -343,12 +345,10 @@ def _missing_optimizer(content: dict[str, Any]) -> MissingCode | None:
     return MissingCode(str(name))
 
 
-def _tolerances(
-    stage: Mapping[str, Any], success: Mapping[str, Any], where: str, robot: Callable[[], Dimensions]
-) -> dict[str, Any]:
+def _tolerances(stage: Any, success: Mapping[str, Any], where: str, robot: Callable[[], Dimensions]) -> Any:
     """Turn a stage's tolerances for promotion, each in the unit of its criterion, into SI."""
-    if not isinstance(stage.get("promote"), Mapping):
-        return dict(stage)
+    if not (isinstance(stage, Mapping) and isinstance(stage.get("promote"), Mapping)):
+        return stage
     promote = {
         name: to_si(value, where=f"{where}.promote.{name}", measures=measure_of(success.get(name)), robot=robot)
         for name, value in stage["promote"].items()

@@ -113,19 +113,28 @@ def read(name_or_path: str) -> dict[str, Any]:
 def _read(name_or_path: str, seen: tuple[Path, ...]) -> dict[str, Any]:
     content = read_task(find(name_or_path), seen=seen)
     if name_or_path in (variants := builtin_variants()):
-        return _as_variant(content, variants[name_or_path][1], {"name": name_or_path})
+        return _as_variant(content, variants[name_or_path][1], {"name": name_or_path}, where=name_or_path)
     return content
 
 
-def _as_variant(content: Mapping[str, Any], variant: str, own: dict[str, Any]) -> dict[str, Any]:
-    """Make tables those of a variant, in which a task's own words win over what the variant changes."""
-    table = content.get(BY_VARIANT)
-    if table is not None and not isinstance(table, Mapping):
+def _as_variant(content: Mapping[str, Any], variant: Any, own: dict[str, Any], *, where: str) -> dict[str, Any]:
+    """Make the tables of a task those of a variant of it, whose own words win over what the task changes in the variant."""
+    if variant not in VARIANTS:
+        raise LevadeError(f"{where}: {VARIANT}: no variant {variant!r}; {did_you_mean(str(variant), VARIANTS)}")
+    if BY_VARIANT in own:
+        raise LevadeError(f"{where}: {BY_VARIANT}: a variant has none of its own; name what it changes without it")
+    table = content.get(BY_VARIANT, {})
+    if not (isinstance(table, Mapping) and isinstance(table.get(variant, {}), Mapping)):
         return {**content, VARIANT: variant}  # `levade.tasks.variants` reports it
-    changes = (table or {}).get(variant, {})
-    if isinstance(changes, Mapping):
-        changes = extended(dict(changes), own, nulls=True)
-    return {**content, VARIANT: variant, BY_VARIANT: {**(table or {}), variant: changes}}
+    changes = extended(dict(table.get(variant, {})), own, nulls=True)
+    at_once = {key: own[key] for key in ("name", "robot") if key in own}
+    return {
+        **content,
+        **at_once,
+        "hardware": changes.get("hardware"),
+        VARIANT: variant,
+        BY_VARIANT: {**table, variant: changes},
+    }
 
 
 def asks_for_hardware(name_or_path: str, changes: Sequence[str]) -> bool:
@@ -185,18 +194,14 @@ def read_task(path: Path, *, seen: tuple[Path, ...] = ()) -> dict[str, Any]:
     if not isinstance(content.get("name"), str):
         raise LevadeError(f"{path}: name: is missing; give the task that extends {named} a name of its own")
     theirs = _read(named, seen)
+    if variant is not None or VARIANT in theirs:
+        if variant is not None and VARIANT in theirs:
+            raise LevadeError(f"{path}: {VARIANT}: {named} is a variant already; extend its task instead")
+        return _as_variant(theirs, theirs.get(VARIANT, variant), content, where=str(path))
     merged = extended(theirs, content)
     if isinstance(theirs.get(BY_STANCE), Mapping):
         merged[BY_STANCE] = _extended_stances(theirs[BY_STANCE], content)
-    if variant is None and VARIANT not in theirs:
-        return merged
-    if variant is None:
-        variant = theirs[VARIANT]
-    elif VARIANT in theirs:
-        raise LevadeError(f"{path}: {VARIANT}: {named} is a variant already; extend its task instead")
-    elif variant not in VARIANTS:
-        raise LevadeError(f"{path}: {VARIANT}: no variant {variant!r}; {did_you_mean(str(variant), VARIANTS)}")
-    return _as_variant(merged, variant, {key: value for key, value in content.items() if key != BY_VARIANT})
+    return merged
 
 
 def _extended_stances(theirs: Mapping[str, Any], content: dict[str, Any]) -> Any:

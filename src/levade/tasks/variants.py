@@ -10,11 +10,11 @@ models. A task file says under ``variants`` only what else differs, as it does f
       robust:
         success: {roll: {target: 0, tolerance: 0.1}}
 
-Changes of what the motion has to do are made in the task, before anything follows from its criteria. All of them are made in the
-result, so they win over the plan. What ``robust`` says of the motion, but not of the search, also holds within limits.
-``keep: [costs, policy]`` keeps these tables of the task instead of the plan's; of costs, the plan then only adds those of margins
-and of the duration. A file of one's own is a variant if it extends another task and says ``variant: robust``, or extends a
-variant.
+Changes of what the motion has to do are made in the task, before anything follows from its criteria. All of them are made in
+the result, so they win over the plan. What ``robust`` says of the motion, but not of the search, also holds within limits.
+``keep: [costs, policy]`` keeps these tables of the task instead of the plan's; of costs, the plan then only adds those of
+margins and of the duration. A file of one's own is a variant if it extends another task and says ``variant: robust``, or
+extends a variant.
 """
 
 from __future__ import annotations
@@ -122,7 +122,9 @@ def variant_changes(content: Mapping[str, Any], robot: Robot, where: str) -> Cha
     goal = extended(of(VARIANTS[0]), own, nulls=True)
     keep = goal.pop(KEEP, [])
     if not isinstance(keep, list):
-        raise LevadeError(f"{where}.{BY_VARIANT}.{variant}.{KEEP}: should be a list such as [costs], is {kind_of(keep)}")
+        raise LevadeError(
+            f"{where}.{BY_VARIANT}.{variant}.{KEEP}: should be a list such as [costs], is {kind_of(keep)}"
+        )
     for name in keep:
         if name not in KEPT:
             hint = did_you_mean(str(name), KEPT)
