@@ -186,6 +186,13 @@ def test_own_words_win_over_the_plan(tmp_path: Path) -> None:
     assert within.horizon == 0.5
 
 
+def test_a_robot_that_is_asked_for_comes_before_the_file_s(tmp_path: Path, quadruped: type[Any]) -> None:
+    toy = written(tmp_path / "toy.urdf", quadruped().urdf())
+    path = written(tmp_path / "it.yaml", "name: it\nextends: sit-to-stand-robust\nrobot: {linkage: true}\n")
+    assert load_task(path).robot.linkage
+    assert load_task(path, robot=toy).robot.name == toy
+
+
 def test_a_variant_says_what_differs_for_a_stance(tmp_path: Path) -> None:
     text = BOW.replace("{search: {trials: 40}}", "{stances: {level: {search: {trials: 50}}, upright: it has no neck}}")
     written(tmp_path / "bow.yaml", text)
@@ -212,6 +219,10 @@ def test_a_variant_says_what_differs_for_a_stance(tmp_path: Path) -> None:
             r"robust\.keep: 'cots' cannot be kept; did you mean costs",
         ),
         ("extends: rearing\nvariant: robust\ncosts: {efort: {weight: 1}}\n", r"costs\.efort: no term 'efort'"),
+        (
+            "extends: rearing\nvariant: robust\nsuccess: {pitch: null, height: null, roll: null, yaw: null}\n",
+            r"variant: the task it has no success criteria",
+        ),
         ("extends: rearing-robst\n", r"no task 'rearing-robst'; did you mean rearing-robust"),
     ],
 )

@@ -126,8 +126,10 @@ def _as_variant(content: Mapping[str, Any], variant: Any, own: dict[str, Any], *
     table = content.get(BY_VARIANT, {})
     if not (isinstance(table, Mapping) and isinstance(table.get(variant, {}), Mapping)):
         return {**content, VARIANT: variant}  # `levade.tasks.variants` reports it
-    changes = extended(dict(table.get(variant, {})), own, nulls=True)
     at_once = {key: own[key] for key in ("name", "robot") if key in own}
+    changes = extended(
+        dict(table.get(variant, {})), {key: value for key, value in own.items() if key != "robot"}, nulls=True
+    )
     return {
         **content,
         **at_once,

@@ -119,6 +119,8 @@ def variant_changes(content: Mapping[str, Any], robot: Robot, where: str) -> Cha
 
     variant = content[VARIANT]
     own = of(variant)
+    if "robot" in own:
+        raise LevadeError(f"{where}.{BY_VARIANT}.{variant}.robot: a variant has the robot of its task; leave it out")
     goal = extended(of(VARIANTS[0]), own, nulls=True)
     keep = goal.pop(KEEP, [])
     if not isinstance(keep, list):
@@ -158,7 +160,12 @@ def planned(task: Task, variant: str, robot: Robot, *, keep: Collection[str] = (
 
     Returns:
         The variant, with the task's name.
+
+    Raises:
+        LevadeError: If the task has no criteria.
     """
+    if not task.success:
+        raise LevadeError(f"{VARIANT}: the task {task.name} has no success criteria to plan for; add some to the task")
     made = Plan.of(task, robot, _DEMANDS[variant]).in_one_search()
     added = {name: made.costs[name] for name in _ADDED if name in made.costs}
     return replace(
