@@ -259,7 +259,11 @@ class Plan:
                 Stage("nominal", robust=False, hold=self._held, promote=reached, weights=margins),
                 replace(robust.stages[0], name="robust"),
             ),
-            robust=replace(robust.robust, success=None) if robust.success == self.on_others else robust.robust,
+            robust=replace(
+                robust.robust,
+                success=None if robust.success == self.on_others else self.on_others,
+                required=Demands().share or 0.0,
+            ),
             search=replace(
                 robust.search,
                 trials=_ON_OTHERS * self.task.search.trials,
