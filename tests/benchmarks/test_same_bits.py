@@ -141,9 +141,11 @@ def test_a_case_that_fails_in_both_is_not_the_same(bits) -> None:
 
 
 def test_every_built_in_task_of_hyq2max_is_a_case_and_six_tasks_are_on_go1(bits) -> None:
-    from levade.tasks import builtin_tasks, overview
+    from levade.tasks import builtin_tasks, builtin_variants, overview
 
     own = {name for name in builtin_tasks() if overview(name).robot == "hyq2max"}
-    assert {case.task for case in bits.CASES if case.robot == "hyq2max"} == own
+    cases = {case.task for case in bits.CASES if case.robot == "hyq2max"}
+    assert cases - builtin_variants().keys() == own
+    assert {builtin_variants()[name][1] for name in cases & builtin_variants().keys()} == {"robust", "within-limits"}
     assert len({case.task for case in bits.CASES if case.robot == bits.GO1}) == 6
     assert len({case.name for case in bits.CASES}) == len(bits.CASES)

@@ -236,13 +236,15 @@ def test_show(levade, extra: list[str]) -> None:
 def test_listings(levade) -> None:
     from levade.robots import builtin_robots
     from levade.robots.packages import package_robots
-    from levade.tasks import builtin_tasks
+    from levade.tasks import builtin_tasks, builtin_variants
 
     status, out, err = levade("tasks")
     assert (status, err) == (0, "")
-    assert [line.split()[0] for line in out.splitlines()] == list(builtin_tasks())
+    assert [line.split()[0] for line in out.splitlines()] == [*builtin_tasks(), "NAME-robust", "NAME-within-limits"]
     status, out, _ = levade("tasks", "--json")
-    assert [task["name"] for task in json.loads(out)["tasks"]] == list(builtin_tasks())
+    rows = json.loads(out)["tasks"]
+    assert [task["name"] for task in rows] == list(builtin_tasks())
+    assert [name for task in rows for name in task["variants"]] == list(builtin_variants())
     status, out, _ = levade("robots")
     assert any(line.startswith("hyq2max  ") for line in out.splitlines())
     status, out, _ = levade("robots", "--json")

@@ -12,7 +12,7 @@ import yaml
 
 from levade.costs import Miss
 from levade.errors import LevadeError
-from levade.tasks import builtin_tasks, load_task
+from levade.tasks import load_task
 from levade.tasks.files import asks_for_hardware
 from levade.tasks.schema import task_schema
 from levade.viewer.subjects import find
@@ -177,8 +177,3 @@ def test_it_is_found_to_be_a_task(tmp_path: Path) -> None:
     found = find(path)
     assert found.task is not None
     assert found.task.name == "same"
-
-
-def test_variants_of_built_in_tasks_say_only_what_they_change() -> None:
-    for name, path in builtin_tasks().items():
-        assert name.endswith(("-robust", "-within-limits")) == ("extends" in yaml.safe_load(path.read_text())), name

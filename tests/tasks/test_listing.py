@@ -9,7 +9,7 @@ import pytest
 
 from levade.cli import main
 from levade.robots import Robot, missing_package
-from levade.tasks import Overview, available_tasks, builtin_tasks, is_builtin, load_task, overview
+from levade.tasks import Overview, available_tasks, builtin_tasks, is_unchanged, load_task, overview
 from levade.tasks.task import Task
 
 MISSING = "robot mjlab:unitree_g1: mjlab is not installed; pip install --no-deps mjlab"
@@ -38,7 +38,7 @@ def test_an_overview_is_what_the_loaded_task_says_on_two_legs(name: str, package
     packaged("g1")
     task = load_task(name)
     assert overview(name) == said(task)
-    assert is_builtin(task)
+    assert is_unchanged(task)
 
 
 def test_without_its_package_a_task_is_listed_and_cannot_be_loaded(bare: None) -> None:
@@ -50,9 +50,9 @@ def test_without_its_package_a_task_is_listed_and_cannot_be_loaded(bare: None) -
 def test_a_motion_of_a_task_without_its_package_is_known_to_be_none_of_the_built_in_ones(bare: None) -> None:
     """Its report is written all the same, and names its own task.yaml."""
     task = load_task("rearing")
-    assert is_builtin(task)
-    assert not is_builtin(load_task("rearing", changes=["horizon=0.4"]))
-    assert not is_builtin(Task(**{**vars(task), "name": "kneel"}))
+    assert is_unchanged(task)
+    assert not is_unchanged(load_task("rearing", changes=["horizon=0.4"]))
+    assert not is_unchanged(Task(**{**vars(task), "name": "kneel"}))
 
 
 def test_the_command_line_lists_all_and_says_what_a_task_needs(bare: None, capfd: pytest.CaptureFixture[str]) -> None:

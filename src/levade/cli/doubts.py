@@ -15,7 +15,7 @@ from levade.costs.margins import Margins
 from levade.embodiment import JointLimits
 from levade.errors import LevadeError
 from levade.motions import Motion, RecordedSimulation
-from levade.tasks import Task, builtin_tasks, overview
+from levade.tasks import Task, is_builtin, overview
 
 if TYPE_CHECKING:
     from levade.checks import Numeric
@@ -134,7 +134,7 @@ def _listed(names: Sequence[str]) -> str:
 
 def _next(motion: Motion, directory: Path) -> str:
     """Return the command that searches for a motion that hardware can do, or that checks this one."""
-    if motion.task_name not in builtin_tasks():
+    if not is_builtin(motion.task_name):
         return f"levade check {shlex.quote(str(directory / 'motion.npz'))}"
     return hardware_command(motion, directory)
 
@@ -147,7 +147,7 @@ def hardware_command(motion: Motion, directory: Path) -> str:
         directory: Directory of its run.
     """
     task, robot = motion.task_name, motion.task.robot.name
-    own = task not in builtin_tasks()
+    own = not is_builtin(task)
     file = directory / "task.yaml" if (directory / "task.yaml").is_file() else f"{task}.yaml"
     words = ["levade", "solve", str(file) if own else task, "--hardware"]
     if not own and robot != overview(task).robot:

@@ -16,7 +16,7 @@ from levade.motions import Motion
 from levade.report.page import page as motion_page
 from levade.report.page import save_page
 from levade.search import make_objective
-from levade.tasks import builtin_tasks
+from levade.tasks import is_builtin
 from levade.viewer.pages import view_page
 from levade.viewer.server import LOOPBACK, Server
 from levade.viewer.still import robot_data, task_data
@@ -41,7 +41,7 @@ def view(name: str, *, out: Path | None, host: str | None, port: int | None, bro
     console = make_console()
     found = find(name)
     text = _page(found)
-    if found.task is not None and name in builtin_tasks() and (Path(name) / "motion.npz").is_file():
+    if found.task is not None and is_builtin(name) and (Path(name) / "motion.npz").is_file():
         console.print(
             f"This is the built-in task. For the motion in {escape(name)}/: levade view {escape(name)}/motion.npz"
         )

@@ -8,10 +8,10 @@ obstacles(pursued)              # which demands it fails, and what could be chan
 
 from levade.hardware.page import certificate_page, write_certificate
 from levade.hardware.part import Part, Pursued
-from levade.hardware.plan import Plan
 from levade.hardware.pursuit import pursue
 from levade.hardware.state import discard, is_pursuit, read_pursuit
 from levade.hardware.verdict import binding, obstacles
+from levade.tasks.plan import Plan
 
 __all__ = [
     "Part",

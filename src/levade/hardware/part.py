@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from levade.checks import Certificate
-from levade.hardware.plan import Plan
 from levade.motions import Motion
+from levade.tasks.plan import Plan
 
 _MOST = 1000
 """Number of failed demands for a motion without a certificate: more than exist."""

@@ -40,7 +40,6 @@ from levade.document import read_yaml
 from levade.errors import LevadeError, Remedy
 from levade.hardware.page import write_certificate
 from levade.hardware.part import Part, Pursued
-from levade.hardware.plan import RUN_UP, Plan
 from levade.hardware.starts import rough_start
 from levade.hardware.state import (
     ASKED,
@@ -67,6 +66,7 @@ from levade.search.initial import initial_guess
 from levade.search.run import MOTION, TASK, Outcome, read_run, resume, run
 from levade.search.storage import storing
 from levade.tasks import Demands, Task, task_to_dict, task_to_yaml
+from levade.tasks.plan import RUN_UP, Plan
 from levade.writing import write_text
 
 _ON_LIMITS = (0.25, 0.6, 1.0)
@@ -390,7 +390,7 @@ class _Pursuit:
         """Make one search, go on with it, or take its earlier result; then certify its motion."""
         began = time.monotonic()
         outcome = self._run(name, task, around, seed)
-        motion = self._plan.certifiable(outcome.motion)
+        motion = outcome.motion.with_task(self._plan.certifiable(outcome.motion.task))
         # a motion beyond the limits would only fail; if there is no other, the nearest one is certified in the end
         hopeless = name in self._kinds and not motion.met
         part = Part(name, motion, outcome.solution.trials, time.monotonic() - began, None)

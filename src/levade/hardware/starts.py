@@ -1,6 +1,6 @@
-"""Find a start for a search within limits: the best of many rough motions through postures of the legs.
+"""Draw rough motions through postures of the legs, which a search within limits tries first. It begins around the best one.
 
-    guess = rough_start(objective, seed=0)      # an InitialGuess with the best motion only
+    guess = rough_start(objective, seed=0)      # an InitialGuess with all of them
 
 A search around standing finds motions near to standing. A jump begins with a crouch, which raises the cost before it lowers it,
 so no small step leads there. Rough motions therefore shorten and stretch the legs to random lengths, a new one for each kernel,
@@ -17,11 +17,10 @@ from levade.arrays import Array
 from levade.policies import FreePolicy, JointPolicy, Policy
 from levade.robots import Robot
 from levade.search import Objective
-from levade.search.evaluation import Trials
 from levade.search.initial import AROUND, InitialGuess
 
 ROUGH = 120
-"""Number of rough motions to choose from. Half of them are drawn as the first candidates of a usual search are."""
+"""Number of rough motions. Half of them are drawn as the first candidates of a usual search are."""
 
 _SPREAD = 0.1
 """Standard deviation of the noise that is added to postures [rad]."""
@@ -31,23 +30,20 @@ _TAG = 1_919_907_432
 
 
 def rough_start(objective: Objective, *, seed: int) -> InitialGuess:
-    """Try rough motions and return the best.
+    """Draw the rough motions that a search tries before its optimizer begins around the best of them.
 
     Args:
-        objective: Objective of the search that is to begin there.
-        seed: Seed of that search.
+        objective: Objective of the search.
+        seed: Seed of the search.
 
     Returns:
-        A guess with the decisions of the best motion, shape (1, d).
+        A guess with the decisions of all motions, shape (`ROUGH`, d).
     """
     generator = np.random.default_rng((seed, _TAG))
     space = objective.space
     drawn = space.candidates(space.step * generator.standard_normal((ROUGH // 2, space.dimensions)))
     through = through_postures(objective.policy, objective.simulation.robot, ROUGH - ROUGH // 2, generator)
-    tried = drawn if through is None else np.concatenate([through, drawn])
-    evaluation = objective.evaluate(Trials(tried, hold_steps=0, seed=seed))
-    cost = evaluation.cost({name: cost.weight for name, cost in objective.task.costs.items()})
-    return InitialGuess(tried[[int(np.argmin(cost))]], step=AROUND)
+    return InitialGuess(drawn if through is None else np.concatenate([through, drawn]), step=AROUND)
 
 
 def through_postures(policy: JointPolicy, robot: Robot, n: int, generator: np.random.Generator) -> Array | None:

@@ -81,7 +81,7 @@ class Falls:
         self.plan = None if demands is None else Plan.of(self.task, robot, demands, feedback=False)
         if self.plan is not None and not self.plan.goal:
             raise LevadeError(f"hardware: the task {task.name} has no success criteria to certify; add some")
-        self.judged = self.task if self.plan is None else self.plan.judging(self.plan.within_limits())
+        self.judged = self.task if self.plan is None else self.plan.certifiable(self.plan.within_limits())
         self.simulation = Simulation.of(self.judged, robot=robot, threads=threads)
         self.fold = None if fallen.fold is None else fold_posture(robot, fallen.fold)
         self.mirror = None if task.scene.boxes or task.scene.terrain else self._mirror()

@@ -16,7 +16,7 @@ import numpy as np
 from levade.costs import Criterion
 from levade.costs.success import CIRCULAR, unit_of
 from levade.motions import Motion
-from levade.tasks import is_builtin, task_to_yaml
+from levade.tasks import is_unchanged, task_to_yaml
 
 WHEN = {
     "horizon": "At the horizon T",
@@ -139,7 +139,7 @@ def provenance_data(motion: Motion) -> dict[str, Any]:
     """
     task, result, origin = motion.task, motion.result, motion.provenance
     name = task.name
-    known = is_builtin(task)
+    known = is_unchanged(task)
     return {
         "task": name,
         "description": task.description,

@@ -1,6 +1,7 @@
 """Tasks: what a motion has to achieve, read from YAML or built in Python. The built-in ones are YAML files in ``data/``.
 
 task = load_task("rearing", changes=["horizon=0.4"])
+task = load_task("rearing-robust")              # a variant, which every task has: `levade.tasks.variants`
 task = load_task("my-task.yaml", robot="my/robot.yaml")
 """
 
@@ -15,8 +16,8 @@ from levade.tasks.document import (
     task_to_dict,
     task_to_yaml,
 )
-from levade.tasks.files import builtin_tasks
-from levade.tasks.listing import Overview, available_tasks, is_builtin, overview
+from levade.tasks.files import builtin_tasks, builtin_variants, is_builtin
+from levade.tasks.listing import Overview, available_tasks, is_unchanged, overview
 from levade.tasks.parts import Change, Cost, HorizonRange, PolicyChoice, RobotChoice, Search, Stage, StartChoice
 from levade.tasks.regulation import Regulation
 from levade.tasks.robust import Racing, Robust
@@ -41,8 +42,10 @@ __all__ = [
     "Task",
     "available_tasks",
     "builtin_tasks",
+    "builtin_variants",
     "holds_code",
     "is_builtin",
+    "is_unchanged",
     "load_task",
     "looks_at_hold",
     "overview",

@@ -44,10 +44,11 @@ from levade.tasks.code import (
     missing_code,
 )
 from levade.tasks.families import with_family
-from levade.tasks.files import find, read_task, with_goal, with_heights
+from levade.tasks.files import VARIANT, builtin_variants, extended, find, read, with_goal, with_heights
 from levade.tasks.parts import Cost, RobotChoice, Search
 from levade.tasks.task import Task
 from levade.tasks.units import is_number, measure_of, to_si
+from levade.tasks.variants import OF_SEARCH, check_variants, described, planned, variant_changes, variant_text
 
 TERMS = {
     "orientation": Orientation,
@@ -89,10 +90,10 @@ def task_text(name_or_path: str | Path) -> str:
     """Read the text of a task file, comments included.
 
     Args:
-        name_or_path: Name of a built-in task, or path of a YAML file.
+        name_or_path: Name of a built-in task or of a variant of one, or path of a YAML file.
 
     Returns:
-        The text.
+        The text. For a variant, that of a file that extends its task.
 
     Raises:
         LevadeError: If there is no such file, or it is not a text.
@@ -101,14 +102,16 @@ def task_text(name_or_path: str | Path) -> str:
     text = read_text(path)
     if CONTROL.search(text):
         raise LevadeError(f"{path}: is not a text file, as it contains control characters; give a YAML file")
+    if (variant := builtin_variants().get(str(name_or_path))) is not None:
+        return variant_text(str(name_or_path), *variant, text)
     return text
 
 
 def load_task(name_or_path: str | Path, *, robot: str | Robot | None = None, changes: Sequence[str] = ()) -> Task:
-    """Load a built-in task by name, or any task by the path of its YAML file.
+    """Load a built-in task or a variant of one by name, or any task by the path of its YAML file.
 
     Args:
-        name_or_path: Name of a built-in task, or path of a YAML file.
+        name_or_path: Name of a built-in task or of a variant of one, such as "rearing-robust", or path of a YAML file.
         robot: A robot to use instead of the task's: its name, its file, or a `levade.robots.Robot`.
         changes: Changes of single values, "path=value" each, such as "costs.effort.weight=0.5". The path has to exist in the
             task with all its defaults, except for settings of the optimizer and whole costs and criteria, such as
@@ -122,8 +125,7 @@ def load_task(name_or_path: str | Path, *, robot: str | Robot | None = None, cha
         LevadeError: If the task cannot be read, or a value is wrong.
     """
     made, name = (robot, robot.name) if isinstance(robot, Robot) else (None, robot)
-    path = find(str(name_or_path))
-    content = read_task(path)
+    path, content = find(str(name_or_path)), read(str(name_or_path))
     own = build(RobotChoice, content.get("robot") or {}, where=f"{path}.robot").name
     with_robot = [change for change in changes if change.partition("=")[0].startswith("robot.")]
     if name is not None or with_robot:  # first, because numbers may be in units of this robot
@@ -202,7 +204,10 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
         return load_robot(choice.name, variant=choice.variant)
 
     measures = functools.cache(lambda: dimensions(chosen()))
-    content = with_family(stances.on_robot(content, chosen, where), where)
+    checked = check_variants(content, where)
+    if VARIANT in content:
+        return _variant(content, chosen, where=where, robot=robot)
+    content = with_family(stances.on_robot(checked, chosen, where), where)
     if isinstance(content.get("success"), Mapping):
         content["success"] = _with_quantities(content["success"], where)
         content["robust"] = _good_enough(content.get("robust"), content["success"], where)
@@ -212,11 +217,9 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
             name: {"term": name, **value} if isinstance(value, Mapping) else value for name, value in costs.items()
         }
 
-    if isinstance(content.get("stages"), list):
+    if isinstance(content.get("stages"), list) and isinstance(content.get("success"), Mapping):
         content["stages"] = [
             _tolerances(stage, content["success"], f"{where}.stages.{i}", measures)
-            if isinstance(stage, Mapping) and isinstance(content.get("success"), Mapping)
-            else stage
             for i, stage in enumerate(content["stages"])
         ]
     content["hardware"] = _demands(content.get("hardware"))
@@ -235,14 +238,23 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
     optimizer = None
     if code:
         optimizer = _missing_optimizer(content)
-        content["success"] = _without_code(content.get("success", {}), f"{where}.success")
-        if isinstance(content.get("robust"), Mapping) and isinstance(content["robust"].get("success"), Mapping):
-            criteria = _without_code(content["robust"]["success"], f"{where}.robust.success")
-            content["robust"] = {**content["robust"], "success": criteria}
+        _without_code_in_criteria(content, where)
     task = build(Task, content, where=where)
     if optimizer is not None:
         task = dataclasses.replace(task, search=dataclasses.replace(task.search, optimizer=optimizer))
     return task
+
+
+def _variant(content: dict[str, Any], chosen: Callable[[], Robot], *, where: str, robot: Robot | None) -> Task:
+    """Make the variant that tables name: its task, with another goal if it has one, then the plan, then its own words."""
+    variant, changes = content[VARIANT], variant_changes(content, chosen(), where)
+    base = stances.on_robot(check_variants(content, where), chosen, where)
+    for key in OF_SEARCH[1:]:  # the plan makes its own; it looks at the budget
+        base.pop(key, None)
+    task = task_from_dict(extended(base, changes.goal), where=where, robot=robot)
+    made = task_to_dict(planned(task, variant, task.robot.load() if robot is None else robot, keep=changes.keep))
+    made["description"] = described(task.description, variant)
+    return task_from_dict(extended(made, changes.own), where=where, robot=robot)
 
 
 def _check_keys(content: Mapping[str, Any], where: str) -> None:
@@ -302,6 +314,13 @@ def _without_code(criteria: Mapping[str, Any], where: str) -> dict[str, Any]:
     }
 
 
+def _without_code_in_criteria(content: dict[str, Any], where: str) -> None:
+    content["success"] = _without_code(content.get("success", {}), f"{where}.success")
+    robust = content.get("robust")
+    if isinstance(robust, Mapping) and isinstance(robust.get("success"), Mapping):
+        content["robust"] = {**robust, "success": _without_code(robust["success"], f"{where}.robust.success")}
+
+
 def _demands(hardware: Any) -> Any:
     """Read the key hardware: true stands for the usual demands, false for no certificate."""
     if isinstance(hardware, bool):
@@ -331,12 +350,10 @@ def _missing_optimizer(content: dict[str, Any]) -> MissingCode | None:
     return MissingCode(str(name))
 
 
-def _tolerances(
-    stage: Mapping[str, Any], success: Mapping[str, Any], where: str, robot: Callable[[], Dimensions]
-) -> dict[str, Any]:
+def _tolerances(stage: Any, success: Mapping[str, Any], where: str, robot: Callable[[], Dimensions]) -> Any:
     """Turn a stage's tolerances for promotion, each in the unit of its criterion, into SI."""
-    if not isinstance(stage.get("promote"), Mapping):
-        return dict(stage)
+    if not (isinstance(stage, Mapping) and isinstance(stage.get("promote"), Mapping)):
+        return stage
     promote = {
         name: to_si(value, where=f"{where}.promote.{name}", measures=measure_of(success.get(name)), robot=robot)
         for name, value in stage["promote"].items()

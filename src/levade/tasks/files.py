@@ -5,6 +5,7 @@ A path in a task file is relative to the task file. A run's ``task.yaml`` is com
 
 from __future__ import annotations
 
+import difflib
 import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -25,12 +26,19 @@ EXTENDS = "extends"
 BY_STANCE = "stances"
 """Key of a task file with what differs by how a robot stands: see `levade.tasks.stances`."""
 
+VARIANT, BY_VARIANT = "variant", "variants"
+"""Keys of a task file: which variant of the task that it extends it is, and what a task's variants change: see
+`levade.tasks.variants`."""
+
+VARIANTS = ("robust", "within-limits")
+"""Variants of every task. Each built-in one has a name, such as rearing-robust."""
+
 MERGED = ("scene", "physics", "policy", "costs", "success", "search", "robust", "feedback")
 """Tables of which a task that extends another one names only the keys that it changes."""
 
 
 def builtin_tasks() -> dict[str, Path]:
-    """List the built-in tasks.
+    """List the built-in tasks, without their variants.
 
     Returns:
         Name -> file, sorted by name.
@@ -38,27 +46,97 @@ def builtin_tasks() -> dict[str, Path]:
     return {path.stem: path for path in sorted(_BUILT_IN.glob("*.yaml"), key=lambda path: path.stem)}
 
 
+def builtin_variants() -> dict[str, tuple[str, str]]:
+    """List the variants of the built-in tasks.
+
+    Returns:
+        Name -> task and variant, such as "rearing-robust" -> ("rearing", "robust").
+    """
+    return {f"{task}-{variant}": (task, variant) for task in builtin_tasks() for variant in VARIANTS}
+
+
+def is_builtin(name: str) -> bool:
+    """Find out whether a name is that of a built-in task or of a variant of one.
+
+    Args:
+        name: The name.
+
+    Returns:
+        Whether it is.
+    """
+    return name in builtin_tasks() or name in builtin_variants()
+
+
 def find(name_or_path: str) -> Path:
     """Find the file of a task.
 
     Args:
-        name_or_path: Name of a built-in task, or path of a YAML file.
+        name_or_path: Name of a built-in task or of a variant of one, or path of a YAML file.
 
     Returns:
-        The file.
+        The file; for a variant, that of its task.
 
     Raises:
         LevadeError: If there is none.
     """
-    tasks = builtin_tasks()
+    tasks, variants = builtin_tasks(), builtin_variants()
     if name_or_path in tasks:
         return tasks[name_or_path]
+    if name_or_path in variants:
+        return tasks[variants[name_or_path][0]]
     path = Path(name_or_path)
     if path.is_file():
         return path
     if _is_path(name_or_path):
         raise LevadeError(f"{path}: no such file; give a built-in task or the path of a YAML file")
-    raise LevadeError(f"no task {name_or_path!r}; {did_you_mean(name_or_path, tasks)} (or the path of a YAML file)")
+    near = difflib.get_close_matches(name_or_path, [*tasks, *variants], n=1)
+    raise LevadeError(
+        f"no task {name_or_path!r}; {did_you_mean(name_or_path, near or tasks)} (or the path of a YAML file)"
+    )
+
+
+def read(name_or_path: str) -> dict[str, Any]:
+    """Read the tables of a task, completed from those of the tasks that it extends.
+
+    Args:
+        name_or_path: Name of a built-in task or of a variant of one, or path of a YAML file.
+
+    Returns:
+        The tables; those of a variant name it with the key ``variant``.
+
+    Raises:
+        LevadeError: As `find` and `read_task` do.
+    """
+    return _read(name_or_path, ())
+
+
+def _read(name_or_path: str, seen: tuple[Path, ...]) -> dict[str, Any]:
+    content = read_task(find(name_or_path), seen=seen)
+    if name_or_path in (variants := builtin_variants()):
+        return _as_variant(content, variants[name_or_path][1], {"name": name_or_path}, where=name_or_path)
+    return content
+
+
+def _as_variant(content: Mapping[str, Any], variant: Any, own: dict[str, Any], *, where: str) -> dict[str, Any]:
+    """Make the tables of a task those of a variant of it, whose own words win over what the task changes in the variant."""
+    if variant not in VARIANTS:
+        raise LevadeError(f"{where}: {VARIANT}: no variant {variant!r}; {did_you_mean(str(variant), VARIANTS)}")
+    if BY_VARIANT in own:
+        raise LevadeError(f"{where}: {BY_VARIANT}: a variant has none of its own; name what it changes without it")
+    table = content.get(BY_VARIANT, {})
+    if not (isinstance(table, Mapping) and isinstance(table.get(variant, {}), Mapping)):
+        return {**content, VARIANT: variant}  # `levade.tasks.variants` reports it
+    at_once = {key: own[key] for key in ("name", "robot") if key in own}
+    changes = extended(
+        dict(table.get(variant, {})), {key: value for key, value in own.items() if key != "robot"}, nulls=True
+    )
+    return {
+        **content,
+        **at_once,
+        "hardware": changes.get("hardware"),
+        VARIANT: variant,
+        BY_VARIANT: {**table, variant: changes},
+    }
 
 
 def asks_for_hardware(name_or_path: str, changes: Sequence[str]) -> bool:
@@ -74,7 +152,7 @@ def asks_for_hardware(name_or_path: str, changes: Sequence[str]) -> bool:
     Raises:
         LevadeError: If its file cannot be read.
     """
-    asked = None if name_or_path in builtin_tasks() else read_task(find(name_or_path)).get("hardware")
+    asked = None if is_builtin(name_or_path) else read(name_or_path).get("hardware")
     for change in changes:
         name, _, text = change.partition("=")
         if name == "hardware":
@@ -87,7 +165,7 @@ def read_task(path: Path, *, seen: tuple[Path, ...] = ()) -> dict[str, Any]:
 
     A table changes the keys that it names, and a key that is null in ``costs`` or ``success`` is removed. Everything else, such
     as a whole cost, criterion or start, replaces that of the other task. The same holds for what the other task changes in its
-    ``stances``.
+    ``stances``, and for a variant of the other task.
 
     Args:
         path: The file. Paths in it are relative to it; those in the result, to the working directory.
@@ -100,20 +178,28 @@ def read_task(path: Path, *, seen: tuple[Path, ...] = ()) -> dict[str, Any]:
         LevadeError: If a file cannot be read, or the task extends itself.
     """
     content = _with_folder(read_yaml(path), path.parent)
+    variant = content.pop(VARIANT, None)
     if EXTENDS not in content:
+        if variant is not None:
+            raise LevadeError(f"{path}: {VARIANT}: is that of another task; name the task with {EXTENDS}")
         return content
     named = content.pop(EXTENDS)
     with located(f"{path}: {EXTENDS}: "):
         if not isinstance(named, str):
             raise LevadeError(f"should be the name or the file of a task, is {kind_of(named)}")
-        other = find(str(path.parent / named) if _is_beside(path.parent, named) else named)
+        named = str(path.parent / named) if _is_beside(path.parent, named) else named
+        other = find(named)
     seen = (*seen, path.resolve())
     if other.resolve() in seen:
         names = " extends ".join(one.name for one in (*seen, other))
         raise LevadeError(f"{path}: {EXTENDS}: {names}, in a circle; extend a task that does not extend this one")
     if not isinstance(content.get("name"), str):
         raise LevadeError(f"{path}: name: is missing; give the task that extends {named} a name of its own")
-    theirs = read_task(other, seen=seen)
+    theirs = _read(named, seen)
+    if variant is not None or VARIANT in theirs:
+        if variant is not None and VARIANT in theirs:
+            raise LevadeError(f"{path}: {VARIANT}: {named} is a variant already; extend its task instead")
+        return _as_variant(theirs, theirs.get(VARIANT, variant), content, where=str(path))
     merged = extended(theirs, content)
     if isinstance(theirs.get(BY_STANCE), Mapping):
         merged[BY_STANCE] = _extended_stances(theirs[BY_STANCE], content)
@@ -177,17 +263,18 @@ def _with_folder(content: Mapping[str, Any], folder: Path) -> dict[str, Any]:
             continue
         if name == "file" or _is_beside(folder, inner[name]):
             content[part] = {**table, key: {**inner, name: str(folder / inner[name])}}
-    if isinstance(content.get(BY_STANCE), Mapping):
-        content[BY_STANCE] = {
-            name: _with_folder(changes, folder) if isinstance(changes, Mapping) else changes
-            for name, changes in content[BY_STANCE].items()
-        }
+    for key in (BY_STANCE, BY_VARIANT):
+        if isinstance(content.get(key), Mapping):
+            content[key] = {
+                name: _with_folder(changes, folder) if isinstance(changes, Mapping) else changes
+                for name, changes in content[key].items()
+            }
     return content
 
 
 def _is_beside(folder: Path, like: str) -> bool:
     """Find out whether a text names a file relative to a folder, and not a built-in task."""
-    return like not in builtin_tasks() and (_is_path(like) or (folder / like).is_file())
+    return not is_builtin(like) and (_is_path(like) or (folder / like).is_file())
 
 
 def with_goal(policy: Any, where: str) -> Any:
@@ -220,7 +307,7 @@ def with_goal(policy: Any, where: str) -> Any:
 
 def _start_of_task(name_or_path: str) -> Any:
     """Find the posture in which a task starts; None if it does not start standing."""
-    start = read_task(find(name_or_path)).get("start", {"settled": {}})
+    start = read(name_or_path).get("start", {"settled": {}})
     settled = start.get("settled", {}) if isinstance(start, Mapping) and len(start) < 2 else None
     if not isinstance(settled, Mapping) or (start and "settled" not in start):
         return None

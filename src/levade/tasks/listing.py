@@ -12,7 +12,7 @@ from pathlib import Path
 from levade.errors import MissingPackage
 from levade.robots import missing_package
 from levade.tasks.document import load_task
-from levade.tasks.files import builtin_tasks, find, read_task
+from levade.tasks.files import builtin_tasks, is_builtin, read
 from levade.tasks.parts import RobotChoice
 from levade.tasks.task import Task
 
@@ -44,7 +44,7 @@ def overview(name_or_path: str) -> Overview:
     Raises:
         LevadeError: If there is no such file, or it cannot be read.
     """
-    content = read_task(find(name_or_path))
+    content = read(name_or_path)
     robot = content.get("robot")
     chosen = robot.get("name") if isinstance(robot, dict) else None
     return Overview(
@@ -63,7 +63,7 @@ def available_tasks() -> dict[str, Path]:
     return {name: path for name, path in builtin_tasks().items() if robots[name] in there}
 
 
-def is_builtin(task: Task) -> bool:
+def is_unchanged(task: Task) -> bool:
     """Tell whether a task is the built-in one of its name, unchanged.
 
     Args:
@@ -72,7 +72,7 @@ def is_builtin(task: Task) -> bool:
     Returns:
         Whether it is. False if the built-in one cannot be loaded, because the package of its robot is not installed.
     """
-    if task.name not in builtin_tasks():
+    if not is_builtin(task.name):
         return False
     try:
         return load_task(task.name) == task

@@ -21,11 +21,12 @@ from levade.costs.success import QUANTITIES
 from levade.engines import ENGINES
 from levade.tasks.document import TERMS
 from levade.tasks.families import FAMILIES
-from levade.tasks.files import BY_STANCE, EXTENDS
+from levade.tasks.files import BY_STANCE, BY_VARIANT, EXTENDS, VARIANT, VARIANTS
 from levade.tasks.parts import HorizonRange
 from levade.tasks.stances import ATTITUDES, LYING, STANCES
 from levade.tasks.task import Task
 from levade.tasks.units import PLURALS, ROBOT_UNITS, UNITS, measured
+from levade.tasks.variants import KEEP, KEPT
 
 Schema = dict[str, Any]
 
@@ -64,6 +65,18 @@ def task_schema() -> Schema:
         "properties": {name: {"type": ["object", "string"]} for name in STANCES},
         "additionalProperties": False,
     }
+    task["properties"][VARIANT] = {
+        "enum": list(VARIANTS),
+        "description": f"Makes the file this variant of the task that it {EXTENDS}.",
+    }
+    kept = {"type": "array", "items": {"enum": list(KEPT)}, "description": "Tables that the plan leaves as they are."}
+    task["properties"][BY_VARIANT] = {
+        "type": "object",
+        "description": "Variant -> changes of it, which win over what follows from the criteria.",
+        "properties": {name: {"type": "object", "properties": {KEEP: kept}} for name in VARIANTS},
+        "additionalProperties": False,
+    }
+    task["dependentRequired"] = {VARIANT: [EXTENDS]}
     _extending(task)
     return {"$schema": DIALECT, "title": "levade task", **task, "$defs": definitions}
 

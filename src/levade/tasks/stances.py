@@ -64,13 +64,14 @@ def on_robot(content: Mapping[str, Any], robot: Callable[[], Robot], where: str)
     return content
 
 
-def for_stance(content: Mapping[str, Any], robot: Robot, where: str) -> dict[str, Any]:
+def for_stance(content: Mapping[str, Any], robot: Robot, where: str, *, nulls: bool = False) -> dict[str, Any]:
     """Apply the changes that a task makes for a robot's stance.
 
     Args:
         content: The tables of the task, with ``stances``.
         robot: The robot.
         where: Place of the tables, for messages.
+        nulls: Whether to keep costs and criteria that are null, because the result is itself a table of changes.
 
     Returns:
         The tables for this robot, without ``stances``.
@@ -93,7 +94,7 @@ def for_stance(content: Mapping[str, Any], robot: Robot, where: str) -> dict[str
     changes = stances.get(robot.stance, {})
     if isinstance(changes, str):
         raise LevadeError(f"{content.get('name', where)}: does not apply to {robot.name}: {changes}")
-    return extended(content, dict(changes))
+    return extended(content, dict(changes), nulls=nulls)
 
 
 def as_attitude(fall: Mapping[str, Any], robot: Robot, where: str) -> dict[str, Any]:

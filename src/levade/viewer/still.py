@@ -33,7 +33,7 @@ from levade.robots.addresses import Addresses
 from levade.rotations import rotate
 from levade.scenes import Scene, compose
 from levade.search import Objective
-from levade.tasks import is_builtin, task_to_dict, task_to_yaml
+from levade.tasks import is_unchanged, task_to_dict, task_to_yaml
 from levade.tasks.policy import goal_posture
 from levade.version import __version__
 
@@ -116,7 +116,7 @@ def task_data(objective: Objective) -> dict[str, Any]:
     scene = put_together(robot.name, robot.legs, shapes, moving, _with_collision(layers, shapes))
     if task.scene.boxes and np.mean([box.position[1] for box in task.scene.boxes]) > position[1]:
         scene["camera"]["azimuth"] = -scene["camera"]["azimuth"]  # from the left: what is there is not behind the robot
-    known = is_builtin(task)
+    known = is_unchanged(task)
     return {
         "what": "task",
         "name": task.name,

@@ -12,7 +12,7 @@ from levade.document import read_yaml
 from levade.errors import LevadeError, did_you_mean
 from levade.robots import Robot, builtin_robots, find_package_robot, load_robot
 from levade.search.run import MOTION, TASK
-from levade.tasks import Task, builtin_tasks, load_task
+from levade.tasks import Task, builtin_tasks, builtin_variants, load_task
 
 _KINDS = {"task": ("costs", "success", "horizon", "policy", "extends"), "robot": ("legs", "model", "trunk", "postures")}
 """Kind -> keys that occur only in its YAML."""
@@ -45,7 +45,7 @@ def find(name: str) -> Found:
     Raises:
         LevadeError: If it names nothing, or two things.
     """
-    robots, tasks = [robot for robot, _ in builtin_robots()], builtin_tasks()
+    robots, tasks = [robot for robot, _ in builtin_robots()], [*builtin_tasks(), *builtin_variants()]
     if name in robots and name in tasks:
         raise LevadeError(f"view: {name} is a built-in robot and a built-in task; give the file of the one you mean")
     if name in robots:

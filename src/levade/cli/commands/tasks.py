@@ -26,17 +26,27 @@ tasks_app = typer.Typer(
 def _list_tasks(context: typer.Context, as_json: Json = False) -> None:
     from levade.robots import missing_package
     from levade.tasks import builtin_tasks, overview
+    from levade.tasks.variants import ABOUT
 
     if context.invoked_subcommand is not None:
         return
     listed = [overview(name) for name in builtin_tasks()]
     if as_json:
-        rows = [{"name": task.name, "description": task.description, "robot": task.robot} for task in listed]
+        rows = [
+            {
+                "name": task.name,
+                "description": task.description,
+                "robot": task.robot,
+                "variants": [f"{task.name}-{variant}" for variant in ABOUT],
+            }
+            for task in listed
+        ]
         _print_json({"tasks": rows})
     else:
         lacks = {robot: missing_package(robot) for robot in {task.robot for task in listed}}
         needs = {robot: "" if lack is None else f" ({lack})" for robot, lack in lacks.items()}
-        _print_rows([(task.name, f"{task.description}{needs[task.robot]}") for task in listed])
+        variants = [(f"NAME-{variant}", f"Any of these, {about}") for variant, about in ABOUT.items()]
+        _print_rows([*((task.name, f"{task.description}{needs[task.robot]}") for task in listed), *variants])
 
 
 @tasks_app.command("show")

@@ -31,9 +31,12 @@ from levade.costs import (
     unit_of,
 )
 from levade.engines import Perturbation, engine_kind
-from levade.motions import Motion
 from levade.robots import Dimensions, Robot, dimensions
-from levade.tasks import Cost, Demands, HorizonRange, PolicyChoice, Regulation, Robust, Search, Stage, Task
+from levade.tasks.demands import Demands
+from levade.tasks.parts import Cost, HorizonRange, PolicyChoice, Search, Stage
+from levade.tasks.regulation import Regulation
+from levade.tasks.robust import Robust
+from levade.tasks.task import Task
 
 LONGEST = 2.5
 """Longest duration of a motion, as a multiple of its task's duration."""
@@ -81,6 +84,9 @@ _REFERENCES_ROOM = 0.2
 
 _NEAR = 0.3
 """Factor on the step of a search around a motion that nearly keeps the limits."""
+
+_ON_OTHERS = 5
+"""Budget of a search on perturbed models, as a multiple of the task's, if there is no other search before it."""
 
 _FINER, _FINER_VALIDATION, _FINER_TRIALS = 0.1, 120, 4000
 """Settings of a search around a motion that succeeds on most perturbed models: factor on the step, models to judge on, and
@@ -249,6 +255,39 @@ class Plan:
         """
         return replace(self.robust(horizon, policy), feedback=Regulation())
 
+    def in_one_search(self) -> Task:
+        """Make one task of the searches within limits and on perturbed models, as a variant of the task has them.
+
+        Its first stage looks for a motion of the nominal model, its second one has perturbed models too. If there are limits,
+        the duration is free in both.
+        """
+        within = self.within_limits()
+        robust = self.robust(within.usual_horizon)
+        assert robust.robust is not None
+        reached = {name: one.tolerance or 0.0 for name, one in within.success.items()}
+        margins = {name: within.costs[name].weight for name in ("margins",) if name in robust.costs}
+        duration = {name: within.costs[name] for name in ("duration",) if name in within.costs}
+        return replace(
+            robust,
+            horizon=within.horizon,
+            costs={**duration, **robust.costs},
+            stages=(
+                Stage("nominal", robust=False, hold=self._held, promote=reached, weights=margins),
+                replace(robust.stages[0], name="robust"),
+            ),
+            robust=replace(
+                robust.robust,
+                success=None if robust.success == self.on_others else self.on_others,
+                required=Demands().share or 0.0,
+            ),
+            search=replace(
+                robust.search,
+                trials=_ON_OTHERS * self.task.search.trials,
+                restart=within.search.restart,
+                patience=within.search.patience,
+            ),
+        )
+
     def finer(
         self, horizon: float, policy: PolicyChoice | None = None, *, feedback: bool, softness: bool = False
     ) -> Task:
@@ -277,20 +316,14 @@ class Plan:
         """The ranges in which robots may differ from the model."""
         return Perturbation() if self.task.robust is None else self.task.robust.perturb
 
-    def certifiable(self, motion: Motion) -> Motion:
-        """Add to a motion's task what is good enough on perturbed models, as the tasks of robust searches say it.
+    def certifiable(self, task: Task) -> Task:
+        """Add to a task what is good enough on perturbed models, as the tasks of robust searches say it.
 
         Args:
-            motion: A motion of one of the plan's searches.
+            task: Task of one of the plan's searches.
         """
-        return motion if motion.task.robust is not None else motion.with_task(self.judging(motion.task))
-
-    def judging(self, task: Task) -> Task:
-        """Add to a task within limits what is good enough on perturbed models: the goal alone.
-
-        Args:
-            task: A task of one of the plan's searches on the nominal model.
-        """
+        if task.robust is not None:
+            return task
         return replace(task, robust=Robust(success=self.on_others, perturb=self.perturb))
 
     @property

@@ -12,10 +12,10 @@ from levade.checks import Demands
 from levade.costs import Criterion, Effort, Margins, Measure, Miss
 from levade.errors import LevadeError
 from levade.hardware import Plan
-from levade.hardware.plan import _miss, tolerance
 from levade.robots import Dimensions, Robot, dimensions, load_robot
 from levade.tasks import Change, Cost, HorizonRange, builtin_tasks, load_task, overview, task_from_dict, task_to_yaml
 from levade.tasks.files import read_task
+from levade.tasks.plan import _miss, tolerance
 from levade.tasks.policy import make_policy
 from levade.trajectory import Trajectories
 
