@@ -203,6 +203,17 @@ def test_another_task_or_seed_is_refused(library: Library) -> None:
             build(task, starts=STARTS, seed=seed, directory=library.directory)
 
 
+def test_a_library_whose_robot_folded_up_in_another_way_is_refused(library: Library, tmp_path: Path) -> None:
+    """Its motions begin in that posture, so that falls of a later version would not fit them."""
+    shutil.copytree(library.directory, tmp_path / "old")
+    place = tmp_path / "old" / "library.yaml"
+    place.write_text(place.read_text() + f"fold: {[0.1] * 12}\n")
+    with pytest.raises(LevadeError, match="folded up into another posture, as an earlier version"):
+        build(rolling(), starts=STARTS, directory=tmp_path / "old")
+    with pytest.raises(LevadeError, match="folded up into another posture, as an earlier version"):
+        check_library(Library.load(tmp_path / "old"), starts=1, seed=1)
+
+
 def test_an_answer_is_the_motion_from_where_the_joints_are(library: Library) -> None:
     """To the bit what a search from there would have commanded."""
     falls = Falls(rolling(), seed=5)

@@ -131,7 +131,7 @@ class Library:
         content = read_yaml(place)
         mirror = Mirror.from_json(content.get("mirror"), where=str(place))
         knowledge = Knowledge.of(records, mirror)
-        fold = _read_fold(content.get("fold"), where=str(place))
+        fold = fold_of(content.get("fold"), where=str(place))
         learned = _read_learned(directory / LEARNED, knowledge)
         known = knowledge.merged(read_success(directory, knowledge))
         return cls(directory, records, known, fold, learned, content.get("hardware") is not None)
@@ -201,8 +201,19 @@ class Library:
         return float((self.knowledge.success == 1.0).any(axis=1).mean())
 
 
-def _read_fold(content: Any, *, where: str) -> Array | None:
-    """Read the folded posture from a library's file. Raise LevadeError unless it is a list of numbers or missing."""
+def fold_of(content: Any, *, where: str) -> Array | None:
+    """Read the folded posture from a library's file.
+
+    Args:
+        content: What the file says.
+        where: Name of the file, for messages.
+
+    Returns:
+        Joint angles [rad], shape (joints,). None if the file names no posture.
+
+    Raises:
+        LevadeError: If they are not numbers.
+    """
     if content is None:
         return None
     try:

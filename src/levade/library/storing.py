@@ -11,9 +11,11 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from levade.document import build, read_yaml
 from levade.errors import LevadeError, Remedy
-from levade.library.asking import LIBRARY
+from levade.library.asking import LIBRARY, fold_of
 from levade.library.falls import Falls
 from levade.library.pursuing import Hardware
 from levade.robots import Robot
@@ -95,6 +97,7 @@ def begin(
             )
         if read_shard(directory) != shard:
             raise LevadeError(f"{directory}: holds shard {read_shard(directory)} of a library; merge shards first")
+        _check_fold(directory, falls)
     with storing(place, then=Remedy("give another directory", "elsewhere")):
         write_text(directory / TASK, task_to_yaml(falls.task))
         mirror = None if falls.mirror is None else falls.mirror.to_json()
@@ -118,6 +121,20 @@ def _check_same(directory: Path, hardware: Hardware | None) -> None:
     own, other = ({"trials": one.trials, "runs": one.runs, **asdict(one.demands)} for one in (known, hardware))
     what = ", ".join(f"{name} {own[name]}, not {other[name]}" for name in own if own[name] != other[name])
     raise LevadeError(f"{directory}: holds a library with other demands: {what}", remedies=(elsewhere,))
+
+
+def _check_fold(directory: Path, falls: Falls) -> None:
+    """Raise LevadeError unless the robot still folds up into the posture from which a library's motions begin."""
+    fold = fold_of(_content(directory).get("fold"), where=str(directory / LIBRARY))
+    if (fold is None) != (falls.fold is None):
+        same = False
+    else:
+        same = fold is None or falls.fold is None or (fold.shape == falls.fold.shape and np.allclose(fold, falls.fold))
+    if not same:
+        raise LevadeError(
+            f"{directory}: its robot folded up into another posture, as an earlier version or file of the robot had it",
+            remedies=(Remedy("build it again elsewhere", "elsewhere"),),
+        )
 
 
 def read_hardware(directory: Path) -> Hardware | None:
@@ -161,7 +178,9 @@ def read_falls(
     task, own = read_library(directory)
     hardware = read_hardware(directory)
     demands = None if hardware is None else hardware.demands
-    return Falls(task, robot=robot, seed=own if seed is None else seed, threads=threads, demands=demands), own
+    falls = Falls(task, robot=robot, seed=own if seed is None else seed, threads=threads, demands=demands)
+    _check_fold(directory, falls)
+    return falls, own
 
 
 def read_library(directory: Path) -> tuple[Task, int]:

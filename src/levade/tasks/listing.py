@@ -12,9 +12,10 @@ from pathlib import Path
 from levade.errors import MissingPackage
 from levade.robots import missing_package
 from levade.tasks.document import load_task
-from levade.tasks.files import builtin_tasks, is_builtin, read
+from levade.tasks.files import BY_VARIANT, VARIANT, VARIANTS, builtin_tasks, is_builtin, read
 from levade.tasks.parts import RobotChoice
 from levade.tasks.task import Task
+from levade.tasks.variants import described
 
 
 @dataclass(frozen=True)
@@ -47,9 +48,12 @@ def overview(name_or_path: str) -> Overview:
     content = read(name_or_path)
     robot = content.get("robot")
     chosen = robot.get("name") if isinstance(robot, dict) else None
-    return Overview(
-        str(content.get("name", name_or_path)), str(content.get("description", "")), str(chosen or RobotChoice().name)
-    )
+    about = str(content.get("description", ""))
+    if (variant := content.get(VARIANT)) is not None:
+        for table in (content.get(BY_VARIANT, {}).get(name, {}) for name in (VARIANTS[0], variant)):
+            about = str(table.get("description", about))
+        about = described(about, variant)
+    return Overview(str(content.get("name", name_or_path)), about, str(chosen or RobotChoice().name))
 
 
 def available_tasks() -> dict[str, Path]:
