@@ -4,6 +4,7 @@
     plan.within_limits()            # the nominal model, every limit a criterion, the duration free
     plan.robust(0.42)               # perturbed models too, at the duration that was found
     plan.closed_loop(0.42)          # the same with feedback
+    plan.in_one_search()            # both of the first, as the task's variants have them
 
 All tasks have the same plan; nothing here depends on a task's name. Each success criterion becomes a cost, which is 1 where the
 motion misses by half of the tolerance. These costs replace the task's costs of the goal. Costs of effort and Python code stay.
