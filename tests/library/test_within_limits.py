@@ -215,6 +215,7 @@ def test_a_check_counts_certificates_and_what_answers_miss(library: Library) -> 
     assert json.loads(json.dumps(found.to_json()))["hardware"]["certified"]["runs"] == n
 
 
+@pytest.mark.slow
 def test_shards_keep_their_certificates(tmp_path: Path) -> None:
     parts = [tmp_path / "0", tmp_path / "1"]
     for i, part in enumerate(parts):

@@ -327,7 +327,7 @@ def _tell_library(console: Console, library: Library) -> None:
     if cover:
         enough = ", ".join(f"{k + 1}: {works / falls:.1%}" for k, (_, works) in enumerate(cover[:6]))
         console.print(f"The best few of them: {enough}.")
-    if library.hardware:
+    if library.certificates:
         _tell_certificates(console, library)
 
 
