@@ -53,6 +53,7 @@ def build_library(
     changes: list[str],
     threads: int,
     jobs: int,
+    ray: str | None,
     shard: str | None,
     as_json: bool,
 ) -> int:
@@ -67,6 +68,7 @@ def build_library(
         changes: Changes of the task, as ``path=value``.
         threads: Number of engine threads (0: one per core).
         jobs: Number of processes at a time.
+        ray: Address of a Ray cluster. None for this computer alone.
         shard: Part to build, as ``I/N``. None for the whole library.
         as_json: Whether to print one JSON object.
 
@@ -83,7 +85,7 @@ def build_library(
         spent = time.monotonic() - began
         console.print(
             f"  {progress.done} of {progress.starts} falls: {progress.motions} motions, {progress.trials} trials,"
-            f" {spent:.0f} s",
+            f" {spent:.0f} s" + ("" if progress.cpus is None else f", {progress.cpus} CPUs"),
             style="dim",
         )
 
@@ -94,6 +96,7 @@ def build_library(
             seed=seed,
             threads=threads,
             processes=jobs,
+            ray=ray,
             shard=part,
             directory=directory,
             observe=observe,

@@ -10,6 +10,7 @@ processes.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -19,8 +20,10 @@ from levade.arrays import Array
 from levade.library.asking import read_success
 from levade.library.falls import Falls
 from levade.library.knowledge import Knowledge
+from levade.library.records import Record
 from levade.library.solving import Solver
 from levade.library.storing import read_library
+from levade.motions import Motion
 from levade.robots import Robot
 
 
@@ -75,6 +78,15 @@ class Workshop:
         task, seed = read_library(self._directory)
         self._falls = Falls(task, robot=self._robot, seed=seed, threads=1)
         return Solver(self._falls, self._directory, seed)
+
+    def learn(self, records: Sequence[Record], motions: Mapping[int, Motion]) -> None:
+        """Take note of other falls, so that they need not be read from the directory.
+
+        Args:
+            records: Records of the falls.
+            motions: Number of a fall -> its motion.
+        """
+        self._solver.learn(records, motions)
 
     def __call__(self, piece: Fall | Row) -> tuple[Array, Array] | None:
         """Do a piece of work. Return the result of `Solver.rows` for a row; for a fall, write its record and return None."""
