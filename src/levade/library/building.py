@@ -39,8 +39,9 @@ from levade.search.storage import storing
 from levade.tasks import Task
 from levade.writing import replacing
 
-_ROUND = 32
-"""Largest number of falls in a round: enough to share batches, and few enough that later falls profit from the motions."""
+_ROUND, _GROWTH = 32, 8
+"""Number of falls in a round: this many, or this part of the falls before it if that is more. Large enough to share batches and
+to keep many nodes busy, and small enough that later falls profit from the motions."""
 
 
 @dataclass(frozen=True)
@@ -129,7 +130,7 @@ def build(
 
 
 def rounds(starts: int) -> Iterator[tuple[int, int]]:
-    """Divide falls into rounds of 1, 1, 2, 4, ... and then `_ROUND` falls.
+    """Divide falls into rounds of 1, 1, 2, 4, ..., then `_ROUND` falls, then a part `_GROWTH` of the falls before.
 
     Args:
         starts: Total number of falls.
@@ -137,10 +138,11 @@ def rounds(starts: int) -> Iterator[tuple[int, int]]:
     Yields:
         Index of the first fall of a round, and the index after its last.
     """
-    first, size = 0, 1
+    first = 0
     while first < starts:
+        size = max(min(first, _ROUND), first // _GROWTH, 1)
         yield first, min(first + size, starts)
-        first, size = first + size, min(max(first + size, 1), _ROUND)
+        first += size
 
 
 _Workers = Pool[Fall | Row, tuple[Array, Array] | None] | Spread
