@@ -2,7 +2,7 @@
 
     python benchmarks/library.py run --robots go1 hyq2max --starts 300 --check 1000
     python benchmarks/library.py answers        # time of an answer, in a fresh process that has numpy alone
-    python benchmarks/library.py scaling --note busy        # one process, two, and a plan for more (`benchmarks/library_scaling.py`)
+    python benchmarks/library.py scaling --note busy   # one process, two, and a plan for many nodes
     python benchmarks/library.py write          # docs/falls.md, from benchmarks/falls.md.in and the results
 
 A library of seed 0 is built and checked on falls of seed 3, and its export is driven from falls of seed 2
@@ -23,7 +23,7 @@ from typing import Any
 
 import numpy as np
 from library_drive import drive
-from library_scaling import plan_table, scaling, sent_table, tables
+from library_scaling import bottleneck, plan_table, scaling, sent_table, tables
 
 from levade.exports.as_csv import write_player, write_script
 from levade.library import Library, Method, Record, Share, build, check_library
@@ -101,7 +101,9 @@ def main() -> None:
         ANSWERS.write_text(json.dumps(answers()) + "\n")
         return
     if options.command == "scaling":
-        per_fall = next(motions_per_fall(row) for row in rows_in(RESULTS) if row["robot"] == options.robot and row.get("folds"))
+        per_fall = next(
+            motions_per_fall(row) for row in rows_in(RESULTS) if row["robot"] == options.robot and row.get("folds")
+        )
         found = scaling(options.task, options.robot, options.starts, per_fall, options.note)
         SCALING.write_text(json.dumps(found, indent=1) + "\n")
         return
@@ -214,7 +216,7 @@ def page() -> str:
     for name, part in parts.items():
         text = text.replace(f"{{{name}}}", part(rows))
     found = json.loads(SCALING.read_text())
-    for name, part in {"processes": tables, "sent": sent_table, "plan": plan_table}.items():
+    for name, part in {"processes": tables, "sent": sent_table, "plan": plan_table, "bottleneck": bottleneck}.items():
         text = text.replace(f"{{{name}}}", part(found))
     return text.replace("{answers}", times(json.loads(ANSWERS.read_text())))
 

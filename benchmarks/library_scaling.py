@@ -1,14 +1,14 @@
 """How a build of a library scales: what a fall takes, what is sent for it, and what that makes on many nodes.
 
-`python benchmarks/library.py scaling` runs it. Falls are solved piece by piece, as on a cluster, in one process and in two. From the
-processor time of each, a simple model gives the time of larger builds on more nodes:
+`python benchmarks/library.py scaling` runs it. Falls are solved piece by piece, as on a cluster, in one process and in two.
+From the processor time of each, a simple model gives the time of larger builds on more nodes:
 
 - In a round, a free node takes the next fall. The next round begins when the last fall is done.
-- Falls of a larger build take what measured ones took, drawn again and again: the first `EARLY` falls as they were, later ones from
-  those after them.
+- Falls of a larger build take what measured ones took, drawn again and again: the first `EARLY` falls as they were, later ones
+  from those after them.
 - One computer sends the news of a round to each node and receives the motions, over one line of `LINE` bytes per second.
-- At the end, each row of the success matrix is a piece of its own. A roll-out takes what it took here. There are as many motions per
-  fall as in the library of 300 falls of results/library.jsonl.
+- At the end, each row of the success matrix is a piece of its own. A roll-out takes what it took here. There are as many
+  motions per fall as in the library of 300 falls of results/library.jsonl.
 """
 
 from __future__ import annotations
@@ -181,7 +181,10 @@ def makespan(times: Sequence[float], nodes: int) -> float:
 
 def tables(found: dict[str, Any]) -> str:
     """Markdown."""
-    lines = ["| processes | trials | time [s] | CPU [s] | trials per s | trials per CPU s |", "|--:|--:|--:|--:|--:|--:|"]
+    lines = [
+        "| processes | trials | time [s] | CPU [s] | trials per s | trials per CPU s |",
+        "|--:|--:|--:|--:|--:|--:|",
+    ]
     for run in found["processes"]:
         per = run["trials"] / run["seconds"], run["trials"] / run["cpu"]
         lines.append(
@@ -223,3 +226,14 @@ def plan_table(found: dict[str, Any]) -> str:
                 f" {now['longest']:.0f} | {now['sending']:.1f} | {now['matrix']:.0f} | {free['seconds']:.0f} |"
             )
     return "\n".join(lines)
+
+
+def bottleneck(found: dict[str, Any]) -> str:
+    """What limits a large build on 100 nodes, in words."""
+    of = {(one["falls"], one["nodes"], one["rounds"]): one for one in found["plans"]}
+    old, now, most = of[3000, 100, "32"], of[3000, 100, "eighth"], of[3000, 300, "eighth"]
+    return (
+        f"on 100 nodes, rounds of 32 leave at least 68 without work, so that 3000 falls take {old['seconds']:.0f} s and keep"
+        f" {old['busy']:.0%} of the nodes at work. The larger rounds take {now['seconds']:.0f} s and keep {now['busy']:.0%} at"
+        f" work. Three times as many nodes would still need {most['seconds']:.0f} s. Sending takes {now['sending']:.1f} s."
+    )

@@ -217,9 +217,9 @@ def test_a_file_that_does_not_appear_is_said(tmp_path: Path, monkeypatch: pytest
 
 
 def test_other_versions_on_a_node_are_said() -> None:
-    with pytest.raises(LevadeError, match="has numpy 2.1, the computer that builds has 2.4; install the same"):
+    with pytest.raises(LevadeError, match=r"has numpy 2\.1, the computer that builds has 2\.4; install the same"):
         spreading._check_versions({"numpy": "2.1"}, {"numpy": "2.4"})
-    with pytest.raises(LevadeError, match="linear algebra is x Zen, .* is x Haswell, .*set OPENBLAS_CORETYPE"):
+    with pytest.raises(LevadeError, match=r"linear algebra is x Zen, .* is x Haswell, .*set OPENBLAS_CORETYPE"):
         spreading._check_versions({"blas": "x Zen"}, {"blas": "x Haswell"})
     spreading._check_versions({"numpy": "2.4", "more": "1"}, {"numpy": "2.4"})
 
