@@ -23,7 +23,7 @@ from typing import Any
 
 import numpy as np
 from library_drive import drive
-from library_scaling import bottleneck, plan_table, scaling, sent_table, tables
+from library_scaling import bottleneck, measured, plan_table, scaling, sent_table, tables
 
 from levade.exports.as_csv import write_player, write_script
 from levade.library import Library, Method, Record, Share, build, check_library
@@ -91,6 +91,9 @@ def main() -> None:
     scaled.add_argument("--task", default="self-righting")
     scaled.add_argument("--robot", default="go1")
     scaled.add_argument("--starts", type=int, default=24)
+    scaled.add_argument(
+        "--set", nargs="*", default=[], metavar="PATH=VALUE", help="change the task, such as search.trials=240"
+    )
     scaled.add_argument("--note", default="quiet")
     commands.add_parser("write")
     options = parser.parse_args()
@@ -104,7 +107,7 @@ def main() -> None:
         per_fall = next(
             motions_per_fall(row) for row in rows_in(RESULTS) if row["robot"] == options.robot and row.get("folds")
         )
-        found = scaling(options.task, options.robot, options.starts, per_fall, options.note)
+        found = scaling(options.task, options.robot, options.starts, options.set, per_fall, options.note)
         SCALING.write_text(json.dumps(found, indent=1) + "\n")
         return
     for robot in options.robots:
@@ -216,7 +219,13 @@ def page() -> str:
     for name, part in parts.items():
         text = text.replace(f"{{{name}}}", part(rows))
     found = json.loads(SCALING.read_text())
-    for name, part in {"processes": tables, "sent": sent_table, "plan": plan_table, "bottleneck": bottleneck}.items():
+    for name, part in {
+        "measured": measured,
+        "processes": tables,
+        "sent": sent_table,
+        "plan": plan_table,
+        "bottleneck": bottleneck,
+    }.items():
         text = text.replace(f"{{{name}}}", part(found))
     return text.replace("{answers}", times(json.loads(ANSWERS.read_text())))
 

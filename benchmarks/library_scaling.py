@@ -31,8 +31,8 @@ from levade.library.falls import Falls
 from levade.library.pieces import Fall, Row, Workshop
 from levade.library.records import FALLS, MOTIONS, motion_path, record_path
 from levade.library.spreading import Delivery, News, Outpost, Parcel
-from levade.library.storing import begin
-from levade.tasks import load_task
+from levade.library.storing import begin, read_library
+from levade.tasks import Task, load_task
 
 NODES = (1, 2, 10, 32, 100, 300)
 SIZES = (300, 3000)
@@ -54,12 +54,14 @@ class Timed:
         return time.process_time() - cpu, time.perf_counter() - wall
 
 
-def scaling(task: str, robot: str, starts: int, motions_per_fall: float, note: str) -> dict[str, Any]:
+def scaling(
+    task: str, robot: str, starts: int, changes: list[str], motions_per_fall: float, note: str
+) -> dict[str, Any]:
     """Measure a build in one process and in two, and predict larger ones."""
     with tempfile.TemporaryDirectory() as folder:
-        runs = [built(task, robot, starts, Path(folder) / str(n), n) for n in (1, 2)]
+        runs = [built(load_task(task, robot=robot, changes=changes), starts, Path(folder) / str(n), n) for n in (1, 2)]
         sent = bytes_of(Path(folder) / "1", starts)
-    found: dict[str, Any] = {"task": task, "robot": robot, "starts": starts, "note": note}
+    found: dict[str, Any] = {"task": task, "robot": robot, "starts": starts, "changes": changes, "note": note}
     found |= {"processes": [{name: run[name] for name in ("processes", "trials", "seconds", "cpu")} for run in runs]}
     found |= {"sent": sent, "fall_cpu": runs[0]["falls"], "begin_cpu": runs[0]["begin"]}
     found["motions_per_fall"] = motions_per_fall
@@ -70,12 +72,12 @@ def scaling(task: str, robot: str, starts: int, motions_per_fall: float, note: s
     return found
 
 
-def built(task: str, robot: str, starts: int, directory: Path, processes: int) -> dict[str, Any]:
+def built(task: Task, starts: int, directory: Path, processes: int) -> dict[str, Any]:
     """Build a library, piece by piece."""
     for name in (FALLS, MOTIONS):
         (directory / name).mkdir(parents=True)
     began, cpu = time.perf_counter(), time.process_time()
-    falls = Falls(load_task(task, robot=robot), threads=1)
+    falls = Falls(task, threads=1)
     begin_cpu = time.process_time() - cpu
     begin(directory, falls, 0, starts)
     took: dict[int, float] = {}
@@ -101,7 +103,7 @@ def built(task: str, robot: str, starts: int, directory: Path, processes: int) -
 
 def bytes_of(directory: Path, starts: int) -> dict[str, float]:
     """What travels, from the very objects [B]; per fall on average."""
-    falls = Falls(load_task_of(directory), threads=1)
+    falls = Falls(read_library(directory)[0], threads=1)
     delivered, named = [], []
     for i in range(starts):
         paths = [path(directory, i) for path in (motion_path, record_path)]
@@ -119,12 +121,6 @@ def bytes_of(directory: Path, starts: int) -> dict[str, float]:
         "delivery_shared": statistics.mean(named),
         "row": size(Delivery((np.zeros(len(found) * 2), np.zeros(len(found) * 2)), {})),
     }
-
-
-def load_task_of(directory: Path) -> Any:
-    from levade.library.storing import read_library
-
-    return read_library(directory)[0]
 
 
 def size(value: Any) -> int:
@@ -177,6 +173,12 @@ def makespan(times: Sequence[float], nodes: int) -> float:
     for one in times:
         heapq.heappush(free, heapq.heappop(free) + one)
     return max(free)
+
+
+def measured(found: dict[str, Any]) -> str:
+    """What was measured, in words."""
+    changed = f" with {', '.join(f'`{one}`' for one in found['changes'])}" if found["changes"] else ""
+    return f"{found['starts']} falls of `{found['task']}` on {found['robot']}{changed}"
 
 
 def tables(found: dict[str, Any]) -> str:

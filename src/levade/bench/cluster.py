@@ -20,6 +20,7 @@ import socket
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
+from importlib import import_module
 from types import TracebackType
 from typing import Any, TypeVar
 
@@ -62,10 +63,7 @@ class Cluster:
         Raises:
             LevadeError: If ray is missing, or no cluster of this version answers at the address.
         """
-        try:
-            import ray
-        except ImportError:
-            raise LevadeError("a cluster needs ray; pip install levade[ray]", field="ray") from None
+        ray = _ray()
         if not ray.is_initialized():
             with _signals_kept():
                 _connect(self._address)
@@ -77,8 +75,7 @@ class Cluster:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        import ray
-
+        ray = _ray()
         for reference in self._left:
             with suppress(ray.exceptions.RayError):
                 ray.cancel(reference, force=True)
@@ -92,9 +89,7 @@ class Cluster:
     @property
     def cpus(self) -> int:
         """Number of CPUs that the cluster has now, whoever uses them."""
-        import ray
-
-        return int(ray.cluster_resources().get("CPU", 0))
+        return int(_ray().cluster_resources().get("CPU", 0))
 
     def put(self, value: Any) -> Any:
         """Hand a value to the cluster. Each node that needs it gets it once.
@@ -105,9 +100,7 @@ class Cluster:
         Returns:
             A reference for `each` and `fetch`, small enough to be part of a piece.
         """
-        import ray
-
-        return ray.put(value)
+        return _ray().put(value)
 
     def each(
         self, run: Any, pieces: Sequence[Piece], *, waiting: Callable[[], object] | None = None
@@ -122,8 +115,7 @@ class Cluster:
         Raises:
             LevadeError: If a piece raises one, or its process dies each time.
         """
-        import ray
-
+        ray = _ray()
         # a reference within a list is not replaced by its value
         self._left = {self._serve.remote(self._key, [run], piece): piece for piece in pieces}
         while self._left:
@@ -147,9 +139,15 @@ def fetch(reference: Any) -> Any:
     Args:
         reference: Reference from `Cluster.put`.
     """
-    import ray
+    return _ray().get(reference)
 
-    return ray.get(reference)
+
+def _ray() -> Any:
+    """Import ray. Raises LevadeError if it is missing."""
+    try:
+        return import_module("ray")
+    except ImportError:
+        raise LevadeError("a cluster needs ray; pip install levade[ray]", field="ray") from None
 
 
 _running: dict[str, Callable[[Any], Any]] = {}
@@ -165,8 +163,7 @@ def _serve(key: str, run: Sequence[Any], piece: Any) -> tuple[str, Any]:
 
 
 def _taken(reference: Any, piece: Any) -> Any:
-    import ray
-
+    ray = _ray()
     try:
         computer, answer = ray.get(reference)
     except ray.exceptions.RayTaskError as error:
@@ -193,8 +190,7 @@ def _first_line(error: Exception) -> str:
 
 def _connect(address: str) -> None:
     """Connect to a cluster, or start one. Raises LevadeError if that is not possible."""
-    import ray
-
+    ray = _ray()
     options: dict[str, Any] = {"log_to_driver": False, "logging_level": logging.ERROR}
     given = os.environ.get("RAY_ADDRESS", AUTO) if address == AUTO else address
     if given not in (AUTO, LOCAL):
@@ -233,8 +229,7 @@ def _check_answers(address: str, whose: str) -> None:
 
 def _show_messages(show: bool) -> None:
     """Say whether Ray prints messages of its nodes. It does so on standard output, where they mix with the results."""
-    from ray._private import worker
-
+    worker = import_module("ray._private.worker")
     worker._worker_logs_enabled = show  # also what Ray's debugger sets; ray.init has no argument for these messages
 
 
