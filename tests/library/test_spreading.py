@@ -231,7 +231,7 @@ def test_without_ray_it_says_what_to_install(
     for words in (["--ray"], ["--ray", "10.0.0.1:6379"], ["--ray", "--starts", "3"]):
         with pytest.raises(SystemExit, match="2"):
             main(["library", "build", "self-righting", "--out", str(tmp_path / "out"), *words])
-        assert capsys.readouterr().err == "levade: --ray: a cluster needs ray; pip install levade[ray]\n"
+        assert capsys.readouterr().err == "levade: --ray: a cluster needs ray; pip install 'levade[ray]'\n"
     assert list(tmp_path.iterdir()) == []
 
 

@@ -7,7 +7,7 @@
 
 A piece takes one CPU of the cluster. If its node dies, it begins again on another one, `_TRIES` times at most. Nodes may come
 and go. What runs a piece is unpickled once per process, so it can keep what it builds. It can read other values that were put
-with `fetch`. Needs ray (`pip install levade[ray]`), which nothing else imports.
+with `fetch`. Needs ray (`pip install 'levade[ray]'`), which nothing else imports.
 """
 
 from __future__ import annotations
@@ -147,7 +147,7 @@ def _ray() -> Any:
     try:
         return import_module("ray")
     except ImportError:
-        raise LevadeError("a cluster needs ray; pip install levade[ray]", field="ray") from None
+        raise LevadeError("a cluster needs ray; pip install 'levade[ray]'", field="ray") from None
 
 
 _running: dict[str, Callable[[Any], Any]] = {}
