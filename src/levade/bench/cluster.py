@@ -201,6 +201,7 @@ def _connect(address: str) -> None:
     try:
         ray.init(**options)
     except Exception as error:  # of any kind: another version of Ray or Python there, or a start that takes too long
+        ray.shutdown()
         where = "" if given in (AUTO, LOCAL) else f"{given}: "
         raise LevadeError(f"{where}{' '.join(str(error).split())}", field="ray") from None
 
