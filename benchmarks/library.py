@@ -218,16 +218,26 @@ def page() -> str:
     parts = {"builds": builds, "checks": checks, "costs": costs, "drives": drives}
     for name, part in parts.items():
         text = text.replace(f"{{{name}}}", part(rows))
+    before, heading, section = text.partition("\n## On many computers\n")
+    text = before + heading + scaled(section)
+    return text.replace("{answers}", times(json.loads(ANSWERS.read_text())))
+
+
+def scaled(section: str) -> str:
+    """The section on many computers, if there are results for it."""
+    if not SCALING.exists():
+        return "\n`python benchmarks/library.py scaling` measures how builds scale. It has not been run yet.\n"
     found = json.loads(SCALING.read_text())
-    for name, part in {
+    parts = {
         "measured": measured,
         "processes": tables,
         "sent": sent_table,
         "plan": plan_table,
         "bottleneck": bottleneck,
-    }.items():
-        text = text.replace(f"{{{name}}}", part(found))
-    return text.replace("{answers}", times(json.loads(ANSWERS.read_text())))
+    }
+    for name, part in parts.items():
+        section = section.replace(f"{{{name}}}", part(found))
+    return section
 
 
 def family(row: dict[str, Any]) -> str:
