@@ -235,7 +235,8 @@ def bottleneck(found: dict[str, Any]) -> str:
     of = {(one["falls"], one["nodes"], one["rounds"]): one for one in found["plans"]}
     old, now, most = of[3000, 100, "32"], of[3000, 100, "eighth"], of[3000, 300, "eighth"]
     return (
-        f"on 100 nodes, rounds of 32 leave at least 68 without work, so that 3000 falls take {old['seconds']:.0f} s and keep"
-        f" {old['busy']:.0%} of the nodes at work. The larger rounds take {now['seconds']:.0f} s and keep {now['busy']:.0%} at"
-        f" work. Three times as many nodes would still need {most['seconds']:.0f} s. Sending takes {now['sending']:.1f} s."
+        f"on 100 nodes, 3000 falls in rounds of 32 take {old['seconds']:.0f} s, of which the longest falls are"
+        f" {old['longest']:.0f} s, and keep {old['busy']:.0%} of the nodes at work. The larger rounds take"
+        f" {now['seconds']:.0f} s, of which the longest falls are {now['longest']:.0f} s, and keep {now['busy']:.0%} at work."
+        f" Three times as many nodes would still need {most['seconds']:.0f} s. Sending takes {now['sending']:.1f} s."
     )
