@@ -230,7 +230,7 @@ def _check_answers(address: str, whose: str) -> None:
 
 def _show_messages(show: bool) -> None:
     """Say whether Ray prints messages of its nodes. It does so on standard output, where they mix with the results."""
-    worker = import_module("ray._private.worker")
+    worker: Any = import_module("ray._private.worker")
     worker._worker_logs_enabled = show  # also what Ray's debugger sets; ray.init has no argument for these messages
 
 
