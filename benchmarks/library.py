@@ -2,6 +2,7 @@
 
     python benchmarks/library.py run --robots go1 hyq2max --starts 300 --check 1000
     python benchmarks/library.py answers        # time of an answer, in a fresh process that has numpy alone
+    python benchmarks/library.py scaling --note busy   # one process, two, and a plan for many nodes
     python benchmarks/library.py write          # docs/falls.md, from benchmarks/falls.md.in and the results
 
 A library of seed 0 is built and checked on falls of seed 3, and its export is driven from falls of seed 2
@@ -22,6 +23,7 @@ from typing import Any
 
 import numpy as np
 from library_drive import drive
+from library_scaling import bottleneck, measured, plan_table, scaling, sent_table, tables
 
 from levade.exports.as_csv import write_player, write_script
 from levade.library import Library, Method, Record, Share, build, check_library
@@ -30,6 +32,7 @@ from levade.tasks import load_task
 HERE = Path(__file__).resolve().parent
 RESULTS = HERE / "results" / "library.jsonl"
 TEMPLATE = HERE / "falls.md.in"
+SCALING = HERE / "results" / "library_scaling.json"
 ANSWERS = HERE / "results" / "library_answers.json"
 PAGE = HERE.parent / "docs" / "falls.md"
 DELAY = 0.004
@@ -84,6 +87,14 @@ def main() -> None:
     running.add_argument("--drive", type=int, default=100, help="falls that the export is driven from")
     running.add_argument("--note", default="", help="what the page says of the machine: 'busy'")
     commands.add_parser("answers")
+    scaled = commands.add_parser("scaling")
+    scaled.add_argument("--task", default="self-righting")
+    scaled.add_argument("--robot", default="go1")
+    scaled.add_argument("--starts", type=int, default=24)
+    scaled.add_argument(
+        "--set", nargs="*", default=[], metavar="PATH=VALUE", help="change the task, such as search.trials=240"
+    )
+    scaled.add_argument("--note", default="quiet")
     commands.add_parser("write")
     options = parser.parse_args()
     if options.command == "write":
@@ -91,6 +102,13 @@ def main() -> None:
         return
     if options.command == "answers":
         ANSWERS.write_text(json.dumps(answers()) + "\n")
+        return
+    if options.command == "scaling":
+        per_fall = next(
+            motions_per_fall(row) for row in rows_in(RESULTS) if row["robot"] == options.robot and row.get("folds")
+        )
+        found = scaling(options.task, options.robot, options.starts, options.set, per_fall, options.note)
+        SCALING.write_text(json.dumps(found, indent=1) + "\n")
         return
     for robot in options.robots:
         with tempfile.TemporaryDirectory() as folder:
@@ -171,6 +189,11 @@ def facts(library: Library) -> dict[str, Any]:
     }
 
 
+def motions_per_fall(row: dict[str, Any]) -> float:
+    """How many falls a search found a motion for, as a share of all."""
+    return (row["methods"]["near"] + row["methods"]["cold"]) / row["starts"]
+
+
 def trials_per_fall(records: tuple[Record, ...]) -> dict[str, float]:
     """First fall of a part -> mean of the trials that a fall took."""
     ends = (*PARTS[1:], len(records) + max(PARTS))
@@ -195,7 +218,26 @@ def page() -> str:
     parts = {"builds": builds, "checks": checks, "costs": costs, "drives": drives}
     for name, part in parts.items():
         text = text.replace(f"{{{name}}}", part(rows))
+    before, heading, section = text.partition("\n## On many computers\n")
+    text = before + heading + scaled(section)
     return text.replace("{answers}", times(json.loads(ANSWERS.read_text())))
+
+
+def scaled(section: str) -> str:
+    """The section on many computers, if there are results for it."""
+    if not SCALING.exists():
+        return "\n`python benchmarks/library.py scaling` measures how builds scale. It has not been run yet.\n"
+    found = json.loads(SCALING.read_text())
+    parts = {
+        "measured": measured,
+        "processes": tables,
+        "sent": sent_table,
+        "plan": plan_table,
+        "bottleneck": bottleneck,
+    }
+    for name, part in parts.items():
+        section = section.replace(f"{{{name}}}", part(found))
+    return section
 
 
 def family(row: dict[str, Any]) -> str:

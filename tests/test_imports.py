@@ -29,6 +29,13 @@ def test_a_solve_needs_no_figures() -> None:
 
 
 @pytest.mark.slow
+def test_a_library_on_this_computer_needs_no_cluster() -> None:
+    needed = loaded("import levade.cli.librarian")
+    assert "levade.library.spreading" in needed
+    assert "ray" not in needed
+
+
+@pytest.mark.slow
 def test_figures_can_be_made_after_it() -> None:
     pytest.importorskip("matplotlib")
     assert "matplotlib.pyplot" in loaded("import levade.optimizers; from matplotlib import pyplot")

@@ -65,6 +65,8 @@ def test_every_fall_has_a_record_and_every_motion_found_a_file(library: Library)
 def test_a_fall_sees_the_library_as_it_was_when_its_round_began(library: Library) -> None:
     assert list(rounds(7)) == [(0, 1), (1, 2), (2, 4), (4, 7)]
     assert list(rounds(100)) == [(0, 1), (1, 2), (2, 4), (4, 8), (8, 16), (16, 32), (32, 64), (64, 96), (96, 100)]
+    assert [end - begin for begin, end in rounds(400)][6:] == [32] * 8 + [36, 40, 36]  # an eighth of the falls before
+    assert list(rounds(3000))[:13] == list(rounds(256))
     first = {fall: begin for begin, end in rounds(STARTS) for fall in range(begin, end)}
     found = [record.fall for record in library.records if record.motion == record.fall]
     for record in library.records:

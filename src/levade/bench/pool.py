@@ -148,11 +148,7 @@ class _Worker:
                 f"{piece}: the process that ran it died (exit code {self.process.exitcode}); what is done is kept: call"
                 " again to go on, with fewer processes if memory was short"
             ) from None
-        if isinstance(answer, LevadeError):
-            raise LevadeError(f"{piece}: {answer}")
-        if isinstance(answer, BaseException):
-            raise answer
-        return piece, answer
+        return piece, checked(str(piece), answer)
 
     def end(self) -> None:
         self.connection.close()
@@ -174,15 +170,48 @@ def _serve(connection: Connection) -> None:
             run = piece
             continue
         try:
-            answer: Any = run(piece)
-        except LevadeError as error:
-            answer = error
-        except Exception:
-            answer = RuntimeError(f"{piece}\n{traceback.format_exc()}")  # whatever it was may not survive the journey
-        try:
-            connection.send(answer)
+            connection.send(answered(run, piece))
         except OSError:
             return
+
+
+def answered(run: Callable[[Any], Any], piece: Any) -> Any:
+    """Do a piece of work in a process of its own.
+
+    Args:
+        run: Does the piece.
+        piece: The piece.
+
+    Returns:
+        The result, or an error for `checked`.
+    """
+    try:
+        return run(piece)
+    except LevadeError as error:
+        return error
+    except Exception:
+        return RuntimeError(f"{piece}\n{traceback.format_exc()}")  # whatever it was may not survive the journey
+
+
+def checked(piece: str, answer: Any) -> Any:
+    """Return what a process has answered.
+
+    Args:
+        piece: Name of the piece of work, for messages.
+        answer: Answer of `answered`.
+
+    Returns:
+        The result.
+
+    Raises:
+        LevadeError: If the piece raised one.
+        RuntimeError: If the piece raised anything else.
+    """
+    if isinstance(answer, LevadeError):
+        raise LevadeError(f"{piece}: {answer}")
+    if isinstance(answer, BaseException):
+        raise answer
+    return answer
 
 
 @contextmanager

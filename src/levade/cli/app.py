@@ -15,7 +15,7 @@ import typer
 from levade.cli.commands.bench import bench, spread
 from levade.cli.commands.checks import check, stabilise
 from levade.cli.commands.doctor import doctor
-from levade.cli.commands.library import library_app
+from levade.cli.commands.library import completed, library_app
 from levade.cli.commands.motions import export, show, view
 from levade.cli.commands.robots import robots_app
 from levade.cli.commands.solve import solve
@@ -69,7 +69,7 @@ def _run(arguments: Sequence[str] | None) -> int:
     """Run the command line. Returns the exit status."""
     # since 0.26 these come from typer's own copy of click, before from click itself
     _, usage_error, click_exception, *_ = typer.BadParameter.__mro__
-    arguments = spread(sys.argv[1:] if arguments is None else arguments)
+    arguments = completed(spread(sys.argv[1:] if arguments is None else arguments))
     first = arguments[0] if arguments else ""
     try:
         status = _command(first)(args=arguments, standalone_mode=False)

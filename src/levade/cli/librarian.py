@@ -67,6 +67,7 @@ def build_library(
     changes: list[str],
     threads: int,
     jobs: int,
+    ray: str | None,
     shard: str | None,
     hardware: bool,
     trials: int | None,
@@ -84,6 +85,7 @@ def build_library(
         changes: Changes of the task, as ``path=value``.
         threads: Number of engine threads (0: one per core).
         jobs: Number of processes at a time.
+        ray: Address of a Ray cluster. None for this computer alone.
         shard: Part to build, as ``I/N``. None for the whole library.
         hardware: Whether motions have to keep the limits of the hardware.
         trials: Most trials of the searches of one fall, for hardware. None for the directory's own number, or the usual one.
@@ -104,7 +106,7 @@ def build_library(
         spent = time.monotonic() - began
         console.print(
             f"  {progress.done} of {progress.starts} falls: {progress.motions} motions, {progress.trials} trials,"
-            f" {spent:.0f} s",
+            f" {spent:.0f} s" + ("" if progress.cpus is None else f", {progress.cpus} CPUs"),
             style="dim",
         )
 
@@ -115,6 +117,7 @@ def build_library(
             seed=seed,
             threads=threads,
             processes=jobs,
+            ray=ray,
             shard=part,
             hardware=demanded,
             directory=directory,

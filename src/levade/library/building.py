@@ -34,6 +34,7 @@ from levade.library.pieces import Fall, Row, Workshop
 from levade.library.pursuing import PURSUITS, Hardware
 from levade.library.records import FALLS, MOTIONS, Method
 from levade.library.solving import Solver
+from levade.library.spreading import Spread
 from levade.library.storing import WHOLE, Shard, begin, read_library
 from levade.locking import locked
 from levade.robots import Robot
@@ -41,8 +42,9 @@ from levade.search.storage import storing
 from levade.tasks import Task
 from levade.writing import replacing
 
-_ROUND = 32
-"""Largest number of falls in a round: enough to share batches, and few enough that later falls profit from the motions."""
+_ROUND, _GROWTH = 32, 8
+"""Number of falls in a round: this many, or this part of the falls before it if that is more. Large enough to share batches and
+to keep many nodes busy, and small enough that later falls profit from the motions."""
 
 
 @dataclass(frozen=True)
@@ -55,6 +57,7 @@ class Progress:
         motions: Number of motions that were found.
         methods: Method -> number of falls that it solved.
         trials: Number of roll-outs so far.
+        cpus: Number of CPUs of the Ray cluster. None without one.
     """
 
     done: int
@@ -62,6 +65,7 @@ class Progress:
     motions: int
     methods: Mapping[Method, int]
     trials: int
+    cpus: int | None = None
 
 
 def build(
@@ -72,6 +76,7 @@ def build(
     seed: int = 0,
     threads: int = 0,
     processes: int = 1,
+    ray: str | None = None,
     shard: Shard = WHOLE,
     hardware: Hardware | None = None,
     directory: Path,
@@ -88,6 +93,8 @@ def build(
         threads: Number of engine threads (0: one per core). The result does not depend on it.
         processes: Number of processes that solve the falls of a round in parallel, with one thread each. The result does
             not depend on it.
+        ray: Address of a Ray cluster whose nodes solve the falls of a round in parallel (`levade.bench.cluster`). None
+            for this computer alone. The result does not depend on it.
         shard: The share of the falls that this library covers. `merge` joins shards.
         hardware: Demands of the hardware on each motion, and the budget of a fall. None for motions without regard to limits.
         directory: Directory to write to.
@@ -99,31 +106,37 @@ def build(
         The library.
 
     Raises:
-        LevadeError: If the task is not consistent, the directory holds something else or cannot be written, or a process
-            dies.
+        LevadeError: If the task is not consistent, the directory holds something else or cannot be written, a process
+            dies, or there is no such cluster.
     """
     if starts < 1:
         raise LevadeError(f"{starts} falls are too few; give 1 or more, such as 100", field="starts")
     if processes < 1:
         raise LevadeError(f"{processes} processes are too few; give 1 or more", field="jobs")
+    if processes > 1 and ray is not None:
+        raise LevadeError(
+            f"{processes} processes are for this computer; a Ray cluster uses all of its CPUs", field="jobs"
+        )
     if not shard.of(starts):
         raise LevadeError(f"{starts} falls have no shard {shard}; give as many falls as shards", field="starts")
     if task.start.fallen is None and (directory / LIBRARY).is_file():  # keep its falls, even if the default has changed
         task = replace(task, start=read_library(directory)[0].start)
     demands = None if hardware is None else hardware.demands
     falls = Falls(task, robot=robot, seed=seed, threads=threads, demands=demands)
-    with storing(directory, then=Remedy("give another directory", "elsewhere")):
-        for name in (FALLS, MOTIONS):
-            (directory / name).mkdir(parents=True, exist_ok=True)
-    with locked(directory, "library"):
-        begin(directory, falls, seed, starts, shard, hardware)
-        pool = Pool(Workshop(directory, robot), processes) if processes > 1 else nullcontext()
-        _Builder(falls, directory, seed, shard.of(starts), hardware, observe, stopping).go(pool)
+    with _workers(directory, robot, processes, ray) as workers:
+        with storing(directory, then=Remedy("give another directory", "elsewhere")):
+            for name in (FALLS, MOTIONS):
+                (directory / name).mkdir(parents=True, exist_ok=True)
+        with locked(directory, "library"):
+            begin(directory, falls, seed, starts, shard, hardware)
+            if isinstance(workers, Spread):
+                workers.begin(falls.simulation.robot)
+            _Builder(falls, directory, seed, shard.of(starts), hardware, observe, stopping).go(workers)
     return Library.load(directory)
 
 
 def rounds(starts: int) -> Iterator[tuple[int, int]]:
-    """Divide falls into rounds of 1, 1, 2, 4, ... and then `_ROUND` falls.
+    """Divide falls into rounds of 1, 1, 2, 4, ..., then `_ROUND` falls, then a part `_GROWTH` of the falls before.
 
     Args:
         starts: Total number of falls.
@@ -131,13 +144,23 @@ def rounds(starts: int) -> Iterator[tuple[int, int]]:
     Yields:
         Index of the first fall of a round, and the index after its last.
     """
-    first, size = 0, 1
+    first = 0
     while first < starts:
+        size = max(min(first, _ROUND), first // _GROWTH, 1)
         yield first, min(first + size, starts)
-        first, size = first + size, min(max(first + size, 1), _ROUND)
+        first += size
 
 
-_Workers = Pool[Fall | Row, tuple[Array, Array] | None]
+_Workers = Pool[Fall | Row, tuple[Array, Array] | None] | Spread
+
+
+def _workers(
+    directory: Path, robot: Robot | None, processes: int, ray: str | None
+) -> AbstractContextManager[_Workers | None]:
+    """Make what works on a library besides this process. None if nothing does."""
+    if ray is not None:
+        return Spread(directory, address=ray)
+    return Pool(Workshop(directory, robot), processes) if processes > 1 else nullcontext()
 
 
 class _Ended(Exception):
@@ -159,12 +182,16 @@ class _Builder:
     ) -> None:
         self._falls, self._directory, self._own = falls, directory, own
         self._observe, self._stopping = observe, stopping
+        self._spread: Spread | None = None
         self._solver = Solver(falls, directory, seed, hardware=hardware, stopping=stopping, observe=self._tell)
         self._solver.load(own)
 
-    def go(self, pool: AbstractContextManager[_Workers | None]) -> None:
+    def go(self, workers: _Workers | None) -> None:
         """Run all rounds, then try every pair of fall and motion, until done or stopped."""
-        with suppress(_Ended), pool as workers:
+        self._spread = workers if isinstance(workers, Spread) else None
+        if self._spread:
+            self._tell()  # how many CPUs there are
+        with suppress(_Ended):
             for first, last in rounds(len(self._own)):
                 pending = [i for i in self._own[first:last] if i not in self._solver.records]
                 if workers is None:
@@ -218,4 +245,5 @@ class _Builder:
         methods = Counter(record.method for record in records)
         motions = sum(record.motion == record.fall for record in records)
         trials = sum(record.trials for record in records)
-        self._observe(Progress(len(records), len(self._own), motions, methods, trials))
+        cpus = None if self._spread is None else self._spread.cpus
+        self._observe(Progress(len(records), len(self._own), motions, methods, trials, cpus))

@@ -247,6 +247,14 @@ class Plays:
         self._directory, self._mirror = directory, mirror
         self._motions: dict[int, Motion] = {}
 
+    def learn(self, motions: Mapping[int, Motion]) -> None:
+        """Take note of motions, instead of reading them.
+
+        Args:
+            motions: Number of a fall -> its motion.
+        """
+        self._motions.update(motions)
+
     def __getitem__(self, number: int) -> Play:
         fall = fall_of(number)
         if fall not in self._motions:

@@ -10,6 +10,7 @@ processes.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -18,8 +19,10 @@ from typing import Any
 from levade.arrays import Array
 from levade.library.asking import read_success
 from levade.library.knowledge import Knowledge
+from levade.library.records import Record
 from levade.library.solving import Solver
 from levade.library.storing import read_falls, read_hardware
+from levade.motions import Motion
 from levade.robots import Robot
 
 
@@ -73,6 +76,15 @@ class Workshop:
     def _solver(self) -> Solver:
         self._falls, seed = read_falls(self._directory, robot=self._robot)
         return Solver(self._falls, self._directory, seed, hardware=read_hardware(self._directory))
+
+    def learn(self, records: Sequence[Record], motions: Mapping[int, Motion]) -> None:
+        """Take note of other falls, so that they need not be read from the directory.
+
+        Args:
+            records: Records of the falls.
+            motions: Number of a fall -> its motion.
+        """
+        self._solver.learn(records, motions)
 
     def __call__(self, piece: Fall | Row) -> tuple[Array, Array] | None:
         """Do a piece of work. Return the result of `Solver.rows` for a row; for a fall, write its record and return None."""

@@ -99,6 +99,16 @@ class Solver:
             if i not in self.records and (path := record_path(self._directory, i)).is_file():
                 self.records[i] = Record.load(path)
 
+    def learn(self, records: Sequence[Record], motions: Mapping[int, Motion]) -> None:
+        """Take note of falls, instead of reading them.
+
+        Args:
+            records: Records of the falls.
+            motions: Number of a fall -> its motion. It needs meta and weights only.
+        """
+        self.records.update({record.fall: record for record in records})
+        self._plays.learn(motions)
+
     def solve(self, pending: Sequence[int], *, after: Sequence[int]) -> None:
         """Solve falls, each with the motions that were known ``after`` other falls.
 

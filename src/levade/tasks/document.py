@@ -151,7 +151,7 @@ def _other_robot(content: Any, name: str | None, changes: Sequence[str], *, wher
     """Write the table of the robot with another robot's name, and with the changes made."""
     choice = build(RobotChoice, content or {}, where=f"{where}.robot")
     if name is not None:
-        choice = dataclasses.replace(choice, name=name, actuation=None, variant=None)
+        choice = dataclasses.replace(choice, name=name, actuation=None, variant=None, linkage=False)
     table: dict[str, Any] = {"robot": dataclasses.asdict(choice)}
     for change in changes:
         _apply(table, change)

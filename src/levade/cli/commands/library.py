@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -22,6 +23,29 @@ library_app = typer.Typer(
 )
 
 
+_ALONE = {"--ray": "auto"}
+"""Options of ``library build`` that may stand alone -> the value that they have then."""
+
+
+def completed(arguments: Sequence[str]) -> list[str]:
+    """Rewrite ``library build --ray`` as ``library build --ray auto``, since no option of typer's may do without a value.
+
+    Args:
+        arguments: Arguments of any command.
+
+    Returns:
+        The arguments. Those of other commands stay as they are.
+    """
+    if list(arguments[:2]) != ["library", "build"]:
+        return list(arguments)
+    taken: list[str] = []
+    for word, then in zip(arguments, [*arguments[1:], "-"], strict=True):
+        taken.append(word)
+        if word in _ALONE and then.startswith("-"):
+            taken.append(_ALONE[word])
+    return taken
+
+
 @library_app.command("build")
 def _build_library(
     task: Annotated[str, typer.Argument(help="Task of each motion: self-righting, or your own task.")],
@@ -32,6 +56,13 @@ def _build_library(
     changes: Changes = None,
     threads: LibraryThreads = 0,
     jobs: Annotated[int, typer.Option(min=1, help="Number of processes at a time, with one thread each.")] = 1,
+    ray: Annotated[
+        str | None,
+        typer.Option(
+            metavar="[ADDRESS]",
+            help="Build on a Ray cluster: HOST:PORT of its head; without ADDRESS the one that runs here, or else a new one.",
+        ),
+    ] = None,
     shard: Annotated[
         str | None,
         typer.Option(metavar="I/N", help="Build only every N-th fall, from fall I (0 to N - 1); see library merge."),
@@ -74,6 +105,7 @@ def _build_library(
         changes=changes or [],
         threads=threads,
         jobs=jobs,
+        ray=ray,
         shard=shard,
         hardware=hardware,
         trials=trials,
