@@ -2,10 +2,12 @@
 
     python benchmarks/library.py run --robots go1 hyq2max --starts 300 --check 1000
     python benchmarks/library.py answers        # time of an answer, in a fresh process that has numpy alone
+    python benchmarks/library.py learn DIR ...  # kinds of learned answers, on libraries that are built
     python benchmarks/library.py write          # docs/falls.md, from benchmarks/falls.md.in and the results
 
 A library of seed 0 is built and checked on falls of seed 3, and its export is driven from falls of seed 2
-(`benchmarks/library_drive.py`). A row is written as soon as it is there, to results/library.jsonl.
+(`benchmarks/library_drive.py`). A row is written as soon as it is there, to results/library.jsonl. Tables of learned starts
+are from `benchmarks/starts.py`.
 """
 
 from __future__ import annotations
@@ -21,16 +23,20 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import starts
 from library_drive import drive
 
 from levade.exports.as_csv import write_player, write_script
 from levade.library import Library, Method, Record, Share, build, check_library
+from levade.library.learning import learn
+from levade.library.storing import read_library
 from levade.tasks import load_task
 
 HERE = Path(__file__).resolve().parent
 RESULTS = HERE / "results" / "library.jsonl"
 TEMPLATE = HERE / "falls.md.in"
 ANSWERS = HERE / "results" / "library_answers.json"
+LEARNED = HERE / "results" / "library_learned.jsonl"
 PAGE = HERE.parent / "docs" / "falls.md"
 DELAY = 0.004
 """[s], of what the robot is sent, and of what it senses."""
@@ -84,6 +90,8 @@ def main() -> None:
     running.add_argument("--drive", type=int, default=100, help="falls that the export is driven from")
     running.add_argument("--note", default="", help="what the page says of the machine: 'busy'")
     commands.add_parser("answers")
+    learning = commands.add_parser("learn")
+    learning.add_argument("directories", nargs="+", type=Path)
     commands.add_parser("write")
     options = parser.parse_args()
     if options.command == "write":
@@ -91,6 +99,12 @@ def main() -> None:
         return
     if options.command == "answers":
         ANSWERS.write_text(json.dumps(answers()) + "\n")
+        return
+    if options.command == "learn":
+        for place in options.directories:
+            row = learned(Library.load(place))
+            with LEARNED.open("a") as file:
+                file.write(json.dumps(row) + "\n")
         return
     for robot in options.robots:
         with tempfile.TemporaryDirectory() as folder:
@@ -158,6 +172,15 @@ def answers() -> list[dict[str, float]]:
     return rows
 
 
+def learned(library: Library) -> dict[str, Any]:
+    """How well each kind of learned answers does on falls to which it was not fitted. The library stays as it is."""
+    found = learn(library)
+    robot = read_library(library.directory)[0].robot.name
+    sizes = {"starts": len(library.records), "motions": len(library.knowledge.motions)}
+    scores = {kind: vars(score) for kind, score in found.scores.items()}
+    return {"robot": robot, "folds": library.fold is not None, **sizes, "scores": scores, "chosen": found.chosen}
+
+
 def facts(library: Library) -> dict[str, Any]:
     """What a row says of a library that is built."""
     records = library.records
@@ -195,6 +218,9 @@ def page() -> str:
     parts = {"builds": builds, "checks": checks, "costs": costs, "drives": drives}
     for name, part in parts.items():
         text = text.replace(f"{{{name}}}", part(rows))
+    text = text.replace("{learners}", learners([json.loads(line) for line in LEARNED.read_text().splitlines()]))
+    for name, table in starts.tables(starts.rows_in(starts.RESULTS)).items():
+        text = text.replace(f"{{{name}}}", table)
     return text.replace("{answers}", times(json.loads(ANSWERS.read_text())))
 
 
@@ -216,6 +242,20 @@ def drives(rows: list[dict[str, Any]]) -> str:
             lines.append(
                 f"| {family(row)} | {one['starts']} | {1e3 * one['delay']:g} | {tries[0]} | {tries[1]} | {tries[2]} | {left} |"
             )
+    return "\n".join(lines)
+
+
+def learners(rows: list[dict[str, Any]]) -> str:
+    """Markdown: first answers of each kind of model, and how well its probabilities fit."""
+    lines = [
+        "| robot | falls | motions, with images | model | first answer | predicted | Brier score |",
+        "|---|--:|--:|---|--:|--:|--:|",
+    ]
+    for row in rows:
+        for kind, score in row["scores"].items():
+            name = f"**{kind}**" if kind == row["chosen"] else kind
+            numbers = f"{score['first']:.1%} | {score['said']:.1%} | {score['brier']:.4f}"
+            lines.append(f"| {family(row)} | {row['starts']} | {row['motions']} | {name} | {numbers} |")
     return "\n".join(lines)
 
 
