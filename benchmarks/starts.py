@@ -330,8 +330,9 @@ def key_of(row: Mapping[str, Any]) -> tuple[Any, ...]:
 
 
 def rows_in(file: Path) -> list[Row]:
-    """The rows of a file."""
-    return [json.loads(line) for line in file.read_text().splitlines()] if file.exists() else []
+    """The rows of a file, each case once."""
+    rows = [json.loads(line) for line in file.read_text().splitlines()] if file.exists() else []
+    return list({key_of(row): row for row in rows}.values())
 
 
 def of_bench(rows: Iterable[Row], about: Mapping[str, Any]) -> list[Row]:
