@@ -3,10 +3,12 @@
     python benchmarks/library.py run --robots go1 hyq2max --starts 300 --check 1000
     python benchmarks/library.py answers        # time of an answer, in a fresh process that has numpy alone
     python benchmarks/library.py scaling --note busy   # one process, two, and a plan for many nodes
+    python benchmarks/library.py learn DIR ...  # kinds of learned answers, on libraries that are built
     python benchmarks/library.py write          # docs/falls.md, from benchmarks/falls.md.in and the results
 
 A library of seed 0 is built and checked on falls of seed 3, and its export is driven from falls of seed 2
-(`benchmarks/library_drive.py`). A row is written as soon as it is there, to results/library.jsonl.
+(`benchmarks/library_drive.py`). A row is written as soon as it is there, to results/library.jsonl. Tables of learned starts
+are from `benchmarks/starts.py`.
 """
 
 from __future__ import annotations
@@ -22,11 +24,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import starts
 from library_drive import drive
 from library_scaling import bottleneck, measured, plan_table, scaling, sent_table, tables
 
 from levade.exports.as_csv import write_player, write_script
 from levade.library import Library, Method, Record, Share, build, check_library
+from levade.library.learning import learn
+from levade.library.storing import read_library
 from levade.tasks import load_task
 
 HERE = Path(__file__).resolve().parent
@@ -34,6 +39,7 @@ RESULTS = HERE / "results" / "library.jsonl"
 TEMPLATE = HERE / "falls.md.in"
 SCALING = HERE / "results" / "library_scaling.json"
 ANSWERS = HERE / "results" / "library_answers.json"
+LEARNED = HERE / "results" / "library_learned.jsonl"
 PAGE = HERE.parent / "docs" / "falls.md"
 DELAY = 0.004
 """[s], of what the robot is sent, and of what it senses."""
@@ -95,6 +101,8 @@ def main() -> None:
         "--set", nargs="*", default=[], metavar="PATH=VALUE", help="change the task, such as search.trials=240"
     )
     scaled.add_argument("--note", default="quiet")
+    learning = commands.add_parser("learn")
+    learning.add_argument("directories", nargs="+", type=Path)
     commands.add_parser("write")
     options = parser.parse_args()
     if options.command == "write":
@@ -109,6 +117,12 @@ def main() -> None:
         )
         found = scaling(options.task, options.robot, options.starts, options.set, per_fall, options.note)
         SCALING.write_text(json.dumps(found, indent=1) + "\n")
+        return
+    if options.command == "learn":
+        for place in options.directories:
+            row = learned(Library.load(place))
+            with LEARNED.open("a") as file:
+                file.write(json.dumps(row) + "\n")
         return
     for robot in options.robots:
         with tempfile.TemporaryDirectory() as folder:
@@ -176,6 +190,15 @@ def answers() -> list[dict[str, float]]:
     return rows
 
 
+def learned(library: Library) -> dict[str, Any]:
+    """How well each kind of learned answers does on falls to which it was not fitted. The library stays as it is."""
+    found = learn(library)
+    robot = read_library(library.directory)[0].robot.name
+    sizes = {"starts": len(library.records), "motions": len(library.knowledge.motions)}
+    scores = {kind: vars(score) for kind, score in found.scores.items()}
+    return {"robot": robot, "folds": library.fold is not None, **sizes, "scores": scores, "chosen": found.chosen}
+
+
 def facts(library: Library) -> dict[str, Any]:
     """What a row says of a library that is built."""
     records = library.records
@@ -220,6 +243,9 @@ def page() -> str:
         text = text.replace(f"{{{name}}}", part(rows))
     before, heading, section = text.partition("\n## On many computers\n")
     text = before + heading + scaled(section)
+    text = text.replace("{learners}", learners([json.loads(line) for line in LEARNED.read_text().splitlines()]))
+    for name, table in starts.tables(starts.rows_in(starts.RESULTS)).items():
+        text = text.replace(f"{{{name}}}", table)
     return text.replace("{answers}", times(json.loads(ANSWERS.read_text())))
 
 
@@ -258,6 +284,20 @@ def drives(rows: list[dict[str, Any]]) -> str:
             lines.append(
                 f"| {family(row)} | {one['starts']} | {1e3 * one['delay']:g} | {tries[0]} | {tries[1]} | {tries[2]} | {left} |"
             )
+    return "\n".join(lines)
+
+
+def learners(rows: list[dict[str, Any]]) -> str:
+    """Markdown: first answers of each kind of model, and how well its probabilities fit."""
+    lines = [
+        "| robot | falls | motions, with images | model | first answer | predicted | Brier score |",
+        "|---|--:|--:|---|--:|--:|--:|",
+    ]
+    for row in rows:
+        for kind, score in row["scores"].items():
+            name = f"**{kind}**" if kind == row["chosen"] else kind
+            numbers = f"{score['first']:.1%} | {score['said']:.1%} | {score['brier']:.4f}"
+            lines.append(f"| {family(row)} | {row['starts']} | {row['motions']} | {name} | {numbers} |")
     return "\n".join(lines)
 
 

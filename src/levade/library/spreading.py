@@ -29,7 +29,7 @@ from levade.bench.cluster import AUTO, Cluster, fetch
 from levade.errors import LevadeError, Remedy
 from levade.library.asking import LIBRARY, SUCCESS
 from levade.library.pieces import Fall, Row, Workshop
-from levade.library.records import Record, motion_path, record_path
+from levade.library.records import Record, certificate_path, motion_path, record_path
 from levade.library.storing import TASK
 from levade.motions import Motion, versions
 from levade.robots import Robot
@@ -177,7 +177,7 @@ class Outpost:
         """What a piece has written into a directory: the motion first, because a record says that all of a fall is there."""
         if isinstance(piece, Row):
             return {}
-        paths = [path(place, piece.number) for path in (motion_path, record_path)]
+        paths = [path(place, piece.number) for path in (motion_path, certificate_path, record_path)]
         here = place == self._directory
         return {str(path.relative_to(place)): None if here else path.read_bytes() for path in paths if path.is_file()}
 
