@@ -6,10 +6,13 @@
 
 *Duration*: each task as it is, and with ``horizon: {minimum: T/2, maximum: 3 T, initial: T}``; a search ends with its first
 success, or after 6000 trials. The paper's tasks are in units of the robot on Go1 (``benchmarks/tasks``). *Grid*: the same, and
-eight fixed durations, with 600 trials after the first success. *Posture*: each task as it is, and with ``policy.goal: free``, both with an effort of weight 1 that counts the hold as well, and 300 trials
-after the first success. The torque of standing is that of the last tenth of a second of the hold, as a share of each joint's
-limit, root mean square over joints. Every run is kept in results/freedom.jsonl under a checksum of its task, and is not made
-again: delete the file after a change to the search. ``python benchmarks/duration.py --write`` makes the page.
+eight fixed durations, with 600 trials after the first success. *Posture*: each task as it is, and with ``policy.goal: free``,
+both with an effort of weight 1 that counts the hold as well, and 300 trials after the first success. The torque of standing is
+that of the last tenth of a second of the hold, as a share of each joint's limit, root mean square over joints.
+
+Every run is kept in results/freedom.jsonl under a checksum of its task, and is not made again: delete the file after a change
+to the search. Rows "from" skills.jsonl are runs of skills.py: the same searches. ``python benchmarks/duration.py --write``
+makes the page.
 """
 
 from __future__ import annotations
@@ -162,15 +165,31 @@ def won(results: list[dict[str, Any]]) -> str:
 
 
 def duration_table() -> str:
-    """Each task as it is, and with its duration free."""
+    """Each task as it is, and with its duration free, over the seeds that have been run both ways."""
     found, rows = kept(), []
     for task, robot in pairs(found, "fixed", "free"):
-        fixed, free = (several(found, task, robot, kind) for kind in ("fixed", "free"))
+        seeds = {kind: {case[3] for case in found if case[:3] == (task, robot, kind)} for kind in ("fixed", "free")}
+        both = {case: one for case, one in found.items() if case[3] in seeds["fixed"] & seeds["free"]}
+        fixed, free = (several(both, task, robot, kind) for kind in ("fixed", "free"))
+        if not fixed:
+            continue
         ratio = statistics.median(trials(free)) / statistics.median(trials(fixed))
+        low, high = interval(trials(fixed), trials(free))
         horizon = middle([one["horizon"] for one in free if one["success"]], 2)
         counts = f"{won(fixed)} | {won(free)} | {middle(trials(fixed), 0)} | {middle(trials(free), 0)}"
-        rows.append(f"| `{task}` | {robot} | {counts} | {ratio:.2f} | {fixed[0]['horizon']:.2f} | {horizon} |")
+        ratios = f"{ratio:.2f} ({low:.2f} to {high:.2f})"
+        rows.append(f"| `{task}` | {robot} | {counts} | {ratios} | {fixed[0]['horizon']:.2f} | {horizon} |")
     return "\n".join(rows)
+
+
+def interval(fixed: list[float], free: list[float], samples: int = 4000) -> tuple[float, float]:
+    """95 % interval of the ratio of medians, free to fixed, by the bootstrap: seeds are drawn again from each list."""
+    import numpy as np
+
+    random = np.random.default_rng(0)
+    medians = [np.median(random.choice(values, (samples, len(values))), axis=1) for values in (fixed, free)]
+    low, high = np.percentile(medians[1] / medians[0], (2.5, 97.5))
+    return float(low), float(high)
 
 
 def grid_table() -> str:

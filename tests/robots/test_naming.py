@@ -49,7 +49,7 @@ def test_a_role_moves_the_feet_of_both_sides_alike(robot: Robot, role: str) -> N
 
 def test_angles_of_several_limbs_are_those_of_the_first_and_its_mirror_images() -> None:
     robot = load_robot("hyq2max")  # knees ><: those of the hind legs bend the other way
-    angles = robot.posture({"leg kfe": -1.5, "hind hfe": "crouched"})
+    angles = robot.posture({"leg kfe": -1.5, "hind hip flexion": "crouched"})
     names = robot.joint_names
     assert {name: angles[names.index(name)] for name in names if name.endswith("kfe")} == {
         "lf_kfe": -1.5,
@@ -64,7 +64,7 @@ def test_angles_of_several_limbs_are_those_of_the_first_and_its_mirror_images() 
 
 def test_a_range_of_a_role_is_mirrored_too() -> None:
     robot = load_robot("hyq2max")
-    changes = ["policy.goal={leg kfe: [-1.6, -1.2], hind haa: free}", "policy.groups=pairs"]
+    changes = ["policy.goal={leg knee: [-1.6, -1.2], hind haa: free}", "policy.groups=pairs"]
     policy = make_policy(load_task("squat-jump", changes=changes), robot)
     goal = policy.goal  # type: ignore[union-attr]
     names = [robot.joint_names[i] for i in policy.policy.leaders[goal.joints]]  # type: ignore[union-attr]
@@ -78,26 +78,33 @@ def test_a_range_of_a_role_is_mirrored_too() -> None:
 @pytest.mark.parametrize(
     ("goal", "says"),
     [
-        ("{middle: free}", r"^policy.goal: middle: hyq2max has no such limb, only leg \(lf, rf, lh, rh\); valid names: .*hind"),
+        (
+            "{middle: free}",
+            r"^policy.goal: middle: hyq2max has no such limb, only leg \(lf, rf, lh, rh\); valid names: .*hind",
+        ),
         ("{arm: free}", r"^policy.goal: arm: hyq2max has no such limb"),
         ("{arm kfe: 1.0, hind: free}", r"arm kfe: hyq2max has no such limb"),
         ("{hind ankle: free}", r"^policy.goal: hind ankle: hind of hyq2max has no joint with the role 'ankle'.*kfe"),
-        ("{hind: [-0.1, 0.1]}", r"^policy.goal: hind: a number is for joints; add their role, such as 'hind haa'$"),
+        ("{hind: [-0.1, 0.1]}", r"^policy.goal: hind: a number is for joints; add their role, such as 'hind knee'$"),
         ("{hind kfe: 1.5, left kfe: -1.0}", r"joint lh_kfe fits 'hind kfe' and 'left kfe'"),
         ("{hind kfe: 1.5, '?h_kfe': 1.0}", r"joint lh_kfe fits 'hind kfe' and '\?h_kfe'"),
         ("{hind kfe: 9}", r"lh_kfe 9.0 rad is out of its range"),
     ],
 )
 def test_what_a_robot_lacks_is_one_line(goal: str, says: str) -> None:
+    task, robot = load_task("squat-jump", changes=[f"policy.goal={goal}"]), load_robot("hyq2max")
     with pytest.raises(LevadeError, match=says) as error:
-        task = load_task("squat-jump", changes=[f"policy.goal={goal}"])
-        make_policy(task, load_robot("hyq2max"))
+        make_policy(task, robot)
     assert "\n" not in str(error.value)
 
 
 def test_a_task_for_legs_that_another_robot_lacks_does_not_apply_to_it(tmp_path: Path) -> None:
     path = tmp_path / "own.yaml"
-    path.write_text(f"name: own\nextends: squat-jump\nrobot: {{name: {HEXAPOD}}}\npolicy: {{goal: {{middle kfe: 1.0}}}}\n")
+    path.write_text(
+        f"name: own\nextends: squat-jump\nrobot: {{name: {HEXAPOD}}}\npolicy: {{goal: {{middle kfe: 1.0}}}}\n"
+    )
     assert load_task(path).policy.goal == {"middle kfe": 1.0}
-    with pytest.raises(LevadeError, match=r"^own: does not apply to hyq2max: policy.goal: middle kfe: hyq2max has no such"):
+    with pytest.raises(
+        LevadeError, match=r"^own: does not apply to hyq2max: policy.goal: middle kfe: hyq2max has no such"
+    ):
         load_task(path, robot="hyq2max")

@@ -1,8 +1,8 @@
 """Name limbs and joints by what they are, so that one posture means the same on many robots.
 
 A word names limbs: a limb's own name ("lf"); an end, "front", "middle" or "hind", of the legs that stand; a side, "left" or
-"right"; or a kind, "leg", "arm", "waist" or "head". A joint's role may follow: "hind kfe" names the knees of the hind legs.
-`levade robots inspect` lists the limbs of a robot and their roles.
+"right"; or a kind, "leg", "arm", "waist" or "head". A joint's role may follow: "hind knee", or "hind kfe", names the knees of
+the hind legs. `levade robots inspect` lists the limbs of a robot and their roles.
 """
 
 from __future__ import annotations
@@ -69,14 +69,13 @@ def joints_of(robot: Robot, key: str) -> dict[int, float]:
     first: dict[str, Leg] = {}
     for leg in limbs:
         leader = first.setdefault(leg.kind, leg)
-        if role not in leg.roles:
+        named = [role in pair for pair in zip(leg.roles, robot.role_words(leg), strict=False)]
+        if not any(named):
             continue
         signs = [1.0] * len(leg.joints) if leg is leader else mirror_signs(robot, leader, leg).tolist()
-        for i, sign, own in zip(_indices(robot, leg), signs, leg.roles, strict=True):
-            if own == role:
-                found[i] = sign
+        found |= {i: sign for i, sign, own in zip(_indices(robot, leg), signs, named, strict=True) if own}
     if not found:
-        roles = dict.fromkeys(own for leg in limbs for own in leg.roles)
+        roles = {own for leg in limbs for own in (*leg.roles, *robot.role_words(leg))}
         raise LevadeError(f"{word} of {robot.name} has no joint with the role {role!r}; {did_you_mean(role, roles)}")
     return found
 
@@ -126,22 +125,20 @@ def by_joint(robot: Robot, angles: Mapping[str, float], where: str) -> dict[str,
         if not named:
             plain[key] = angle
         elif " " not in key:
-            role = next((role for i in named for role in _roles(robot)[i : i + 1]), "kfe")
+            role = robot.role_words(limbs_of(robot, key)[0])[-1]
             raise LevadeError(f"{where}: {key}: a number is for joints; add their role, such as '{key} {role}'")
         for i, sign in named.items():
             joint = robot.joint_names[i]
             if joint in found:
-                raise LevadeError(f"{where}: joint {joint} fits {found[joint][0]!r} and {key!r}; it should fit one of them")
+                raise LevadeError(
+                    f"{where}: joint {joint} fits {found[joint][0]!r} and {key!r}; it should fit one of them"
+                )
             found[joint] = key, sign * angle
     for joint, (key, _) in found.items():
         for other in plain:
             if fnmatchcase(joint, other):
                 raise LevadeError(f"{where}: joint {joint} fits {key!r} and {other!r}; it should fit one of them")
     return plain | {joint: angle for joint, (_, angle) in found.items()}
-
-
-def _roles(robot: Robot) -> list[str]:
-    return [role for leg in robot.legs for role in leg.roles or ("other",) * len(leg.joints)]
 
 
 def _words(leg: Leg) -> tuple[str, ...]:
