@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from levade.errors import LevadeError
+from levade.policies import FreePolicy
 from levade.robots import Robot, load_robot
 from levade.robots.naming import joints_of, limbs_of
 from levade.tasks import load_task
@@ -66,8 +67,10 @@ def test_a_range_of_a_role_is_mirrored_too() -> None:
     robot = load_robot("hyq2max")
     changes = ["policy.goal={leg knee: [-1.6, -1.2], hind haa: free}", "policy.groups=pairs"]
     policy = make_policy(load_task("squat-jump", changes=changes), robot)
-    goal = policy.goal  # type: ignore[union-attr]
-    names = [robot.joint_names[i] for i in policy.policy.leaders[goal.joints]]  # type: ignore[union-attr]
+    assert isinstance(policy, FreePolicy)
+    goal = policy.goal
+    assert goal is not None
+    names = [robot.joint_names[i] for i in policy.policy.leaders[goal.joints]]
     bounds = dict(zip(names, zip(goal.lower.tolist(), goal.upper.tolist(), strict=True), strict=True))
     assert bounds["lf_kfe"] == (-1.6, -1.2)
     assert bounds["lh_kfe"] == (1.2, 1.6)
