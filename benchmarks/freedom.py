@@ -162,7 +162,7 @@ def won(results: list[dict[str, Any]]) -> str:
 
 
 def duration_table() -> str:
-    """Each task as it is, and with its duration free, over the seeds that have been run both ways, if they are three or more."""
+    """Each task as it is, and with its duration free, over seeds run both ways, if they are three or more."""
     found, rows = kept(), []
     for task, robot in pairs(found, "fixed", "free"):
         seeds = {kind: {case[3] for case in found if case[:3] == (task, robot, kind)} for kind in ("fixed", "free")}
