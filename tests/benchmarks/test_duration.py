@@ -11,6 +11,7 @@ import pytest
 from levade.checks import Demands
 from levade.checks.margins import margins
 from levade.motions import RecordedSimulation
+from levade.robots import Robot, dimensions
 from levade.search import make_objective, solve
 from levade.search.recording import record
 from levade.tasks import HorizonRange, load_task
@@ -70,3 +71,25 @@ def test_the_cases_of_a_free_duration_and_posture_are_what_the_page_says(script:
     task = freedom.task_of(("sit-to-stand", "hyq2max", "posture", 0))
     assert task.policy.goal == "free"
     assert task.costs["effort"].term.over == "all"
+
+
+def test_the_interval_of_a_ratio_of_medians_holds_it_and_grows_with_the_spread(script: Script) -> None:
+    interval = script("freedom").interval
+    assert interval([60.0] * 10, [90.0] * 10) == (1.5, 1.5)
+    narrow = interval([90, 100, 110] * 4, [140, 150, 160] * 4)
+    wide = interval([20, 100, 500] * 4, [30, 150, 750] * 4)
+    assert wide[0] < narrow[0] < 1.5 < narrow[1] < wide[1]
+
+
+def test_the_rearing_is_as_large_against_go1_as_against_hyq2max(
+    script: Script, packaged: Callable[[str], Robot]
+) -> None:
+    freedom = script("freedom")
+    height = {robot: dimensions(packaged(robot)).height for robot in ("hyq2max", freedom.GO1)}
+    large, small = (freedom.task_of(("rearing", robot, "fixed", 0)) for robot in height)
+    scale = height[freedom.GO1] / height["hyq2max"]
+    assert small.horizon == pytest.approx(large.horizon * scale**0.5, rel=0.01)
+    for part in ("target", "tolerance"):
+        lengths = [getattr(task.success["height"], part) for task in (large, small)]
+        assert lengths[1] == pytest.approx(lengths[0] * scale, rel=0.02)
+    assert small.success["pitch"] == large.success["pitch"]

@@ -13,9 +13,10 @@ from levade.costs.success import success
 from levade.engines import FOOT_CONTACT_FORCE, Fall, Physics, Settled, make_engine, start_state
 from levade.engines.ode.library import load as load_ode
 from levade.errors import LevadeError
-from levade.policies import FreePolicy, Policy
+from levade.policies import FreeGoal, FreePolicy, Policy
 from levade.robots import Robot, dimensions, load_robot, settling
 from levade.robots.limbs import read_limbs
+from levade.robots.naming import limbs_of as limbs_named
 from levade.robots.settling import Settled as PutDown
 from levade.robots.settling import settle
 from levade.robots.shapes import support
@@ -23,7 +24,7 @@ from levade.robots.understanding import find_trunk
 from levade.scenes import Scene
 from levade.search.objective import make_objective
 from levade.tasks import load_task
-from levade.tasks.policy import leg_groups
+from levade.tasks.policy import leg_groups, make_policy
 from levade.trajectory import JointReference, Trajectories
 
 HEAD = '<mujoco><compiler angle="radian" autolimits="true"/><worldbody>'
@@ -270,6 +271,33 @@ def test_a_humanoid_stands_for_three_seconds(walker: Robot) -> None:
     assert settled.tilt < 0.15
     assert abs(settled.sag) < 0.05 * dimensions(walker).height
     assert walker.stance == "upright"
+
+
+def test_a_goal_names_limbs_by_what_they_are(walker: Robot) -> None:
+    def goal(table: str) -> FreeGoal | None:
+        task = load_task("squat-jump", robot=walker, changes=[f"policy.goal={table}"])
+        return make_policy(task, walker).goal  # type: ignore[union-attr]
+
+    names, groups = walker.joint_names, len({(leg.kind, leg.end) for leg in walker.legs})
+    assert groups == 2
+    free = goal("{arm: free, leg knee: [0.4, 1.2]}")
+    assert free is not None
+    assert [name for leg in limbs_named(walker, "arm") for name in leg.joints if leg.side == "left"] == [
+        "p_reach",
+        "p_lift",
+        "p_elbow",
+    ]
+    assert (free.lower[0], free.upper[0]) == (0.4, 1.2)
+    assert len(free.joints) == 1 + 3
+    angles = walker.posture({"leg haa": 0.1})
+    data = walker.data_at(angles)
+    left, right = (data.geom(leg.foot).xpos for leg in limbs_named(walker, "leg"))
+    np.testing.assert_allclose(left * [1, -1, 1], right, atol=1e-6)
+    assert angles[names.index(walker.leg("l").joints[1])] == 0.1
+    with pytest.raises(
+        LevadeError, match=r"^policy.goal: hind: robot has no such limb, only leg \(l, r\), arm \(la, ra\)"
+    ):
+        goal("{hind: free}")
 
 
 def turned_round(text: str) -> str:

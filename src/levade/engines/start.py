@@ -17,8 +17,8 @@ class Settled:
     posture with its own gains for ``time`` [s], and sags a little, because its joints give way to gravity.
 
     Attributes:
-        posture: Name of a posture of the robot. Or a table that changes the neutral posture: joint -> angle [rad], and leg,
-            "front", "hind", "left" or "right" -> name of the posture of these legs.
+        posture: Name of a posture of the robot. Or a table that changes the neutral posture: joint -> angle [rad], and limbs,
+            such as "hind" or "arm" -> name of the posture that they take. See `levade.robots.Robot.posture`.
         x: Position [m].
         y: Position [m].
         time: Time to come to rest [s].

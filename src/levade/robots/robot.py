@@ -147,8 +147,9 @@ class Robot:
 
         Args:
             posture: Name of a posture, or a mapping of changes. A change is a joint or pattern, such as "*_kfe" -> angle
-                [rad]; or a leg, "front", "hind", "left" or "right" -> name of the posture that these legs take. Changes of
-                joints take precedence over those of legs.
+                [rad]; limbs, such as "hind" or "arm" -> name of the posture that they take; or limbs and a role, such as
+                "hind kfe" -> either. An angle is then that of the first limb, which the others mirror: see
+                `levade.robots.naming`. Angles take precedence over names of postures.
 
         Returns:
             Joint angles [rad], shape (joints,).
@@ -168,21 +169,21 @@ class Robot:
                 self._poses[posture] = pose(self, posture)
             return self._poses[posture].copy()
         from levade.robots.description import per_joint
+        from levade.robots.naming import by_joint, limb_words, require_joints
 
         angles = self.postures["neutral"].copy()
         where = f"robot {self.name}: posture"
         joints: dict[str, float] = {}
         for key, value in posture.items():
+            named = list(require_joints(self, key, where))
             if not isinstance(value, str):
                 joints[key] = value
-                continue
-            legs = [leg for leg in self.legs if key in (leg.name, leg.end, leg.side)]
-            if not legs:
-                valid = {name for leg in self.legs for name in (leg.name, leg.end, leg.side)}
-                raise LevadeError(f"{where}: no leg {key!r} to take the posture {value!r}; {did_you_mean(key, valid)}")
-            other = self.posture(value)
-            for leg in legs:
-                angles[self.joint_indices(leg)] = other[self.joint_indices(leg)]
+            elif named:
+                angles[named] = self.posture(value)[named]
+            else:
+                hint = did_you_mean(key, limb_words(self))
+                raise LevadeError(f"{where}: no leg {key!r} to take the posture {value!r}; {hint}")
+        joints = by_joint(self, joints, where)
         for joint, angle in per_joint(joints, self.joint_names, where, all_joints=False).items():
             i = self.joint_names.index(joint)
             if not self.limits.lower[i] <= angle <= self.limits.upper[i]:

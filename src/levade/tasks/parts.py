@@ -139,9 +139,9 @@ class PolicyChoice:
             names.
         initial: First mean of the search: "hold" the last commanded posture, or "interpolate" in a straight line from the
             joint angles at the start to the posture ``goal``, by way of the postures in ``through``.
-        goal: Final posture, as in `levade.engines.Settled`; or "free": the search finds it, within the joints' ranges. Legs,
-            ends and sides may be free (``{hind: free}``), and joints, within the two angles of a range
-            (``{"*_kfe": [-2.0, -1.0]}``). The other joints take the neutral posture. A free goal needs ``settle``.
+        goal: Final posture, as in `levade.engines.Settled`; or "free": the search finds it, within the joints' ranges. Limbs
+            may be free (``{hind: free}``), and joints, within the two angles of a range (``{"*_kfe": [-2.0, -1.0]}`` or
+            ``{hind knee: [1.0, 2.0]}``). The other joints take the neutral posture. A free goal needs ``settle``.
         through: Postures that ``interpolate`` passes, at equal distances in time between the start and the goal.
         depart: Share of the horizon in which every reference leaves the last commanded posture; 0 leaves the start to the
             weights. See `levade.policies.Ends`.

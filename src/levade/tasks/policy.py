@@ -12,6 +12,7 @@ from levade.arrays import Array
 from levade.errors import LevadeError, did_you_mean, located
 from levade.policies import Ends, Follower, FreeGoal, FreePolicy, GaussianKernels, Group, Policy, Slew
 from levade.robots import Leg, Robot, mirror_signs
+from levade.robots.naming import by_joint, limb_words, require_joints
 from levade.tasks.parts import FREE, HorizonRange, PolicyChoice
 from levade.tasks.task import Task
 
@@ -114,14 +115,20 @@ def _free_ranges(choice: PolicyChoice, robot: Robot) -> tuple[Array, Array]:
     for key, value in table.items():
         if value != FREE and not isinstance(value, tuple):
             continue
-        for joint in _joints_named(key, robot):
+        if isinstance(value, tuple):
+            by_joint(robot, dict.fromkeys([key], 0.0), "policy.goal")  # a range is for joints, as a number is
+        for joint, sign in _joints_named(key, robot).items():
             least, largest = limits.lower[joint], limits.upper[joint]
-            if isinstance(value, tuple) and not least <= value[0] <= value[1] <= largest:
+            if not isinstance(value, tuple):
+                lower[joint], upper[joint] = least, largest
+                continue
+            low, high = value if sign > 0 else (-value[1], -value[0])
+            if not least <= low <= high <= largest:
                 raise LevadeError(
-                    f"policy.goal.{key}: {value[0]} to {value[1]} rad should be a range within that of {names[joint]},"
+                    f"policy.goal.{key}: {low} to {high} rad should be a range within that of {names[joint]},"
                     f" {least:.4g} to {largest:.4g} rad"
                 )
-            lower[joint], upper[joint] = value if isinstance(value, tuple) else (least, largest)
+            lower[joint], upper[joint] = low, high
     unlimited = np.flatnonzero(np.isinf(lower) | np.isinf(upper))
     if unlimited.size:
         name = names[unlimited[0]]
@@ -151,14 +158,16 @@ def _free_goal(policy: Policy, lower: Array, upper: Array, robot: Robot) -> Free
         return FreeGoal(free, low[free], high[free])
 
 
-def _joints_named(key: str, robot: Robot) -> list[int]:
-    """Find the indices of the joints of a leg, an end or a side, or of those that match a pattern."""
-    legs = [leg for leg in robot.legs if key in (leg.name, leg.end, leg.side)]
-    if legs:
-        return [i for leg in legs for i in range(*robot.joint_indices(leg).indices(len(robot.joint_names)))]
-    found = [i for i, name in enumerate(robot.joint_names) if fnmatch.fnmatchcase(name, key)]
+def _joints_named(key: str, robot: Robot) -> dict[int, float]:
+    """Find the joints of limbs, those with a role, or those that match a pattern, and how each mirrors the first limb's.
+
+    Raises:
+        LevadeError: If there are none.
+    """
+    found = require_joints(robot, key, "policy.goal")
+    found = found or {i: 1.0 for i, name in enumerate(robot.joint_names) if fnmatch.fnmatchcase(name, key)}
     if not found:
-        valid = {*robot.joint_names, *(name for leg in robot.legs for name in (leg.name, leg.end, leg.side))}
+        valid = {*robot.joint_names, *limb_words(robot)}
         raise LevadeError(f"policy.goal: no leg or joint {key!r} in {robot.name}; {did_you_mean(key, valid)}")
     return found
 

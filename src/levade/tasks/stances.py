@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from levade.document import kind_of
 from levade.errors import LevadeError, did_you_mean
 from levade.robots import Robot
+from levade.robots.naming import require_joints
 from levade.tasks.files import BY_STANCE, extended
 
 if TYPE_CHECKING:
@@ -139,10 +140,10 @@ def check_postures(task: Task, written: Task, own: str, robot: Robot | None) -> 
     if not postures:
         return
     robot = robot or task.robot.load()
-    legs = {name for leg in robot.legs for name in (leg.name, leg.end, leg.side)}
     for where, posture in postures:
         for key in posture:
-            if key not in legs and not any(fnmatchcase(joint, key) for joint in robot.joint_names):
+            named = require_joints(robot, key, f"{task.name}: does not apply to {robot.name}: {where}")
+            if not named and not any(fnmatchcase(joint, key) for joint in robot.joint_names):
                 raise LevadeError(
                     f"{task.name}: does not apply to {robot.name}: its postures are angles of {own}'s joints ({where}: {key});"
                     f" give it postures of {robot.name} in a task that extends it"
