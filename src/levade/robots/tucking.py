@@ -1,10 +1,9 @@
 """Tuck the legs in, so that a fallen robot can lie in the fewest poses.
 
-    tucked(load_robot("go1"))           # knees bent nearly to their ends, each hip turned outward
+    tucked(load_robot("go1"))           # knees bent nearly to their ends, feet under the hips
 
-A robot with long legs may lie on any of them. With tucked legs it lies on its back, a side or its belly, and a motion that
-gets it up from there once works again. Hips that turn outward push most robots off their sides: of sixty falls each, HyQ2Max,
-Go1 and Go2 end on a side in one, none and none, instead of seven, eleven and four with straight hips.
+A robot with spread legs may lie on any of them. With tucked legs it lies on its back, a side or its belly, and a motion that
+gets it up from there once works again.
 """
 
 from __future__ import annotations
@@ -21,18 +20,12 @@ _END = 0.05
 _DEEPER = 0.5
 """Largest bend of a knee beyond the crouched posture [rad]; beyond it, shank and thigh would overlap, whatever the range."""
 
-_OUTWARD = 0.5
-"""Share of a hip's range, from neutral to its outer end, by which it turns outward."""
-
-_FREELY = 0.6
-"""How far a hip without limits turns outward [rad]."""
-
 _HIPS = np.linspace(-0.5, 0.5, 51)
 """Tested changes of a hip's angle against the crouched posture [rad]."""
 
 
 def tucked(robot: Robot) -> Array:
-    """Bend each knee nearly as far as it goes, with the foot under the hip as in the crouched posture, and turn hips outward.
+    """Bend each knee nearly as far as it goes, with the foot under the hip as in the crouched posture.
 
     Args:
         robot: The robot.
@@ -56,9 +49,6 @@ def tucked(robot: Robot) -> Array:
         angles = angles[(angles >= robot.limits.lower[hip]) & (angles <= robot.limits.upper[hip])]
         off = [abs(_foot(robot, posture, hip, float(angle), i) - feet[i, 0]) for angle in angles]
         posture[hip] = angles[int(np.argmin(off))]
-        if "haa" in leg.roles:
-            spread = int(joints[leg.roles.index("haa")])
-            posture[spread] = _outward(robot, posture, spread, i)
     return posture
 
 
@@ -73,17 +63,6 @@ def _bent(robot: Robot, knee: int, crouched: float, *, bends: float) -> float:
         else sign * np.inf
     )
     return float(crouched + sign * np.clip(sign * (near - crouched), 0.0, _DEEPER))
-
-
-def _outward(robot: Robot, posture: Array, hip: int, foot: int) -> float:
-    """Return the angle of a hip that is turned outward by a share of what is left of its range."""
-    turned = posture.copy()
-    turned[hip] += 1e-3
-    y, moved = robot.foot_positions(posture)[foot, 1], robot.foot_positions(turned)[foot, 1]
-    lower, upper = robot.limits.lower[hip], robot.limits.upper[hip]
-    sign = 1.0 if (moved - y) * y > 0 else -1.0
-    end = upper if sign > 0 else lower
-    return float(posture[hip] + (_OUTWARD * (end - posture[hip]) if np.isfinite(end) else sign * _FREELY))
 
 
 def _foot(robot: Robot, posture: Array, hip: int, angle: float, foot: int) -> float:
