@@ -35,8 +35,9 @@ FRONT = "self-righting, from its front"
 CHANGES = {FRONT: ("self-righting", ["start.fall.lying=front"])}
 """Task of a table -> task, and what is changed of it."""
 LIMB_TASKS = ("self-righting", FRONT, "squat-jump")
+ON_TWO_LEGS = ("kneel", "one-leg-stand")
 LIMBS = {
-    "g1": LIMB_TASKS,
+    "g1": (*LIMB_TASKS, *ON_TWO_LEGS),
     "hexapod": ("self-righting", "squat-jump"),
     "gymnasium's ant": ("self-righting", "squat-jump"),
 }
@@ -158,7 +159,7 @@ def page() -> str:
         .read_text(encoding="utf-8")
         .replace("@EVERYWHERE@", table(rows, EVERYWHERE, ROBOTS))
         .replace("@OTHERS@", table(rows, OTHERS, ROBOTS[:2]))
-        .replace("@LIMBS@", table(rows, LIMB_TASKS, tuple(LIMBS)))
+        .replace("@LIMBS@", table(rows, (*LIMB_TASKS, *ON_TWO_LEGS), tuple(LIMBS)))
         .replace("@RUNS@", str(len(asked)))
         .replace("@ALL@", str(10 * len(PAIRS)))
         .replace("@HOURS@", f"{sum(row.get('cpu_s', 0) for row in asked) / 3600:.1f}")
@@ -177,7 +178,7 @@ def run(cases: list[tuple[str, str, int]], processes: int) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--tasks", nargs="+", default=[*EVERYWHERE, *OTHERS, FRONT])
+    parser.add_argument("--tasks", nargs="+", default=[*EVERYWHERE, *OTHERS, FRONT, *ON_TWO_LEGS])
     parser.add_argument("--robots", nargs="+", default=[*ROBOTS, *LIMBS])
     parser.add_argument("--limbs", action="store_true", help="robots that are no quadrupeds of mammal type")
     parser.add_argument("--seeds", type=int, default=10)
