@@ -15,10 +15,18 @@ from levade.errors import LevadeError, Remedy
 
 SOURCE = Path(levade.__file__).parent
 OPTION = re.compile(r"(^|[\s(\"'`])--[a-z]|\blevade [a-z]+ (\w+ )*--")
-NOT_OURS = {("robots/packages.py", "--no-deps ")}
-"""Options of pip."""
-COMMANDS = {("report/summary.py", "--seed"), ("report/summary.py", " --from MOTION"), ("viewer/still.py", "--watch")}
-"""Words of the command that a page shows to copy."""
+NOT_OURS = {
+    ("robots/packages.py", "--no-deps "),
+    ("bench/cluster.py", "give the address that `ray start --head` printed"),
+}
+"""Options of pip and of Ray."""
+COMMANDS = {
+    ("report/summary.py", "--seed"),
+    ("report/summary.py", " --from MOTION"),
+    ("viewer/still.py", "--watch"),
+    ("tasks/variants.py", " --full\nname: "),
+}
+"""Words of the command that a page or a file shows to copy."""
 
 
 def messages(path: Path) -> list[str]:

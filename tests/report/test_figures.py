@@ -109,5 +109,5 @@ def test_without_matplotlib_the_remedy_is_named(
     solved: tuple[Motion, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    with pytest.raises(LevadeError, match=r"pip install levade\[figures\]"):
+    with pytest.raises(LevadeError, match=r"pip install 'levade\[figures\]'"):
         figures(solved[0], tmp_path)

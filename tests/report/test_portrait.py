@@ -109,5 +109,5 @@ def test_what_cannot_be_written_is_said(robot: Robot, tmp_path: Path, monkeypatc
     with pytest.raises(LevadeError, match=r"toy\.png: cannot be written"):
         portrait(robot, tmp_path / "file" / "toy.png")
     monkeypatch.setitem(__import__("sys").modules, "PIL", None)
-    with pytest.raises(LevadeError, match=r"pictures need pillow; pip install levade\[video\]"):
+    with pytest.raises(LevadeError, match=r"pictures need pillow; pip install 'levade\[video\]'"):
         portrait(robot, tmp_path / "toy.png")

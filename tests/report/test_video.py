@@ -220,5 +220,5 @@ def test_without_opengl_the_remedy_is_named(motion: Motion, tmp_path: Path, monk
 
 def test_without_ffmpeg_the_remedy_is_named(motion: Motion, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
-    with pytest.raises(LevadeError, match=r"pip install levade\[video\]"):
+    with pytest.raises(LevadeError, match=r"pip install 'levade\[video\]'"):
         video(motion, tmp_path / "a.mp4")

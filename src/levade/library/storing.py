@@ -116,7 +116,7 @@ def _check_same(directory: Path, hardware: Hardware | None) -> None:
         remedies = (Remedy("keep to them", "hardware"), elsewhere)
         raise LevadeError(f"{directory}: holds a library within the limits of hardware", remedies=remedies)
     if known is None:
-        remedies = (Remedy("build without --hardware"), elsewhere)
+        remedies = (Remedy("build without limits"), elsewhere)
         raise LevadeError(f"{directory}: holds a library without the limits of hardware", remedies=remedies)
     own, other = ({"trials": one.trials, "runs": one.runs, **asdict(one.demands)} for one in (known, hardware))
     what = ", ".join(f"{name} {own[name]}, not {other[name]}" for name in own if own[name] != other[name])

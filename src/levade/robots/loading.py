@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -180,9 +181,9 @@ def _find(name_or_path: str) -> Path:
     path, built_in = Path(name_or_path), _built_in()
     if name_or_path in built_in:
         return built_in[name_or_path]
-    if path.is_dir():
+    if os.path.isdir(path):
         path = path / "robot.yaml"
-    if path.is_file():
+    if os.path.isfile(path):
         return path
     packaged = find_package_robot(name_or_path)
     if packaged is not None:
