@@ -153,7 +153,8 @@ def test_interrupted_it_shuts_its_own_cluster_down_and_goes_on_to_the_same_bytes
         if line.strip() == "3":
             break
     _signal_group(process.pid, signal.SIGINT)
-    said = process.stdout.read().split()
+    with process.stdout as stdout:
+        said = stdout.read().split()
     assert process.wait(60) == 0
     assert said[-2:] == ["stopped", "ask"]
     assert not _signal_group(process.pid, 0)  # no process of the cluster is left

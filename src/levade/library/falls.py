@@ -71,7 +71,7 @@ class Falls:
         """
         if task.robust is not None or task.hardware is not None:
             raise LevadeError(
-                "library: remove robust and hardware from the task; a build for hardware keeps limits and perturbs models itself"
+                "library: remove robust and hardware from the task; a build for hardware keeps limits and perturbs by itself"
             )
         robot = robot or task.robot.load()
         fallen = task.start.fallen or _usual(task, robot)
