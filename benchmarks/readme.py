@@ -62,7 +62,7 @@ def hardware() -> str:
     nominal, found = chosen["nominal"], chosen["hardware"]
     return (
         f"**Motions for hardware.** A posture recovery found on the model alone works on {nominal['share']:.0%} of 500 robots "
-        f"that differ from it. With `--hardware` it works on {found['share']:.0%}, within every limit, after "
+        f"that differ from it. With `--hardware` it works on {found['share']:.1%}, within every limit, after "
         f"{found['seconds']:.0f} s on two cores ([hardware](docs/hardware-results.md))."
     )
 
