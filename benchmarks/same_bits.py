@@ -49,6 +49,12 @@ EXPECTED: dict[str, str] = {
     "motion.meta.schema": "names the layout",
     "motion.meta.task.search.optimizer": "the default has a new name, `cma-aimed`; `levade` is another name for it",
     "*.meta.between_steps": "exports of tasks whose references depart or settle use the policy itself, not cubics",
+    "*.meta.provenance.levade": "names the version",
+    "*.meta.provenance.made_with.levade": "names the version",
+    "*.meta.checksum": "is of the whole file, with the versions in it",
+    "csv.notes": "exports warn of motions without a certificate",
+    "json.notes": "exports warn of motions without a certificate",
+    "check.margins.flow_or_current.*": "is judged by windings and linkages of their own now",
     "check.margins.torque_speed.value*": "the line is the robot's own, which layout 2 has; before, it was read back from the"
     " motion's model, whose text has six digits",
 }

@@ -18,6 +18,7 @@ import pytest
 
 from levade import archive as archive_module
 from levade.checks import check
+from levade.costs import Criterion
 from levade.errors import LevadeError
 from levade.exports import export
 from levade.motions import ARRAYS, LATER, LATER_ARRAYS, META, SCHEMA, Motion, RecordedSimulation, replay_in
@@ -28,7 +29,7 @@ from levade.robots import load_robot
 from levade.rotations import rotate
 from levade.search import Objective, Solution, make_objective, solve
 from levade.search.recording import record
-from levade.tasks import Cost, load_task, task_from_dict, task_to_dict
+from levade.tasks import Cost, Stage, load_task, task_from_dict, task_to_dict
 from levade.trajectory import Trajectories
 
 HERE = [
@@ -281,6 +282,22 @@ def test_its_attributes_say_what_the_file_says(motion: Motion, objective: Object
     np.testing.assert_array_equal(motion.reference.position, reference.position)
     assert motion.policy is not None
     np.testing.assert_array_equal(motion.policy.reference(motion["weights"][None]).velocity, reference.velocity)
+
+
+@pytest.mark.parametrize(
+    ("height", "after", "late"),
+    [(0.0, 0.2, True), (0.0, 0.0, False), (0.2, 0.2, False), (0.2, 0.0, False)],
+)
+def test_it_falls_late_if_it_misses_only_what_the_hold_has_to_show(
+    height: float, after: float, late: bool, moving: Motion, changed: Callable[..., Motion]
+) -> None:
+    criteria = {
+        "height": Criterion("height", target=0.9, tolerance=0.1),
+        "after": Criterion("height", target=0.9, tolerance=0.1, at="end"),
+    }
+    motion = moving.with_task(replace(moving.task, success=criteria, stages=(Stage(),)))
+    meta = {"errors": {"height": height, "after": after}, "trials_to_success": 6}
+    assert changed(motion, meta).falls_late == late
 
 
 @pytest.mark.parametrize("linkage", [False, True])

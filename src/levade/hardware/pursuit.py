@@ -289,7 +289,8 @@ class _Pursuit:
             near = self._around
             number = self._kinds[NEAR] = self._plan.number_of(near.task.policy)
             self._share = _ON_NEAR
-            self._search(NEAR, self._plan.nearer(number, near.horizon), near, seed=self._seed)
+            task = self._plan.nearer(number, near.horizon, whole_hold=near.falls_late)
+            self._search(NEAR, task, near, seed=self._seed)
             return
         for number, name in enumerate((*LIMITS, *MORE)):
             if self._state.chosen not in (None, name):
@@ -354,14 +355,17 @@ class _Pursuit:
             known, _ = read_run(directory)
             content = task_to_dict(known, code=True)
             for kind in range(len(LIMITS)):
-                for task in (plan.within_limits(kind), plan.nearer(kind, known.usual_horizon)):
+                horizon = known.usual_horizon
+                nearer = (plan.nearer(kind, horizon, whole_hold=whole) for whole in (False, True))
+                for task in (plan.within_limits(kind), *nearer):
                     if task_to_dict(task, code=True) == content:
                         self._kinds[name] = kind
                         return task, None
         if number == last and self._parts and not met:  # the nearest motion is the best place to begin
             near = self._parts[self._nearest]
-            self._kinds[name] = self._kinds[near.name]
-            return plan.nearer(self._kinds[name], near.motion.horizon), near.motion
+            kind = self._kinds[name] = self._kinds[near.name]
+            late = near.motion.falls_late
+            return plan.nearer(kind, near.motion.horizon, whole_hold=late), near.motion
         # repeat the best search with other random numbers
         self._kinds[name] = self._kinds[max(met, key=lambda part: part.share).name] if number > last and met else last
         return plan.within_limits(self._kinds[name]), None

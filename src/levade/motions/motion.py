@@ -45,7 +45,7 @@ from levade.motions.model import compile_text
 from levade.policies import Policy, policy_from_dict
 from levade.robots import Leg
 from levade.robots.addresses import Addresses
-from levade.tasks import Task, task_from_dict, task_to_dict
+from levade.tasks import Task, looks_at_hold, task_from_dict, task_to_dict
 from levade.trajectory import JointReference
 
 
@@ -394,6 +394,12 @@ class Motion:
     def met(self) -> bool:
         """Whether the motion meets every criterion of its task on the model."""
         return not self.result.diverged and all(self.meets(name) for name in self.task.success)
+
+    @property
+    def falls_late(self) -> bool:
+        """Whether it meets every criterion on the model up to the hold, and misses one in the hold."""
+        missed = [criterion for name, criterion in self.task.success.items() if not self.meets(name)]
+        return bool(missed) and not self.result.diverged and all(looks_at_hold(criterion) for criterion in missed)
 
     @property
     def met_on_the_model_only(self) -> bool:

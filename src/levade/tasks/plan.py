@@ -196,12 +196,13 @@ class Plan:
         """
         return next((number for number in (0, RUN_UP) if self.within_limits(number).policy == policy), 0)
 
-    def nearer(self, number: int, horizon: float) -> Task:
+    def nearer(self, number: int, horizon: float, *, whole_hold: bool = False) -> Task:
         """Make the task of `within_limits` for a search around a motion that nearly keeps the limits.
 
         Args:
             number: Number of the search that found the motion.
             horizon: Duration of the motion [s].
+            whole_hold: Whether to simulate candidates through the whole hold. A robot that falls late needs it.
         """
         task = self.within_limits(number)
         free = task.horizon
@@ -210,7 +211,7 @@ class Plan:
         return replace(
             task,
             horizon=free,
-            stages=(Stage("nearer", step=_NEAR, hold=self._held),),
+            stages=(Stage("nearer", step=_NEAR, hold=True if whole_hold else self._held),),
             search=replace(task.search, restart=None, patience=None),
         )
 
