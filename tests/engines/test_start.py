@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -10,7 +11,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from levade.engines import Engine, Fall, Fallen, Fold, Physics, Settled, make_engine, start_state
+from levade.engines import Engine, Fall, Fallen, Fold, Physics, Settled, State, make_engine, start_state
+from levade.engines.folding import Folding
 from levade.engines.start import Start
 from levade.errors import LevadeError
 from levade.robots import Robot, load_robot
@@ -186,7 +188,7 @@ DIFFERENT: list[dict[str, int]] = [{"index": 7}, {"index": 8}, {"seed": 4}, {"se
 
 def test_a_robot_that_folds_up_ends_as_its_drives_were_led(robot: Robot, engine: Engine) -> None:
     """Against MuJoCo stepped by hand along a smooth step to the posture, and then at rest there."""
-    fall, fold = Fallen(0.6, seed=3, index=7, time=0.3), Fold("crouched", time=0.1, rest=0.05)
+    fall, fold = Fallen(0.6, seed=3, index=7, time=0.3), Fold("crouched", time=0.1, rest=0.05, jammed=None)
     before, after = (start_state(engine, robot, Scene(), replace(fall, fold=one)) for one in (None, fold))
     goal, told, timestep = robot.posture("crouched"), before.joint_reference[0], engine.physics.timestep
     data, layout = mujoco.MjData(engine.model), engine.layout
@@ -197,6 +199,29 @@ def test_a_robot_that_folds_up_ends_as_its_drives_were_led(robot: Robot, engine:
         mujoco.mj_step(engine.model, data)
     np.testing.assert_allclose(after.qpos[0], data.qpos, atol=1e-6)
     np.testing.assert_array_equal(after.joint_reference[0], goal)
+
+
+@pytest.mark.slow
+def test_a_robot_that_lies_on_a_leg_stretches_and_folds_up_once_more(robot: Robot, engine: Engine) -> None:
+    """Of these falls the third jams a leg. It comes free; the others are folded up once, to the same bits."""
+    once, twice = (
+        [start_state(engine, robot, Scene(), Fallen(0.69, seed=0, index=i, time=1.5, fold=fold)) for i in range(3)]
+        for fold in (Fold(jammed=None), Fold())
+    )
+    posture = tucked(robot)
+    off = [[float(np.abs(state.joint_position[0] - posture).max()) for state in states] for states in (once, twice)]
+    assert [distance > 0.5 for distance in off[0]] == [False, False, True]
+    assert off[1][2] < 0.1
+    for one, same in zip(once[:2], twice[:2], strict=True):
+        np.testing.assert_array_equal(one.qpos, same.qpos)
+    together = Folding.of(robot, Fold()).folded(engine, State.stacked(once))
+    assert (np.abs(together.joint_position - posture).max(axis=1) < 0.1).all()
+
+
+@pytest.mark.parametrize("jammed", [0.0, -0.5, math.nan])
+def test_a_distance_that_jams_nothing_or_everything_is_refused(jammed: float) -> None:
+    with pytest.raises(LevadeError, match=r"fold\.jammed: .* should be a positive angle"):
+        Fold(jammed=jammed)
 
 
 @pytest.mark.parametrize("name", ["go1", "hyq2max"])

@@ -155,6 +155,36 @@ def test_what_is_astray_is_asked_again_and_what_is_not_to_be_trusted_ends_it(exp
         asker.get_up(exported, blind, wait=no_clock)
 
 
+def test_a_jammed_leg_is_freed_once_before_the_library_is_asked(exported: asker.Library) -> None:
+    assert exported.freeing is not None
+    free, fold = exported.freeing.start_position, exported.fold.start_position
+    told: list[np.ndarray] = []
+
+    @dataclass
+    class Jammed(Lying):
+        """A knee stays half bent until the legs were stretched."""
+
+        freed: bool = False
+
+        def write(self, position, velocity, torque, kp, kd) -> None:
+            super().write(position, velocity, torque, kp, kd)
+            if kp.any():
+                told.append(position.copy())
+                self.freed = self.freed or np.allclose(position, free)
+                self.position[2] += 0.0 if self.freed else 2 * exported.jammed
+
+    lying = Jammed(exported)
+    tried = asker.get_up(exported, lying, attempts=2, tolerance=4.0, tilt_tolerance=4.0, wait=no_clock)
+    assert [one.stopped for one in tried] == ["", ""]
+    rests = [fold, free, fold]
+    at = [next(i for i in range(len(told)) if np.allclose(told[i], rests[0]))]
+    for posture in rests[1:]:
+        at.append(next(i for i in range(at[-1] + 1, len(told)) if np.allclose(told[i], posture)))
+    stretched = [i for i in range(len(told)) if np.allclose(told[i], free)]
+    assert stretched[0] == at[1]
+    assert np.ptp(stretched) == len(stretched) - 1  # only once: the second attempt finds nothing jammed
+
+
 def test_between_two_motions_an_error_lets_the_drives_damp_for_a_second(exported: asker.Library) -> None:
     """The robot looks once per motion before it begins, to see whether it stands; then the fold is played without a look."""
     motions = sum(len(own) for own in exported.motions.values())

@@ -210,9 +210,9 @@ def test_a_library_whose_robot_folded_up_in_another_way_is_refused(library: Libr
     shutil.copytree(library.directory, tmp_path / "old")
     place = tmp_path / "old" / "library.yaml"
     place.write_text(place.read_text() + f"fold: {[0.1] * 12}\n")
-    with pytest.raises(LevadeError, match="folded up into another posture, as an earlier version"):
+    with pytest.raises(LevadeError, match="folded up in another way, as an earlier version"):
         build(rolling(), starts=STARTS, directory=tmp_path / "old")
-    with pytest.raises(LevadeError, match="folded up into another posture, as an earlier version"):
+    with pytest.raises(LevadeError, match="folded up in another way, as an earlier version"):
         check_library(Library.load(tmp_path / "old"), starts=1, seed=1)
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from levade.arrays import Array
 from levade.engines.clearance import measure_clearance
 from levade.engines.engine import Engine
-from levade.engines.folding import fold_posture, folded
+from levade.engines.folding import Folding
 from levade.engines.layout import add_contact_sensors, measure_self_force
 from levade.engines.physics import Physics
 from levade.engines.start import Fallen, GivenState, Settled, Start
@@ -169,7 +169,7 @@ def _fallen(engine: Engine, robot: Robot, scene: Scene, start: Fallen) -> State:
         overlap = _overlap(model, data)
         if not overlap:
             state = engine.hold(model, data, posture, start.time)
-            return state if start.fold is None else folded(engine, state, fold_posture(robot, start.fold), start.fold)
+            return state if start.fold is None else Folding.of(robot, start.fold).folded(engine, state)
     raise LevadeError(
         f"start.fallen: {overlap} in the last of {_DRAWS} postures that were drawn; move the robot (start) or the obstacle"
         " (scene)"

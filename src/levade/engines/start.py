@@ -85,15 +85,22 @@ class Fold:
             of a few ways.
         time: Duration of the movement [s].
         rest: Time at rest until the motion starts [s].
+        jammed: Distance of a joint from the posture [rad] beyond which a leg counts as jammed. A robot with a jammed leg
+            stretches its legs and folds up once more, if it has a posture "stretched". None for never.
     """
 
     posture: str | Mapping[str, float | str] = "tucked"
     time: float = 1.0
     rest: float = 0.5
+    jammed: float | None = 0.5
 
     def __post_init__(self) -> None:
         for name in ("time", "rest"):
             _check_time(f"start.fallen.fold.{name}", getattr(self, name))
+        if self.jammed is not None and not (math.isfinite(self.jammed) and self.jammed > 0):
+            raise LevadeError(
+                f"start.fallen.fold.jammed: {self.jammed} should be a positive angle [rad], such as 0.5, or null"
+            )
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,8 @@ state.json has the sensor readings of a robot that lies still, with its joints i
 ``attitude`` is a quaternion w-x-y-z; its yaw does not matter. Instead, ``up`` gives the upward direction in trunk axes. An
 attempt has these steps:
 
-1. The joints move to the fold's posture within its time, and rest there.
+1. The joints move to the fold's posture within its time, and rest there. If a leg is jammed, they move to the posture `freeing`
+   and back once.
 2. The library is asked with the trunk's attitude and the joints.
 3. Its likeliest motion is played, with the start checks, limits and stops of player.py. The player compares the robot with the
    simulation from the nearest lying pose.
@@ -50,7 +51,7 @@ JOINTS = 0.25
 A robot on its back has to roll over for any leg posture, and its joints soon move elsewhere.
 """
 
-NEAREST, LEAST_REACH = 8, 0.1
+NEAREST, LEAST_REACH = 8, 0.05
 """The distance to this many nearest falls is the width of the weights, and its minimum [rad]."""
 
 HEARD = 128
@@ -210,6 +211,9 @@ class Library:
         model: The model that ranks motions.
         fold: The folded posture, as a motion that rests there.
         fold_time: Time to move there [s].
+        freeing: The posture that it takes if a leg is jammed, as a motion that rests there, before it folds up once more. None
+            if it folds up only once.
+        jammed: Distance of a joint from the folded posture beyond which a leg counts as jammed [rad].
         motions: Number -> the motion, once for each lying pose from which it was simulated.
 
     Raises:
@@ -221,6 +225,8 @@ class Library:
     fold: player.Motion
     fold_time: float
     motions: dict[int, list[player.Motion]]
+    freeing: player.Motion | None = None
+    jammed: float = math.inf
 
     @classmethod
     def load(cls, folder: str | Path) -> Library:
@@ -252,8 +258,13 @@ class Library:
                 raise ValueError("its motions are not those of its model")
             if any(not own or any(one.joints != joints for one in own) for own in motions.values()):
                 raise ValueError("its motions have other joints")
-            fold = resting(next(iter(motions.values()))[0], posture, float(about["fold"]["rest"]))
-            return cls(joints, model, fold, float(about["fold"]["time"]), motions)
+            first = next(iter(motions.values()))[0]
+            fold, time = resting(first, posture, float(about["fold"]["rest"])), float(about["fold"]["time"])
+            if about["fold"].get("freeing") is None:
+                return cls(joints, model, fold, time, motions)
+            freeing = np.array(about["fold"]["freeing"]["position"], dtype=float)
+            jammed = float(about["fold"]["freeing"]["jammed"])
+            return cls(joints, model, fold, time, motions, resting(first, freeing, 0.0), jammed)
         except (OSError, ValueError):
             raise
         except Exception as error:
@@ -416,23 +427,33 @@ def get_up(
         return done
     limits = {"speed_tolerance": speed_tolerance, "clamp": clamp}
     held: player.Motion | None = None  # whose last command the drives have, if they were left with one
+
+    def rest(posture: player.Motion) -> None:
+        player.play(
+            posture,
+            robot,
+            ramp=library.fold_time,
+            start_tolerance=2.0 * math.pi,
+            tolerance=fold_tolerance,
+            feedback=False,
+            wait=wait(),
+            damping=wait(),
+            **limits,
+        )
+
     try:
         while len(done) < attempts and not (done and done[-1].stands):
             motion, probability, stopped, standing = None, 0.0, "", False
             try:
-                player.play(
-                    library.fold,
-                    robot,
-                    ramp=library.fold_time,
-                    start_tolerance=2.0 * math.pi,
-                    tolerance=fold_tolerance,
-                    feedback=False,
-                    wait=wait(),
-                    damping=wait(),
-                    **limits,
-                )
+                rest(library.fold)
                 held = library.fold
                 up, joints = sense(robot, len(library.joints))
+                if library.freeing is not None and np.abs(joints - held.start_position).max() > library.jammed:
+                    rest(library.freeing)
+                    held = library.freeing
+                    rest(library.fold)
+                    held = library.fold
+                    up, joints = sense(robot, len(library.joints))
                 motion, probability = library.ask(up, joints)[0]
                 played = nearest(library.motions[motion], up, joints)
                 player.play(

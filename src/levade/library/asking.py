@@ -131,7 +131,7 @@ class Library:
         content = read_yaml(place)
         mirror = Mirror.from_json(content.get("mirror"), where=str(place))
         knowledge = Knowledge.of(records, mirror)
-        fold = fold_of(content.get("fold"), where=str(place))
+        fold = fold_of(content.get("fold"), where=f"{place}: fold")
         learned = _read_learned(directory / LEARNED, knowledge)
         known = knowledge.merged(read_success(directory, knowledge))
         return cls(directory, records, known, fold, learned, content.get("hardware") is not None)
@@ -206,7 +206,7 @@ def fold_of(content: Any, *, where: str) -> Array | None:
 
     Args:
         content: What the file says.
-        where: Name of the file, for messages.
+        where: Name of the file and of the posture, for messages.
 
     Returns:
         Joint angles [rad], shape (joints,). None if the file names no posture.
@@ -221,7 +221,7 @@ def fold_of(content: Any, *, where: str) -> Array | None:
     except (ValueError, TypeError):
         fold = np.full(1, np.nan)
     if fold.ndim != 1 or not np.isfinite(fold).all():
-        raise LevadeError(f"{where}: fold: should be a list of joint angles; the file is damaged")
+        raise LevadeError(f"{where}: should be a list of joint angles; the file is damaged")
     return fold
 
 

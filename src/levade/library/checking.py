@@ -185,7 +185,7 @@ class _Trial:
         self._library, self._falls, self._seed, self._perturbation = library, falls, seed, perturbation
         self._refine, self._refined = refine, 0
         self._plays = Plays(library.directory, library.knowledge.mirror)
-        self._works: list[Mask] = []  # whether each of the likeliest motions works, per fall
+        self._works: list[Mask] = []  # whether each of the likeliest motions works, per fall; the first alone if it does
         self._perturbed: list[bool] = []
         self._faces: list[str] = []
         self._recovered, self._certified = 0, 0
@@ -205,8 +205,11 @@ class _Trial:
         self._faces += [face(up) for up, _ in sensed]
         numbers = [(one.number, *(number for number, _ in one.others))[: max(AFTER)] for one in answers]
         plays = [[self._plays[number] for number in own] for own in numbers]
-        found = tried(objectives, plays)
+        found = tried(objectives, [own[:1] for own in plays])
         works: list[Mask] = [one.success for one in found]
+        left = [j for j, one in enumerate(works) if not one[0] and len(plays[j]) > 1]
+        for j, others in zip(left, tried([objectives[j] for j in left], [plays[j][1:] for j in left]), strict=True):
+            works[j] = np.concatenate([works[j], others.success])
         self._works += works
         if self._library.hardware:
             self._judge(answers, found)

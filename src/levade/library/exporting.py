@@ -92,8 +92,9 @@ def export_library(
         )
     falls, seed = read_falls(library.directory, robot=robot)
     task = falls.task
-    fold = task.start.fallen and task.start.fallen.fold
-    assert fold is not None
+    folding = falls.folding
+    assert folding is not None
+    fold, freeing = folding.fold, folding.freeing
     plays = Plays(library.directory, knowledge.mirror)
     folders: dict[int, list[str]] = {}
     failed: list[str] = []
@@ -116,7 +117,12 @@ def export_library(
         (partial / "model.npz").write_bytes(model)
         about: dict[str, Any] = {
             "joints": list(falls.simulation.robot.joint_names),
-            "fold": {"position": library.fold.tolist(), "time": fold.time, "rest": fold.rest},
+            "fold": {
+                "position": library.fold.tolist(),
+                "time": fold.time,
+                "rest": fold.rest,
+                "freeing": None if freeing is None else {"position": freeing.tolist(), "jammed": fold.jammed},
+            },
             "motions": {str(number): places for number, places in folders.items()},
             "library": {
                 "task": task.name,

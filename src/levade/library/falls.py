@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from levade.arrays import Array
 from levade.engines import Fallen, Fold, Perturbation, State, perturbed_models, start_state
-from levade.engines.folding import fold_posture, folded
+from levade.engines.folding import Folding
 from levade.errors import LevadeError
 from levade.feedback import up_in_trunk
 from levade.hardware import Plan
@@ -43,7 +43,7 @@ class Falls:
         judged: The task by which motions are judged. With a plan, its criteria include limits, and its duration is free.
         threads: Number of engine threads (0: one per core).
         simulation: The simulation that all falls share.
-        fold: Joint angles to which the robot folds up first [rad], shape (joints,). None if it does not fold up.
+        folding: How the robot folds up first. None if it does not.
         mirror: Mirror of the robot. None unless robot, scene and policy are all symmetric.
     """
 
@@ -83,7 +83,7 @@ class Falls:
             raise LevadeError(f"hardware: the task {task.name} has no success criteria to certify; add some")
         self.judged = self.task if self.plan is None else self.plan.certifiable(self.plan.within_limits())
         self.simulation = Simulation.of(self.judged, robot=robot, threads=threads)
-        self.fold = None if fallen.fold is None else fold_posture(robot, fallen.fold)
+        self.folding = None if fallen.fold is None else Folding.of(robot, fallen.fold)
         self.mirror = None if task.scene.boxes or task.scene.terrain else self._mirror()
 
     def _mirror(self) -> Mirror | None:
@@ -119,9 +119,12 @@ class Falls:
         Returns:
             State after folding up; unchanged if the robot does not fold up.
         """
-        if self.fold is None or self._fallen.fold is None:
-            return state
-        return folded(self.simulation.engine, state, self.fold, self._fallen.fold)
+        return state if self.folding is None else self.folding.folded(self.simulation.engine, state)
+
+    @property
+    def fold(self) -> Array | None:
+        """Joint angles to which the robot folds up first [rad], shape (joints,). None if it does not fold up."""
+        return None if self.folding is None else self.folding.posture
 
     def from_state(self, state: State) -> Objective:
         """Return the task from a state that is not one of the falls.
@@ -150,7 +153,7 @@ def _usual(task: Task, robot: Robot) -> Fallen:
     if task.physics.engine != "mujoco":
         return fallen
     try:
-        fold_posture(robot, fold := Fold())
+        Folding.of(robot, fold := Fold())
     except LevadeError:
         fold = Fold("neutral")
     return replace(fallen, fold=fold)

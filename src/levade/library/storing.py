@@ -101,7 +101,8 @@ def begin(
     with storing(place, then=Remedy("give another directory", "elsewhere")):
         write_text(directory / TASK, task_to_yaml(falls.task))
         mirror = None if falls.mirror is None else falls.mirror.to_json()
-        fold = "" if falls.fold is None else f"fold: {json.dumps(falls.fold.tolist())}\n"
+        postures = {"fold": falls.fold, "freeing": None if falls.folding is None else falls.folding.freeing}
+        fold = "".join(f"{name}: {json.dumps(one.tolist())}\n" for name, one in postures.items() if one is not None)
         part = "" if shard == WHOLE else f"shard: [{shard.number}, {shard.shards}]\n"
         kept = "" if hardware is None else f"hardware: {json.dumps(asdict(hardware))}\n"
         write_text(place, f"seed: {seed}\nstarts: {starts}\nmirror: {json.dumps(mirror)}\n{fold}{part}{kept}")
@@ -124,15 +125,17 @@ def _check_same(directory: Path, hardware: Hardware | None) -> None:
 
 
 def _check_fold(directory: Path, falls: Falls) -> None:
-    """Raise LevadeError unless the robot still folds up into the posture from which a library's motions begin."""
-    fold = fold_of(_content(directory).get("fold"), where=str(directory / LIBRARY))
-    if (fold is None) != (falls.fold is None):
-        same = False
-    else:
-        same = fold is None or falls.fold is None or (fold.shape == falls.fold.shape and np.allclose(fold, falls.fold))
-    if not same:
+    """Raise LevadeError unless the robot still folds up as it did before a library's motions."""
+    content, where = _content(directory), str(directory / LIBRARY)
+    freeing = None if falls.folding is None else falls.folding.freeing
+    for name, own in (("fold", falls.fold), ("freeing", freeing)):
+        known = fold_of(content.get(name), where=f"{where}: {name}")
+        if known is own is None or (
+            known is not None and own is not None and known.shape == own.shape and np.allclose(known, own)
+        ):
+            continue
         raise LevadeError(
-            f"{directory}: its robot folded up into another posture, as an earlier version or file of the robot had it",
+            f"{directory}: its robot folded up in another way, as an earlier version or file of the robot had it",
             remedies=(Remedy("build it again elsewhere", "elsewhere"),),
         )
 
