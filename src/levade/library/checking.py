@@ -185,7 +185,8 @@ class _Trial:
         self._library, self._falls, self._seed, self._perturbation = library, falls, seed, perturbation
         self._refine, self._refined = refine, 0
         self._plays = Plays(library.directory, library.knowledge.mirror)
-        self._works: list[Mask] = []  # whether each of the likeliest motions works, per fall, up to the first one that does
+        # per fall, whether each of the likeliest motions works, up to the first one that does
+        self._works: list[Mask] = []
         self._perturbed: list[bool] = []
         self._faces: list[str] = []
         self._recovered, self._certified = 0, 0
