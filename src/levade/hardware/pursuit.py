@@ -38,6 +38,7 @@ from levade.checks.record import CERTIFICATE
 from levade.checks.statistics import wilson
 from levade.document import read_yaml
 from levade.errors import LevadeError, Remedy
+from levade.hardware.budget import FEW, Budget
 from levade.hardware.page import write_certificate
 from levade.hardware.part import Part, Pursued
 from levade.hardware.starts import rough_start
@@ -86,9 +87,6 @@ _ON_ROBUST = 0.7
 
 _BALANCED = 0.25
 """Share of perturbed robots below which no motion becomes robust in open loop: it needs feedback at once."""
-
-_FEW = 100
-"""Least number of perturbed runs of a certificate. It ends after them if the demanded share is out of reach."""
 
 _CONTACTS = {"softer contact", "stiffer contact"}
 """Variants of the contact model. If a motion fails one, the search around it also perturbs contacts."""
@@ -186,8 +184,8 @@ def pursue(
         state.write()
         began = time.monotonic()
         end = None if minutes is None else began + 60 * minutes
-        how = (end, demands, runs, begin, observe, tell, stopping)
-        first = _Pursuit(plan, seed, threads, state, *how, trials=trials, around=around)
+        how = (demands, begin, observe, tell, stopping)
+        first = _Pursuit(plan, seed, threads, state, Budget(end, trials, runs), *how, around=around)
         found, number = first.go(), 1
         while not found.passed and not found.stopped and around is None:
             place = again(directory, number)
@@ -220,23 +218,20 @@ class _Pursuit:
         seed: int,
         threads: int,
         state: State,
-        end: float | None,
+        budget: Budget,
         demands: Demands,
-        runs: int,
         begin: Begin | None,
         observe: Observe | None,
         tell: Tell | None,
         stopping: Callable[[], bool],
         prefix: str = "",
-        trials: int | None = None,
         around: Motion | None = None,
     ) -> None:
         self._plan, self._seed, self._threads, self._state = plan, seed, threads, state
         self._directory, self._prefix = state.directory, prefix
-        self._end, self._demands, self._runs = end, demands, runs
+        self._budget, self._demands = budget, demands
         self._begin, self._observe, self._tell, self._stopping = begin, observe, tell, stopping
-        self._trials, self._around = trials, around
-        self._began = time.monotonic()
+        self._around = around
         self._parts: list[Part] = []
         self._kinds: dict[str, int] = {}  # which of the plan's searches within limits each is
         self._share = 1.0  # share of the time for a search without success
@@ -255,8 +250,9 @@ class _Pursuit:
             prefix: Prefix of its searches' names in reports.
             trials: Most roll-outs of its searches. None sets no limit.
         """
-        how = (self._end, self._demands, self._runs, self._begin, self._observe, self._tell, self._stopping)
-        return _Pursuit(self._plan, state.seed, self._threads, state, *how, prefix, trials)
+        how = (self._demands, self._begin, self._observe, self._tell, self._stopping)
+        budget = Budget(self._budget.end, trials, self._budget.runs)
+        return _Pursuit(self._plan, state.seed, self._threads, state, budget, *how, prefix)
 
     def joined(self, found: Pursued, other: Pursued) -> Pursued:
         """Join the result so far with that of another pursuit, and keep the better motion in this directory.
@@ -303,7 +299,7 @@ class _Pursuit:
             task, near = self._within_limits(name, number)
             part = self._search(name, task, near, seed=self._seed + _APART * number)
             met = any(part.met for part in self._parts)
-            if self._stopped or part.sure or (met and self._late(_ENOUGH)):
+            if self._stopped or part.sure or (met and self._budget.late(_ENOUGH)):
                 break
 
     def _hold_on_others(self) -> None:
@@ -375,24 +371,13 @@ class _Pursuit:
             self._state.chosen = part.name
             self._state.write()
 
-    def _late(self, share: float, trials: int = 0) -> bool:
-        """Whether a share of the time is over, or of the trials, including those of the search that goes on."""
-        if self._spent(share, trials):
-            return True
-        return self._end is not None and time.monotonic() > self._began + share * (self._end - self._began)
-
-    def _spent(self, share: float, trials: int) -> bool:
-        """Whether a share of the trials is spent, including those of the search that goes on."""
-        spent = sum(part.trials for part in self._parts) + trials
-        return self._trials is not None and spent >= share * self._trials
-
     @property
     def _best(self) -> Part:
         return min(self._parts, key=lambda part: part.rank)
 
     def _search(self, name: str, task: Task, around: Motion | None, *, seed: int) -> Part:
         """Make one search, go on with it, or take its earlier result; then certify its motion."""
-        began = time.monotonic()
+        began = self._budget.begin()
         outcome = self._run(name, task, around, seed)
         motion = outcome.motion.with_task(self._plan.certifiable(outcome.motion.task))
         # a motion beyond the limits would only fail; if there is no other, the nearest one is certified in the end
@@ -401,6 +386,7 @@ class _Pursuit:
         if not hopeless:
             part = self._certified(part)
         self._parts.append(part)
+        self._budget.made(part.trials)
         self._tell_of(part)
         return part
 
@@ -430,7 +416,7 @@ class _Pursuit:
         began = time.monotonic()
         certificate = check(
             part.motion,
-            runs=self._runs,
+            runs=self._budget.runs,
             seed=self._seed,
             perturbation=self._plan.perturb,
             demands=self._demands,
@@ -440,7 +426,9 @@ class _Pursuit:
         )
         if certificate.interrupted:
             self._stopped = "interrupted"
-        part = replace(part, certificate=certificate, seconds=part.seconds + time.monotonic() - began)
+        took = time.monotonic() - began
+        self._budget.certified(took, certificate.perturbed.runs)
+        part = replace(part, certificate=certificate, seconds=part.seconds + took)
         if part.rank <= min((one.rank for one in self._parts), default=part.rank) and not self._better_there(part):
             self._keep(part, certificate)
         return part
@@ -448,7 +436,7 @@ class _Pursuit:
     def _hopeless(self, successes: int, runs: int) -> bool:
         """Whether further perturbed runs cannot reach the demanded share any more."""
         share = self._demands.share
-        return share is not None and runs >= _FEW and wilson(successes, runs)[1] < share
+        return share is not None and runs >= FEW and wilson(successes, runs)[1] < share
 
     def _run(self, name: str, task: Task, around: Motion | None, seed: int) -> Outcome:
         directory = self._directory / name
@@ -479,9 +467,9 @@ class _Pursuit:
         wish = wish or (Stopped.INTERRUPTED if self._stopping() else None)
         if wish is not None:
             self._stopped = "interrupted"
-        elif self._end is not None and time.monotonic() > self._end and not generation.replayed:
+        elif not generation.replayed and self._budget.over(generation):
             self._stopped, wish = "time", Stopped.INTERRUPTED
-        elif self._spent(1.0, generation.trials):  # also when it is replayed: a later call stops there, too
+        elif self._budget.spent(1.0, generation.trials):  # also when it is replayed: a later call stops there, too
             self._stopped, wish = "trials", Stopped.INTERRUPTED
         elif generation.trials_to_success is None and self._gives_up(generation):
             wish = Stopped.INTERRUPTED
@@ -489,9 +477,9 @@ class _Pursuit:
 
     def _gives_up(self, generation: Generation) -> bool:
         """Whether a search without success ends, because it has had its share."""
-        if self._spent(self._share, generation.trials):
+        if self._budget.spent(self._share, generation.trials):
             return True
-        return not generation.replayed and self._late(self._share)
+        return not generation.replayed and self._budget.late(self._share)
 
     def _better_there(self, part: Part) -> bool:
         """Whether an earlier call left a motion with a better certificate for the same demands."""
