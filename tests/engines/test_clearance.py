@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Iterable
 
 import mujoco
 import numpy as np
@@ -40,6 +41,55 @@ ARMS = """
   </worldbody>
 </mujoco>
 """
+
+
+SHAPES = {
+    "box": 'type="box" size="0.06 0.04 0.03"',
+    "cylinder": 'type="cylinder" size="0.05 0.02"',
+    "rod": 'type="cylinder" size="0.02 0.1"',
+    "capsule": 'type="capsule" size="0.02 0.08"',
+    "sphere": 'type="sphere" size="0.04"',
+    "ellipsoid": 'type="ellipsoid" size="0.03 0.05 0.07"',
+    "mesh": 'type="mesh" mesh="wedge"',
+}
+"""Of every kind that a robot may have."""
+PRIMITIVE = tuple(name for name in SHAPES if name != "mesh")  # a mesh's pose is rounded anew in each text
+
+
+def crowd(names: Iterable[str], margin: float) -> str:
+    """A trunk with a sphere, and shapes around it that each move on a ball joint and a slide."""
+    bodies = "".join(
+        f'''<body name="{name}" pos="{0.13 * math.cos(angle)} {0.13 * math.sin(angle)} 0.05">
+          <joint name="{name}_turn" type="ball"/><joint name="{name}_slide" type="slide" axis="0.6 0 0.8"/>
+          <geom name="{name}" {SHAPES[name]} margin="{margin}"/></body>'''
+        for name in names
+        for angle in [2.0 * math.pi * list(SHAPES).index(name) / len(SHAPES)]
+    )
+    return f"""<mujoco>
+      <asset><mesh name="wedge" vertex="0 0 0  0.1 0 0  0 0.1 0  0 0 0.1  0.1 0 0.05"/></asset>
+      <worldbody>
+        <geom name="floor" type="plane" size="1 1 1"/>
+        <body name="trunk" pos="0 0 2"><freejoint/>
+          <inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>{bodies}</body>
+      </worldbody>
+    </mujoco>"""
+
+
+def crowded(text: str, clearance: float) -> mujoco.MjModel:
+    spec = mujoco.MjSpec.from_string(text)
+    measure_clearance(spec, "trunk", clearance)
+    return spec.compile()
+
+
+def thrown(model: mujoco.MjModel, draws: np.ndarray) -> np.ndarray:
+    """Configurations of a crowd: of each shape, by its name, four numbers of its turn and one of its slide."""
+    qpos = np.tile(model.qpos0, (len(draws), 1))
+    for i, name in enumerate(SHAPES):
+        turn = draws[:, i, :4] / np.linalg.norm(draws[:, i, :4], axis=1, keepdims=True)
+        at = int(model.joint(f"{name}_turn").qposadr[0])
+        qpos[:, at : at + 4] = turn
+        qpos[:, int(model.joint(f"{name}_slide").qposadr[0])] = 0.1 * draws[:, i, 4]
+    return qpos
 
 
 @pytest.fixture(scope="module")
@@ -89,6 +139,76 @@ def test_the_least_distance_is_that_of_a_loop_over_all_pairs_that_may_touch(
     np.testing.assert_allclose(found[rows], expected, atol=2e-6)
 
 
+@pytest.mark.parametrize("margin", [0.0, 0.003, 0.02])
+def test_the_least_distance_of_every_kind_of_shape_is_that_of_the_shapes_themselves(margin: float) -> None:
+    """In random postures it is never too small, and less than a millimetre too large, whatever margins the shapes have.
+
+    MuJoCo may find several contacts where an edge meets a flat side, all of them a little beside the nearest points.
+    """
+    model = crowded(crowd(SHAPES, margin), CLEARANCE)
+    qpos = thrown(model, np.random.default_rng(0).standard_normal((400, len(SHAPES), 5)))
+    pairs = [(a, b) for a in range(1, model.ngeom) for b in range(1, a)]
+    data, expected, nearest = mujoco.MjData(model), np.empty(len(qpos)), set()
+    for row, at in enumerate(qpos):
+        data.qpos[:] = at
+        mujoco.mj_kinematics(model, data)
+        apart = [mujoco.mj_geomDistance(model, data, a, b, CLEARANCE, np.zeros(6)) for a, b in pairs]
+        expected[row] = min(apart)
+        if 0 < expected[row] < CLEARANCE:
+            nearest.add(frozenset(pairs[int(np.argmin(apart))]))
+    apart = expected > 0  # a depth has no unique direction
+    found = distances_at(model, qpos)
+    assert len(nearest) > 12  # of 21 pairs
+    more = found[apart] - expected[apart]
+    assert more.min() > -3e-6
+    assert more.max() < 1e-3
+    assert np.mean(more < 3e-6) > 0.95
+    assert (found[~apart] <= 0).all()
+
+
+def test_the_least_distance_does_not_depend_on_the_order_of_joints() -> None:
+    draws = np.random.default_rng(1).standard_normal((200, len(SHAPES), 5))
+    one, other = (crowded(crowd(names, 0.001), CLEARANCE) for names in (SHAPES, reversed(list(SHAPES))))
+    assert one.joint(1).name != other.joint(1).name
+    found = distances_at(one, thrown(one, draws))
+    assert len(np.unique(found)) > 20
+    apart = found > 0
+    assert found[apart] == pytest.approx(distances_at(other, thrown(other, draws))[apart], abs=1e-5)
+
+
+@pytest.mark.parametrize(("margin", "gap"), [(0.0, 0.01), (0.001, 0.009), (0.0095, 0.0005), (0.01, 0.0), (0.02, 0.0)])
+def test_a_margin_is_a_part_of_the_distance_at_which_shapes_are_found(margin: float, gap: float) -> None:
+    """Nothing is found farther away than it is measured, unless the model itself finds it there."""
+    text = crowd(SHAPES, margin)
+    model, plain = crowded(text, CLEARANCE), mujoco.MjModel.from_xml_string(text)
+    assert model.geom_gap[1:] == pytest.approx(np.full(model.ngeom - 1, gap), abs=1e-12)
+    assert model.geom_gap[0] == pytest.approx(-gap, abs=1e-12)
+    assert np.array_equal(model.geom_margin, plain.geom_margin)
+    data, farthest = mujoco.MjData(model), 0.0
+    for at in thrown(model, np.random.default_rng(2).standard_normal((200, len(SHAPES), 5))):
+        data.qpos[:] = at
+        mujoco.mj_forward(model, data)
+        for contact in data.contact:
+            farthest = max(farthest, contact.dist)
+            assert (contact.dist < 2 * margin) == (contact.exclude == 0)
+    assert 0.9 * max(CLEARANCE, 2 * margin) < farthest < max(CLEARANCE, 2 * margin)
+
+
+def test_a_model_that_finds_shapes_at_the_clearance_keeps_its_bits() -> None:
+    """Shapes whose contacts are found by iteration, too."""
+    text = crowd(SHAPES, 0.01)
+    model, plain = crowded(text, CLEARANCE), mujoco.MjModel.from_xml_string(text)
+    qpos = thrown(model, np.random.default_rng(3).standard_normal((20, len(SHAPES), 5)))
+    for at in qpos:
+        ends = []
+        for one in (model, plain):
+            data = mujoco.MjData(one)
+            data.qpos[:] = at
+            mujoco.mj_step(one, data, nstep=20)
+            ends.append(data.qpos.copy())
+        assert np.array_equal(*ends)
+
+
 def test_the_sensor_of_a_batch_finds_what_single_configurations_have(
     measuring: Engine, state: State, wave: Wave
 ) -> None:
@@ -136,8 +256,9 @@ def test_the_scene_is_met_from_no_farther(measuring: Engine, engine: Engine) -> 
     assert not engine.model.geom_gap.any()
 
 
-def test_what_is_added_to_a_model_can_be_taken_away() -> None:
-    spec = mujoco.MjSpec.from_string(ARMS)
+@pytest.mark.parametrize("robot", [ARMS, crowd(PRIMITIVE, 0.00123457), crowd(PRIMITIVE, 0.5)])
+def test_what_is_added_to_a_model_can_be_taken_away(robot: str) -> None:
+    spec = mujoco.MjSpec.from_string(robot)
     before = spec.to_xml()
     measure_clearance(spec, "trunk", 0.0123456789)
     text = spec.to_xml()
@@ -147,6 +268,18 @@ def test_what_is_added_to_a_model_can_be_taken_away() -> None:
     again = mujoco.MjSpec.from_string(text)
     forget_clearance(again)
     assert again.to_xml() == before
+
+
+def test_what_version_0_2_added_can_be_taken_away() -> None:
+    """It gave each shape half of the clearance, and noted the clearance alone."""
+    spec = mujoco.MjSpec.from_string(crowd(PRIMITIVE, 0.004))
+    before = spec.to_xml()
+    measure_clearance(spec, "trunk", CLEARANCE)
+    for geom in spec.geoms:
+        geom.gap = -CLEARANCE / 2 if geom.name == "floor" else CLEARANCE / 2
+    spec.numerics[0].data = [CLEARANCE]
+    forget_clearance(spec)
+    assert spec.to_xml() == before
 
 
 def test_a_clearance_of_nothing_measures_depths_alone(

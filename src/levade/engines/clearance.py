@@ -6,11 +6,12 @@
 A pair of the robot's shapes counts if the two may touch in the model. So adjacent bodies do not count, nor do bodies that
 overlap in the neutral posture, which the robot's model lets pass through each other (`levade.robots.preparing`).
 
-With a clearance, MuJoCo also finds contacts of shapes that are only near each other. They have no force. Each shape of the
-robot has half of the clearance as its ``gap``, and each shape of the scene as much less. Gaps add up, so contacts with the
-scene are found as before. Spheres and capsules, and boxes that meet these, have the same contacts with and without a clearance,
+With a clearance, MuJoCo also finds contacts of shapes that are only near each other. They have no force. Two shapes are found
+at the sum of their margins and gaps. So each shape of the robot has a ``gap`` of half of the clearance less the least margin,
+and each shape of the scene has as much less, so contacts with the scene are found as before. Spheres and capsules, and boxes that meet these, have the same contacts with and without a clearance,
 to the bit. For shapes whose contacts MuJoCo finds by iteration (cylinders, ellipsoids, meshes), the last digits of a depth
-depend on the gap, so a clearance changes the model. A clearance of 0 sets no gap, and changes no bit of a motion.
+depend on the gap, so a clearance changes the model. A clearance of 0, or of at most two margins, sets no gap, and changes no
+bit of a motion.
 """
 
 from __future__ import annotations
@@ -40,15 +41,16 @@ def measure_clearance(spec: mujoco.MjSpec, trunk: str, clearance: float) -> None
         trunk: Name of the body that holds all other bodies of the robot.
         clearance: Distance from which parts count as apart [m]; 0 to measure only depths.
     """
-    clearance = math.ceil(clearance / _MICRON - 1e-9) * _MICRON  # a model's text has six digits
-    _widen(spec, clearance)
+    clearance = _microns(clearance)  # a model's text has six digits
+    gap = _microns(max(clearance / 2 - _least_margin(spec), 0.0)) if clearance else 0.0  # of each shape
+    _widen(spec, gap, clearance)
     found, distance = (1 << int(field) for field in (_FOUND, _DISTANCE))
     tree = mujoco.mjtObj.mjOBJ_XBODY
     sensor = spec.add_sensor(
         name=_NAME, type=mujoco.mjtSensor.mjSENS_CONTACT, objtype=tree, objname=trunk, reftype=tree, refname=trunk
     )
     sensor.intprm[:3] = [found | distance, _NEAREST, 1]
-    spec.add_numeric(name=_NAME, data=[clearance])
+    spec.add_numeric(name=_NAME, data=[clearance, gap])
 
 
 _FOUND, _DISTANCE = mujoco.mjtConDataField.mjCONDATA_FOUND, mujoco.mjtConDataField.mjCONDATA_DIST
@@ -64,18 +66,41 @@ def forget_clearance(spec: mujoco.MjSpec) -> None:
     number = next((one for one in spec.numerics if one.name == _NAME), None)
     if number is None:
         return
-    _widen(spec, -float(np.asarray(number.data)[0]))
+    clearance, *rest = (float(value) for value in number.data)
+    gap = rest[0] if rest else clearance / 2  # version 0.2 gave each shape half of the clearance
+    _widen(spec, -gap, -clearance)
     spec.delete(number)
     spec.delete(spec.sensor(_NAME))
 
 
-def _widen(spec: mujoco.MjSpec, clearance: float) -> None:
-    """Find contacts within the robot at a larger distance."""
-    if not clearance:
-        return
+def _microns(length: float) -> float:
+    """Round a length up to whole micrometres [m]."""
+    return math.ceil(length / _MICRON - 1e-9) * _MICRON
+
+
+def _colliding(spec: mujoco.MjSpec) -> Iterator[tuple[mujoco.MjsGeom, bool]]:
+    """Yield shapes that may touch others, and whether they belong to the scene."""
     for geom in spec.geoms:
         if geom.contype or geom.conaffinity:
-            geom.gap += -clearance / 2 if geom.parent.name == _WORLD else clearance / 2
+            yield geom, geom.parent.name == _WORLD
+
+
+def _least_margin(spec: mujoco.MjSpec) -> float:
+    """Return the least margin of the robot's shapes [m]: MuJoCo finds their contacts at twice as much without a gap."""
+    return min((float(geom.margin) for geom, scene in _colliding(spec) if not scene), default=0.0)
+
+
+def _widen(spec: mujoco.MjSpec, gap: float, clearance: float) -> None:
+    """Find contacts within the robot at a larger distance.
+
+    Args:
+        spec: Robot and scene; it is changed.
+        gap: What each shape of the robot gets, and each shape of the scene loses [m].
+        clearance: What pairs get that the model lists, whose gap is their own [m].
+    """
+    if gap:
+        for geom, scene in _colliding(spec):
+            geom.gap += -gap if scene else gap
     scene = {geom.name for geom in spec.geoms if geom.parent.name == _WORLD}
     for pair in spec.pairs:
         if not {pair.geomname1, pair.geomname2} & scene:
