@@ -18,6 +18,7 @@ from rich.markup import escape
 
 from levade.arrays import Array
 from levade.cli.checking import changed
+from levade.cli.pace import Pace
 from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console
 from levade.document import read_yaml
@@ -100,13 +101,17 @@ def build_library(
     directory = out or Path(f"{loaded.name}-library")
     demanded = _demanded(directory, hardware, trials, demand)
     console = make_console(stderr=as_json)
-    began = time.monotonic()
+    began, pace = time.monotonic(), Pace()
 
     def observe(progress: Progress) -> None:
         spent = time.monotonic() - began
+        pace.add(progress.done)
+        left = pace.left(progress.starts - progress.done) if progress.done < progress.starts else None
         console.print(
             f"  {progress.done} of {progress.starts} falls: {progress.motions} motions, {progress.trials} trials,"
-            f" {spent:.0f} s" + ("" if progress.cpus is None else f", {progress.cpus} CPUs"),
+            f" {spent:.0f} s"
+            + ("" if left is None else f", about {left} left")
+            + ("" if progress.cpus is None else f", {progress.cpus} CPUs"),
             style="dim",
         )
 
