@@ -69,6 +69,32 @@ def packaged() -> Callable[[str], Robot]:
     return packaged
 
 
+WOUND = """
+name: wound
+model: {model}
+actuations:
+  motors:
+    kind: dcmotor
+    stall_torque: 400
+    no_load_speed: 35
+    kp: 600
+    kd: 20
+    winding: {winding}
+"""
+
+
+@pytest.fixture
+def wound(tmp_path: Path) -> Callable[[str], Path]:
+    """Write the description of HyQ2Max with motors whose windings are the text: `robot.yaml` in the test's folder."""
+
+    def wound(winding: str) -> Path:
+        model = Path(load_robot("hyq2max").source).with_name("hyq2max.xml")
+        (tmp_path / "robot.yaml").write_text(WOUND.format(model=model, winding=winding))
+        return tmp_path / "robot.yaml"
+
+    return wound
+
+
 @pytest.fixture(scope="session")
 def browser() -> Iterator[Any]:
     """Chromium, headless, drawing in software."""

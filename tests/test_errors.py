@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import levade
-from levade.errors import LevadeError, Remedy
+from levade.errors import LevadeError, Remedy, did_you_mean
 
 SOURCE = Path(levade.__file__).parent
 OPTION = re.compile(r"(^|[\s(\"'`])--[a-z]|\blevade [a-z]+ (\w+ )*--")
@@ -82,3 +82,22 @@ def test_an_error_survives_the_way_between_processes() -> None:
     for same in (pickle.loads(pickle.dumps(error)), copy.copy(error)):
         assert (same.message, same.field, same.remedies) == (error.message, error.field, error.remedies)
         assert str(same) == "out: exists; go on with it"
+
+
+@pytest.mark.parametrize(
+    ("name", "valid", "hint"),
+    [
+        ("rearin", ["rearing", "squat"], "did you mean rearing?"),
+        ("g1", ["go1", "g1_29dof_rev_1_0"], "did you mean g1_29dof_rev_1_0?"),
+        ("g1", ["go1", "g1_29dof_with_hand", "g1_29dof"], "did you mean g1_29dof?"),
+        ("g1", ["go1", "g1_29dof_hand", "g1_29dof_arm"], "did you mean g1_29dof_arm or g1_29dof_hand?"),
+        ("lf", ["lf_haa", "lf_hfe", "lf_kfe", "rf_haa"], "did you mean lf_haa, lf_hfe or lf_kfe?"),
+        ("lf", ["lf_a", "lf_bcdef", "lf_cdefg"], "did you mean lf_a?"),  # near enough, alone
+        ("position", ["positions", "position_of_the_trunk"], "did you mean positions?"),
+        ("stand", ["handstand", "stand-on-one-leg-only"], "did you mean stand-on-one-leg-only?"),
+        ("x", ["go1", "a1"], "valid names: a1, go1"),
+        ("", ["go1", "a1"], "valid names: a1, go1"),
+    ],
+)
+def test_a_hint_prefers_names_that_begin_with_what_was_given(name: str, valid: list[str], hint: str) -> None:
+    assert did_you_mean(name, valid) == hint

@@ -25,7 +25,7 @@ from levade.policies import Policy
 from levade.policies.groups import expansion
 from levade.search import Objective, make_objective
 from levade.tasks import Task, load_task, task_to_yaml
-from levade.tasks.document import task_to_dict
+from levade.tasks.writing import task_to_dict
 
 HERE = Path(__file__).resolve().parent
 

@@ -79,8 +79,32 @@ def one_line(text: str) -> str:
     return "".join(c if c.isprintable() else " " if c.isspace() else repr(c)[1:-1] for c in text)
 
 
+_MOST = 3
+"""Largest number of names that a hint suggests."""
+
+
+def nearest(name: str, valid: Iterable[str]) -> list[str]:
+    """Find the valid names that an unknown name may stand for.
+
+    Names that begin with the unknown one come before names that only look like it: g1 is the beginning of
+    g1_29dof_rev_1_0, and not a typing error for go1.
+
+    Args:
+        name: The unknown name.
+        valid: The valid names.
+
+    Returns:
+        The name that is closest; up to three names if they begin with the unknown one and none is close; or no name.
+    """
+    names = sorted(valid)
+    begun = sorted((one for one in names if name and one.startswith(name)), key=len)
+    if near := difflib.get_close_matches(name, begun or names, n=1, cutoff=0.6):
+        return near
+    return [one for i, one in enumerate(begun) if not one.startswith(tuple(begun[:i]))][:_MOST]
+
+
 def did_you_mean(name: str, valid: Iterable[str]) -> str:
-    """Return the tail of an "unknown name" message: the nearest valid name, or all of them when none is near.
+    """Return the tail of an "unknown name" message: the nearest valid names, or all of them when none is near.
 
     >>> did_you_mean("rearin", ["rearing", "posture-recovery"])
     'did you mean rearing?'
@@ -93,8 +117,11 @@ def did_you_mean(name: str, valid: Iterable[str]) -> str:
         The hint.
     """
     names = sorted(valid)
-    near = difflib.get_close_matches(name, names, n=1, cutoff=0.6)
-    return f"did you mean {near[0]}?" if near else f"valid names: {', '.join(names)}"
+    near = nearest(name, names)
+    if not near:
+        return f"valid names: {', '.join(names)}"
+    *most, last = near
+    return f"did you mean {', '.join(most)}{' or ' if most else ''}{last}?"
 
 
 @contextmanager

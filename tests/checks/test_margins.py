@@ -13,9 +13,9 @@ import pytest
 from levade.checks import Demands, margins
 from levade.checks.contacts import landings, poses, scene_forces
 from levade.motions import Motion, RecordedSimulation
-from levade.robots import load_robot
 
 Change = Callable[..., Motion]
+Wound = Callable[[str], Path]
 
 
 def failed(motion: Motion, demands: Demands | None = None) -> dict[str, tuple[str, ...]]:
@@ -127,33 +127,19 @@ def test_what_heats_and_what_all_joints_take_at_once(standing: Motion) -> None:
     assert found["robot_power"].passed is False
 
 
-WARM = """
-name: warm
-model: {model}
-actuations:
-  motors:
-    kind: dcmotor
-    stall_torque: 400
-    no_load_speed: 35
-    kp: 600
-    kd: 20
-    winding: {{motorconst: 0.5, gear: 10, current: 40, resistance: 0.2, thermal: {{resistance: 2, capacitance: 5{limit}}}}}
-"""
-
-
-def with_windings(motion: Motion, change: Change, place: Path, limit: str = "", **arrays: np.ndarray) -> Motion:
+def with_windings(motion: Motion, change: Change, wound: Wound, limit: str = "", **arrays: np.ndarray) -> Motion:
     """The motion of a robot whose description has windings: 5 Nm/A, 40 A, 0.2 ohm, 10 s."""
-    model = Path(load_robot("hyq2max").source).with_name("hyq2max.xml")
-    (place / "robot.yaml").write_text(WARM.format(model=model, limit=limit))
-    named = {**motion.meta["task"]["robot"], "name": str(place / "robot.yaml")}
+    thermal = f"{{resistance: 2, capacitance: 5{limit}}}"
+    robot = wound(f"{{motorconst: 0.5, gear: 10, current: 40, resistance: 0.2, thermal: {thermal}}}")
+    named = {**motion.meta["task"]["robot"], "name": str(robot)}
     return change(motion, {"task": {**motion.meta["task"], "robot": named}}, **arrays)
 
 
-def test_windings_have_a_current_and_a_temperature(standing: Motion, changed: Change, tmp_path: Path) -> None:
+def test_windings_have_a_current_and_a_temperature(standing: Motion, changed: Change, wound: Wound) -> None:
     """At 150 Nm one takes 30 of 40 A, which is 180 W: from 25 degC it is 360 K (1 - e^(-t / 10 s)) warmer."""
     torque = np.zeros_like(standing["joint_torque"])
     torque[:, 4] = -150.0
-    moved = with_windings(standing, changed, tmp_path, ", limit: 75", joint_torque=torque)
+    moved = with_windings(standing, changed, wound, ", limit: 75", joint_torque=torque)
     found = margins(RecordedSimulation(moved), Demands())
     name = moved.joint_names[4]
     current, warm = found["current"], found["winding_temperature"]
@@ -174,10 +160,10 @@ def test_windings_have_a_current_and_a_temperature(standing: Motion, changed: Ch
 
 
 def test_an_assumed_temperature_is_not_judged_and_unknown_windings_are_said(
-    standing: Motion, changed: Change, tmp_path: Path
+    standing: Motion, changed: Change, wound: Wound
 ) -> None:
     torque = np.full_like(standing["joint_torque"], 200.0)
-    moved = with_windings(standing, changed, tmp_path, joint_torque=torque)
+    moved = with_windings(standing, changed, wound, joint_torque=torque)
     warm = margins(RecordedSimulation(moved), Demands(winding_temperature=0.9))["winding_temperature"]
     assert (warm.passed, warm.unknown) == (None, moved.joint_names)
     assert "the limit is assumed" in warm.reason

@@ -11,36 +11,21 @@ import multiprocessing
 import os
 import signal
 import sys
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from tests.library.rolling import contents, rolling_quickly
 
-from levade.costs import Criterion
 from levade.errors import LevadeError
 from levade.library import build
-from levade.tasks import Task, load_task
 
 pytestmark = pytest.mark.slow
 
 STARTS = 4
 
 
-def rolling() -> Task:
-    """Lie with the back anywhere but down, after a third of a second."""
-    small = ("hold=0.1", "horizon=0.3", "search.polish=0", "search.population=4", "search.trials=12")
-    task = load_task("self-righting", changes=["start={fallen: {height: 0.5, time: 0.4}}", *small])
-    return replace(task, success={"over": Criterion("tilt", maximum=1.9, at="end")})
-
-
 def built(directory: Path) -> None:
-    build(rolling(), starts=STARTS, directory=directory, threads=1)
-
-
-def contents(directory: Path) -> dict[str, bytes]:
-    """Every file of a library, except its lock and what an interrupted write left."""
-    files = (path for path in sorted(directory.rglob("*")) if path.is_file() and path.name[0] != ".")
-    return {str(path.relative_to(directory)): path.read_bytes() for path in files}
+    build(rolling_quickly(), starts=STARTS, directory=directory, threads=1)
 
 
 @pytest.fixture(scope="module")

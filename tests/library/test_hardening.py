@@ -6,19 +6,11 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from tests.library.rolling import rolling
 
-from levade.costs import Criterion
 from levade.library import Falls, build, hardening
 from levade.library.falls import Plays
-from levade.tasks import Task, load_task
 from levade.tasks.robust import Racing
-
-
-def rolling() -> Task:
-    """As tests/library/test_library.py has it."""
-    small = ("hold=0.1", "horizon=0.3", "search.polish=4", "search.population=4", "search.trials=24")
-    task = load_task("self-righting", changes=["start={fallen: {height: 0.5, time: 0.4}}", *small])
-    return replace(task, success={"over": Criterion("tilt", maximum=1.9, at="end")})
 
 
 def few(monkeypatch: pytest.MonkeyPatch, trials: int) -> None:

@@ -13,8 +13,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.library.rolling import contents, rolling
 
-from levade.costs import Criterion
 from levade.engines import Perturbation
 from levade.errors import LevadeError
 from levade.library import Falls, Library, Method, Record, build, check_library
@@ -29,27 +29,14 @@ from levade.library.storing import Shard
 from levade.motions import Motion
 from levade.robots import load_robot
 from levade.search import make_objective
-from levade.tasks import Task, load_task
+from levade.tasks import load_task
 
 STARTS = 7
-
-
-def rolling() -> Task:
-    """Lie with the back anywhere but down, after a third of a second: some motions do, from some falls."""
-    small = ("hold=0.1", "horizon=0.3", "search.polish=4", "search.population=4", "search.trials=24")
-    task = load_task("self-righting", changes=["start={fallen: {height: 0.5, time: 0.4}}", *small])
-    return replace(task, success={"over": Criterion("tilt", maximum=1.9, at="end")})
 
 
 @pytest.fixture(scope="module")
 def library(tmp_path_factory: pytest.TempPathFactory) -> Library:
     return build(rolling(), starts=STARTS, directory=tmp_path_factory.mktemp("libraries") / "rolling")
-
-
-def contents(directory: Path) -> dict[str, bytes]:
-    """Every file of a library, but its lock."""
-    files = (path for path in sorted(directory.rglob("*")) if path.is_file() and path.name[0] != ".")
-    return {str(path.relative_to(directory)): path.read_bytes() for path in files}
 
 
 def test_every_fall_has_a_record_and_every_motion_found_a_file(library: Library) -> None:

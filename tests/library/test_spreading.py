@@ -9,40 +9,25 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.library.rolling import contents, rolling_quickly
 
 from levade.cli import main
-from levade.costs import Criterion
 from levade.errors import LevadeError
 from levade.library import Progress, build, spreading
 from levade.library.spreading import News, Outpost, Parcel
 from levade.robots import load_robot
-from levade.tasks import Task, load_task
 
 STARTS = 7
-
-
-def rolling(robot: str | None = None, hold: float = 0.1) -> Task:
-    """Lie with the back anywhere but down, after a third of a second."""
-    small = (f"hold={hold}", "horizon=0.3", "search.polish=0", "search.population=4", "search.trials=12")
-    task = load_task("self-righting", robot=robot, changes=["start={fallen: {height: 0.5, time: 0.4}}", *small])
-    return replace(task, success={"over": Criterion("tilt", maximum=1.9, at="end")})
-
-
-def contents(directory: Path) -> dict[str, bytes]:
-    """Every file of a library, but its lock."""
-    files = (path for path in sorted(directory.rglob("*")) if path.is_file() and path.name[0] != ".")
-    return {str(path.relative_to(directory)): path.read_bytes() for path in files}
 
 
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
     directory = tmp_path_factory.mktemp("libraries") / "whole"
-    build(rolling(), starts=STARTS, directory=directory, threads=1)
+    build(rolling_quickly(), starts=STARTS, directory=directory, threads=1)
     return contents(directory)
 
 
@@ -81,7 +66,7 @@ class TestOnACluster:
     ) -> None:
         """Also when the library grows: nodes are told what works from the falls that were there."""
         for starts in (3, STARTS):
-            build(rolling(), starts=starts, directory=tmp_path, ray=cluster.address)
+            build(rolling_quickly(), starts=starts, directory=tmp_path, ray=cluster.address)
         assert contents(tmp_path) == whole
 
     def test_the_robots_file_need_not_be_on_the_nodes(
@@ -96,8 +81,8 @@ class TestOnACluster:
         monkeypatch.chdir(tmp_path)
         toy = tmp_path / "toy.xml"
         toy.write_text(quadruped().mjcf())
-        build(rolling("toy.xml"), starts=2, directory=tmp_path / "alone", threads=1)
-        task = rolling("toy.xml")
+        build(rolling_quickly("toy.xml"), starts=2, directory=tmp_path / "alone", threads=1)
+        task = rolling_quickly("toy.xml")
         build(task, starts=2, directory=tmp_path / "there", ray=cluster.address, observe=lambda _: toy.unlink(True))
         assert not toy.exists()
         assert contents(tmp_path / "there") == contents(tmp_path / "alone")
@@ -114,7 +99,7 @@ class TestOnACluster:
                 cluster.remove_node(cluster.second, allow_graceful=False)
                 cluster.second = None
 
-        build(rolling(), starts=STARTS, directory=tmp_path, ray=cluster.address, observe=observe)
+        build(rolling_quickly(), starts=STARTS, directory=tmp_path, ray=cluster.address, observe=observe)
         assert [one.done for one in seen] == [0, *range(1, STARTS + 1)]
         assert seen[0].cpus == 2
         assert contents(tmp_path) == whole
@@ -125,7 +110,7 @@ class TestOnACluster:
     ) -> None:
         monkeypatch.setattr(spreading, "versions", lambda: {"mujoco": "1.0"})
         with pytest.raises(LevadeError, match=r"^fall 0 on .*: has mujoco .*, the computer that builds has 1\.0; inst"):
-            build(rolling(), starts=1, directory=tmp_path, ray=cluster.address)
+            build(rolling_quickly(), starts=1, directory=tmp_path, ray=cluster.address)
 
 
 @pytest.mark.slow
@@ -138,10 +123,10 @@ def test_interrupted_it_shuts_its_own_cluster_down_and_goes_on_to_the_same_bytes
     program = (
         "import signal, sys\nfrom pathlib import Path\n"
         f"sys.path.insert(0, {str(Path(__file__).parents[2])!r})\n"
-        "from tests.library.test_spreading import STARTS, rolling\n"
+        "from tests.library.rolling import rolling_quickly\n"
         "from levade.cli.stopping import stop_between\nfrom levade.library import build\n"
         "with stop_between() as stopping:\n"
-        f"    build(rolling(), starts=STARTS, directory=Path({str(tmp_path)!r}), ray='local', stopping=stopping,\n"
+        f"    build(rolling_quickly(), starts={STARTS}, directory=Path({str(tmp_path)!r}), ray='local', stopping=stopping,\n"
         "          observe=lambda progress: print(progress.done, flush=True))\n"
         "    print('stopped' if stopping() else 'finished', signal.getsignal(signal.SIGTERM).__name__)\n"
     )
@@ -161,7 +146,7 @@ def test_interrupted_it_shuts_its_own_cluster_down_and_goes_on_to_the_same_bytes
     there = contents(tmp_path)
     assert there.items() <= whole.items()
     assert 3 <= sum(name.startswith("falls/") for name in there) < STARTS
-    build(rolling(), starts=STARTS, directory=tmp_path, threads=1)
+    build(rolling_quickly(), starts=STARTS, directory=tmp_path, threads=1)
     assert contents(tmp_path) == whole
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.library.test_library import contents
+from tests.library.rolling import FALLEN, contents
 
 from levade.cli.app import main
 from levade.costs import Criterion
@@ -36,7 +36,7 @@ HARDWARE = Hardware(FAST, trials=60, runs=20)
 def rolling() -> Task:
     """Lie with the back anywhere but down, after a third of a second: some motions do, from some falls."""
     small = ("hold=0.1", "horizon=0.3", "search.population=4", "search.settings.aimed=0")
-    task = load_task("self-righting", changes=["start={fallen: {height: 0.5, time: 0.4}}", *small])
+    task = load_task("self-righting", changes=[FALLEN, *small])
     return replace(task, success={"over": Criterion("tilt", maximum=1.9, at="end")})
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import mujoco
@@ -11,6 +12,8 @@ import pytest
 from levade.errors import LevadeError
 from levade.robots import load_robot
 from levade.robots.winding import HOTTEST, Thermal, Winding
+
+Wound = Callable[[str], Path]
 
 CONST, OHM, KELVIN_PER_WATT, CAPACITY, AMBIENT = 0.45, 0.26, 1.25, 32.0, 20.0
 
@@ -89,31 +92,15 @@ def test_mujoco_s_thermal_model_agrees() -> None:
     assert winding(0.0039, 25.0).temperatures(torque, 0.001)[:, 0] == pytest.approx(AMBIENT + rise, abs=0.01)
 
 
-ROBOT = """
-name: warm
-model: {model}
-actuations:
-  motors:
-    kind: dcmotor
-    stall_torque: 400
-    no_load_speed: 35
-    kp: 600
-    kd: 20
-    winding: {winding}
-"""
-MODEL = Path(load_robot("hyq2max").source).with_name("hyq2max.xml")
-
-
-def described(tmp_path: Path, text: str) -> Winding:
-    (tmp_path / "robot.yaml").write_text(ROBOT.format(model=MODEL, winding=text))
-    made = getattr(load_robot(tmp_path / "robot.yaml").actuation, "winding", None)
+def described(wound: Wound, winding: str) -> Winding:
+    made = getattr(load_robot(wound(winding)).actuation, "winding", None)
     assert isinstance(made, Winding)
     return made
 
 
-def test_a_description_gives_windings_behind_gears(tmp_path: Path) -> None:
+def test_a_description_gives_windings_behind_gears(wound: Wound) -> None:
     made = described(
-        tmp_path,
+        wound,
         "{motorconst: 0.1, gear: {'*_haa': 6, '*_?fe': 9}, current: 30, resistance: 0.2,"
         " thermal: {timeconst: 40, capacitance: 32, limit: 120}}",
     )
@@ -122,7 +109,7 @@ def test_a_description_gives_windings_behind_gears(tmp_path: Path) -> None:
     assert made.thermal is not None
     assert made.thermal.resistance == pytest.approx(np.full(12, 1.25))
     assert (made.thermal.limit[0], made.thermal.assumed, made.thermal.ambient[0]) == (120.0, False, 25.0)
-    plain = described(tmp_path, "{motorconst: 0.1}")
+    plain = described(wound, "{motorconst: 0.1}")
     assert (plain.current == np.inf).all()
     assert plain.resistance is None
 
@@ -139,13 +126,13 @@ def test_a_description_gives_windings_behind_gears(tmp_path: Path) -> None:
         ("{resistance: 1}", r"motorconst: missing"),
     ],
 )
-def test_windings_that_lack_something_are_refused(text: str, message: str, tmp_path: Path) -> None:
+def test_windings_that_lack_something_are_refused(text: str, message: str, wound: Wound) -> None:
     with pytest.raises(LevadeError, match=message):
-        described(tmp_path, text)
+        load_robot(wound(text))
 
 
 def test_dc_motors_of_an_mjcf_bring_their_windings(tmp_path: Path) -> None:
-    spec = mujoco.MjSpec.from_file(str(MODEL))
+    spec = mujoco.MjSpec.from_file(str(Path(load_robot("hyq2max").source).with_name("hyq2max.xml")))
     joints = [joint.name for joint in spec.joints if joint.type == mujoco.mjtJoint.mjJNT_HINGE]
     for joint in joints:
         motor = spec.add_actuator(name=joint, trntype=mujoco.mjtTrn.mjTRN_JOINT, target=joint)

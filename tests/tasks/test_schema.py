@@ -11,8 +11,8 @@ import pytest
 import yaml
 
 from levade.tasks import available_tasks, builtin_tasks, load_task, task_to_dict
-from levade.tasks.document import TERMS
 from levade.tasks.schema import task_schema
+from levade.tasks.terms import TERMS
 
 VALIDATOR = jsonschema.Draft202012Validator(task_schema())
 

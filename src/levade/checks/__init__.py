@@ -15,9 +15,10 @@ from collections.abc import Callable
 
 from levade.checks.certificate import Certificate
 from levade.checks.engines import Replayed, other_engines
-from levade.checks.margins import Margin, margins
+from levade.checks.margins import margins
 from levade.checks.numerics import Numeric, numerics
 from levade.checks.perturbed import Hopeless, Perturbed, Sensitivity, perturbed
+from levade.checks.slack import Margin
 from levade.checks.verdicts import Verdict
 from levade.engines import Perturbation
 from levade.errors import LevadeError

@@ -7,9 +7,9 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from levade.checks.engines import Replayed
-from levade.checks.margins import Margin
 from levade.checks.numerics import Numeric
 from levade.checks.perturbed import Perturbed
+from levade.checks.slack import Margin
 from levade.checks.verdicts import Verdict
 from levade.engines import Perturbation
 from levade.tasks import Demands

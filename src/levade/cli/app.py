@@ -6,7 +6,7 @@ import atexit
 import copy
 import gc
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
 from typing import Annotated, Any
 
@@ -23,6 +23,7 @@ from levade.cli.commands.tasks import tasks_app
 from levade.cli.flags import in_flags
 from levade.cli.output import lasting_output
 from levade.errors import LevadeError, one_line
+from levade.patience import on_long_wait
 
 app = typer.Typer(
     name="levade",
@@ -41,6 +42,10 @@ app = typer.Typer(
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
 )
+
+
+_INTERRUPTED = 130
+"""Exit status after Ctrl-C, as shells have it."""
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -72,7 +77,8 @@ def _run(arguments: Sequence[str] | None) -> int:
     arguments = completed(spread(sys.argv[1:] if arguments is None else arguments))
     first = arguments[0] if arguments else ""
     try:
-        status = _command(first)(args=arguments, standalone_mode=False)
+        with on_long_wait(_waiting(arguments)):
+            status = _command(first)(args=arguments, standalone_mode=False)
     except LevadeError as error:
         return _failed(in_flags(error, _command(first), arguments))
     except usage_error as error:  # type: ignore[misc]
@@ -89,7 +95,9 @@ def _run(arguments: Sequence[str] | None) -> int:
     except MemoryError as error:
         return _failed(f"not enough memory{f' ({error})' if str(error) else ''}; fewer or shorter trials need less")
     except (KeyboardInterrupt, typer.Abort):
-        return 130
+        status = _INTERRUPTED
+    if status == _INTERRUPTED:  # typer returns it, too
+        print("levade: interrupted", file=sys.stderr)
     return status if isinstance(status, int) else 0
 
 
@@ -102,6 +110,18 @@ def _command(word: str) -> Any:
     ]
     alone.registered_groups = []
     return typer.main.get_command(alone if alone.registered_commands else app)
+
+
+def _waiting(arguments: Sequence[str]) -> Callable[[str], None]:
+    """Return what prints why a command waits, once for each reason. With --json it prints on a terminal only."""
+    said: set[str] = set()
+
+    def waiting(message: str) -> None:
+        if message not in said and ("--json" not in arguments or sys.stderr.isatty()):
+            print(f"levade: {one_line(message)}", file=sys.stderr)
+        said.add(message)
+
+    return waiting
 
 
 def _failed(message: str) -> int:

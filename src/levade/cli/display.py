@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections import deque
 from collections.abc import Callable, Mapping
 
 import numpy as np
@@ -14,6 +13,7 @@ from rich.progress_bar import ProgressBar
 from rich.table import Table
 from rich.text import Text
 
+from levade.cli.pace import Deadline, Pace
 from levade.cli.tables import quantity_unit, signed
 from levade.search import Generation
 from levade.tasks import Task
@@ -23,13 +23,30 @@ _PLAIN_EVERY = 10.0
 
 
 class Display:
-    """Shows generations as they come; a context manager. note: what else there is to say, asked for each time."""
+    """Shows generations as they come; a context manager.
 
-    def __init__(self, console: Console, task: Task, *, quiet: bool, note: Callable[[], str] = lambda: "") -> None:
+    Args:
+        console: Where to print.
+        task: The task of the search.
+        quiet: Whether to print nothing.
+        note: Tells what else there is to say, each time.
+        deadline: The end of the command, of which the search is a part.
+    """
+
+    def __init__(
+        self,
+        console: Console,
+        task: Task,
+        *,
+        quiet: bool,
+        note: Callable[[], str] = lambda: "",
+        deadline: Deadline | None = None,
+    ) -> None:
         self._console, self._task, self._quiet, self._note = console, task, quiet, note
+        self._deadline = deadline or Deadline(None)
         self._live: Live | None = None
         self._latest: Generation | None = None
-        self._recent: deque[tuple[float, int]] = deque(maxlen=50)
+        self._pace = Pace()
         self._told = time.perf_counter()
         self._stage: str | None = None
         if console.is_terminal and not quiet:
@@ -56,7 +73,7 @@ class Display:
             self._console.print(f"[bold]{escape(self._task.name)}[/] on {robot}: up to {budget} trials")
         self._latest = generation
         if not generation.replayed:
-            self._recent.append((time.perf_counter(), generation.trials))
+            self._pace.add(generation.trials)
         if self._quiet or self._live is not None:
             return
         now = time.perf_counter()
@@ -64,7 +81,7 @@ class Display:
             self._stage, self._told = generation.stage_name, now
             self._console.print(
                 f"trial {generation.trials}, {escape(_stage(generation))}:"
-                f" best cost {generation.best.cost:.4g}{escape(_errors(generation.best.errors))}"
+                f" best cost {generation.best.cost:.4g}{escape(_errors(generation.best.errors))}{self._left('; ')}"
             )
 
     def _render(self) -> RenderableType:
@@ -72,12 +89,10 @@ class Display:
         if g is None:
             return Text("starting ...", style="dim")
         budget = self._task.search.trials
-        rate = self._rate()
-        left = "" if not rate else f"   at most {_duration((budget - g.trials) / rate)} left"
         bar = Table.grid(padding=(0, 1))
         bar.add_row(
             ProgressBar(total=budget, completed=g.trials, width=24),
-            f"trial {g.trials} of {budget}   {rate:.0f} trials/s{left}",
+            f"trial {g.trials} of {budget}   {self._pace.rate:.0f} trials/s{self._left('   ')}",
             Text(self._note(), style="yellow"),
         )
         found = Text("success", style="green") if g.best.success else Text("not yet", style="dim")
@@ -92,11 +107,12 @@ class Display:
         )
         return Group(bar, head, _criteria(self._task, g), _terms(self._task, g))
 
-    def _rate(self) -> float:
-        if len(self._recent) < 2:
-            return 0.0
-        (t0, n0), (t1, n1) = self._recent[0], self._recent[-1]
-        return (n1 - n0) / max(t1 - t0, 1e-9)
+    def _left(self, before: str) -> str:
+        """Return how long the search may still take, and in all, with what separates it from the text before."""
+        assert self._latest is not None
+        left = self._pace.left(self._task.search.trials - self._latest.trials)
+        parts = [f"at most {left} left" if left else "", self._deadline.left]
+        return "".join(before + part for part in parts if part)
 
 
 def _stage(g: Generation) -> str:
@@ -138,8 +154,3 @@ def _terms(task: Task, g: Generation) -> Table:
     for name, value in weighted.items():
         table.add_row(name, "" if value != value else f"{value:.4g}", "" if value != value else f"{value / whole:.0%}")
     return table
-
-
-def _duration(seconds: float) -> str:
-    minutes, seconds = divmod(int(np.ceil(seconds)), 60)
-    return f"{minutes} min {seconds:02d} s" if minutes else f"{seconds} s"

@@ -1,28 +1,25 @@
-"""``levade library``: build a library, ask it, and try it on falls that it has never seen."""
+"""``levade library``: build, merge, learn, export and show a library, and try it on falls that it has never seen."""
 
 from __future__ import annotations
 
 import json
-import os
 import shlex
 import time
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from rich.console import Console
 from rich.markup import escape
 
-from levade.arrays import Array
+from levade.cli.asking import named_motion, refining_time
 from levade.cli.checking import changed
+from levade.cli.pace import Pace
 from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console
-from levade.document import read_yaml
-from levade.errors import LevadeError, did_you_mean
-from levade.feedback import up_in_trunk
+from levade.errors import LevadeError
 from levade.library import Hardware, Library, LibraryCheck, Progress, build, check_library
 from levade.library.asking import LIBRARY
 from levade.library.exporting import export_library
@@ -33,12 +30,8 @@ from levade.library.merging import merge
 from levade.library.page import write_library
 from levade.library.pursuing import read_certificate
 from levade.library.records import motion_path
-from levade.library.refining import refine as refined_answer
 from levade.library.storing import WHOLE, Shard, read_hardware
 from levade.tasks import load_task
-from levade.tasks.units import to_si
-from levade.trajectory import JointReference
-from levade.writing import write_text
 
 _WORDS = {
     "known": "by a known motion",
@@ -100,13 +93,17 @@ def build_library(
     directory = out or Path(f"{loaded.name}-library")
     demanded = _demanded(directory, hardware, trials, demand)
     console = make_console(stderr=as_json)
-    began = time.monotonic()
+    began, pace = time.monotonic(), Pace()
 
     def observe(progress: Progress) -> None:
         spent = time.monotonic() - began
+        pace.add(progress.done)
+        left = pace.left(progress.starts - progress.done) if progress.done < progress.starts else None
         console.print(
             f"  {progress.done} of {progress.starts} falls: {progress.motions} motions, {progress.trials} trials,"
-            f" {spent:.0f} s" + ("" if progress.cpus is None else f", {progress.cpus} CPUs"),
+            f" {spent:.0f} s"
+            + ("" if left is None else f", about {left} left")
+            + ("" if progress.cpus is None else f", {progress.cpus} CPUs"),
             style="dim",
         )
 
@@ -345,7 +342,7 @@ def _tell_certificates(console: Console, library: Library) -> None:
         share, binds = certificate["perturbed"]["share"], certificate.get("binding") or "no limit is known"
         said = f"succeeds on {share:.1%} of perturbed robots; {binds}"
         console.print(
-            f"  {_named(Path(motion_path(library.directory, number).name), number)}: {escape(said)}", style="dim"
+            f"  {named_motion(Path(motion_path(library.directory, number).name), number)}: {escape(said)}", style="dim"
         )
 
 
@@ -365,7 +362,7 @@ def check_the_library(
     Returns:
         The exit status: 0 if all falls were tried, 1 if interrupted.
     """
-    library, time_left = Library.load(directory), None if refine is None else _seconds(refine)
+    library, time_left = Library.load(directory), None if refine is None else refining_time(refine)
     console = make_console(stderr=as_json)
     with stop_between("part") as stopping:
         found = check_library(library, starts=starts, seed=seed, threads=threads, refine=time_left, stopping=stopping)
@@ -402,132 +399,3 @@ def _told_of_hardware(found: LibraryCheck) -> list[tuple[str, str]]:
         ("  works within the limits, with a certificate", str(found.certified)),
         ("  falls from which it misses a criterion or limit", missed),
     ]
-
-
-def _seconds(text: str) -> float:
-    """Read a duration, such as 1s, 500 ms or 1.5."""
-    value = to_si(text, where="--refine", measures="a duration")
-    try:
-        seconds = float(value)
-    except (TypeError, ValueError):
-        seconds = 0.0
-    if not 0 < seconds < 1e6:
-        raise LevadeError(f"--refine {text}: should be a time, such as 1s")
-    return seconds
-
-
-def ask_library(directory: Path, *, state: Path, reference: Path | None, refine: str | None, as_json: bool) -> int:
-    """Ask a library.
-
-    Args:
-        directory: Directory of the library.
-        state: File of the robot's attitude and joint angles, as JSON or YAML.
-        reference: File for the references of the joints, as CSV. None writes none.
-        refine: Time to improve the answer in simulation, such as "1s". None does not improve it.
-        as_json: Whether to print one JSON object.
-
-    Returns:
-        The exit status: 1 if the answer was refined but still fails on the model, otherwise 0.
-    """
-    library = Library.load(directory)
-    first = library.ask([0.0, 0.0, 1.0], np.zeros(library.knowledge.joint_position.shape[1]))
-    names = first.motion.joint_names
-    question = _read_state(state, names)
-    answer = library.ask(*question)
-    better = None if refine is None else refined_answer(library, *question, seconds=_seconds(refine))
-    if reference is not None:
-        _write_reference(answer.reference if better is None else better.reference, names, reference)
-    if as_json:
-        content = {
-            "motion": str(answer.path),
-            "mirrored": answer.mirror is not None,
-            "probability": answer.probability,
-            **(
-                {} if answer.failed is None else {"certificate": {"passed": not answer.failed, "failed": answer.failed}}
-            ),
-            "others": [
-                {"motion": str(motion_path(directory, number)), "mirrored": number < 0, "probability": probability}
-                for number, probability in answer.others
-            ],
-        }
-        if better is not None:
-            content["refined"] = {
-                "motion": str(motion_path(directory, better.number)),
-                "mirrored": better.number < 0,
-                **{name: getattr(better, name) for name in ("works", "share", "searched", "trials", "seconds")},
-            }
-        print(json.dumps(content))
-        return 0 if better is None or better.works else 1
-    console = make_console()
-    console.print(f"{_named(answer.path, answer.number)}: works with a probability of {answer.probability:.1%}")
-    if answer.failed is not None:
-        said = f"fails {', '.join(answer.failed)}" if answer.failed else "passes"
-        console.print(f"  Its certificate, from its own fall, {escape(said)}.")
-    for number, probability in answer.others[:3]:
-        place = _named(Path(motion_path(directory, number).name), number)
-        console.print(f"  next: {place}, {probability:.1%}", style="dim")
-    if better is None:
-        return 0
-    place = _named(Path(motion_path(directory, better.number).name), better.number)
-    what = f"a search from {place}" if better.searched else place
-    works = f"works on the model, and on {better.share:.0%} of perturbed models" if better.works else "does not work"
-    console.print(f"In simulation, {what} {works} ({better.trials} trials, {better.seconds:.1f} s).")
-    return 0 if better.works else 1
-
-
-def _named(path: Path, number: int) -> str:
-    return f"{'the mirror image of ' if number < 0 else ''}{escape(str(path))}"
-
-
-def _read_state(path: Path, names: tuple[str, ...]) -> tuple[Any, Array]:
-    """Read the upward direction in trunk axes and the joint angles from a JSON or YAML file."""
-    content = read_yaml(path, like="attitude and joints")
-    known = {"attitude", "up", "joints"}
-    for key in content:
-        if key not in known:
-            raise LevadeError(f"{path}: unknown key {key!r}; {did_you_mean(str(key), sorted(known))}")
-    if ("attitude" in content) == ("up" in content):
-        raise LevadeError(
-            f"{path}: give either attitude, a quaternion w-x-y-z, or up, the upward direction in trunk axes"
-        )
-    joints = content.get("joints")
-    if isinstance(joints, Mapping):
-        for name in joints:
-            if name not in names:
-                raise LevadeError(f"{path}: joints: no joint {name!r}; {did_you_mean(str(name), names)}")
-        missing = [name for name in names if name not in joints]
-        if missing:
-            raise LevadeError(f"{path}: joints: {missing[0]} is missing; give the angle of each joint [rad]")
-        joints = [joints[name] for name in names]
-    return _up(content, path), _numbers(joints, len(names), f"{path}: joints")
-
-
-def _up(content: Mapping[str, Any], path: Path) -> Array:
-    if "up" in content:
-        return _numbers(content["up"], 3, f"{path}: up")
-    quaternion = _numbers(content["attitude"], 4, f"{path}: attitude")
-    norm = float(np.linalg.norm(quaternion))
-    if not norm > 0:
-        raise LevadeError(f"{path}: attitude: four zeros are not a rotation; [1, 0, 0, 0] is level")
-    return up_in_trunk(quaternion / norm)
-
-
-def _numbers(values: Any, n: int, where: str) -> Array:
-    good = isinstance(values, list) and len(values) == n
-    if not good or any(isinstance(one, bool) or not isinstance(one, int | float) for one in values):
-        raise LevadeError(f"{where}: should be {n} numbers")
-    return np.array(values, dtype=float)
-
-
-def _write_reference(reference: JointReference, names: Sequence[str], path: Path) -> None:
-    """Write a table of time [s] and joint references [rad] of the motion, from where the joints are."""
-    if not path.parent.is_dir() or not os.access(path.parent, os.W_OK):
-        raise LevadeError(f"--reference {path}: its directory is missing or not writable; give another path")
-    position = reference.position[0]
-    times = (np.arange(len(position)) + 1) * reference.timestep
-    lines = [",".join(["time", *names])]
-    lines += [",".join(map(repr, [float(t), *map(float, row)])) for t, row in zip(times, position, strict=True)]
-    try:
-        write_text(path, "\n".join(lines) + "\n")
-    except OSError as error:
-        raise LevadeError(f"--reference {path}: cannot be written ({error.strerror}); give another path") from None

@@ -13,6 +13,7 @@ from levade.checks import Certificate
 from levade.cli.checking import changed, verdict_table
 from levade.cli.display import Display
 from levade.cli.inspecting import tell_warnings
+from levade.cli.pace import Deadline
 from levade.cli.stopping import stop_between
 from levade.cli.tables import make_console, quantity_unit
 from levade.hardware import Part, Plan, Pursued, binding, obstacles, pursue, read_pursuit
@@ -71,7 +72,7 @@ def pursue_and_report(
     tell_warnings(console, loaded, chosen.robot.name)
     _tell_goal(console, Plan.of(chosen, loaded, demands))
     with stop_between("generation") as stopping, ExitStack() as stack:
-        showing = _Showing(console, quiet=as_json and not console.is_terminal)
+        showing = _Showing(console, Deadline(minutes), quiet=as_json and not console.is_terminal)
         stack.callback(showing.close)
         pursued = pursue(
             chosen,
@@ -131,12 +132,12 @@ def summary(pursued: Pursued) -> dict[str, object]:
 class _Showing:
     """A display for each search in turn, and a line for each certificate."""
 
-    def __init__(self, console: Console, *, quiet: bool) -> None:
-        self._console, self._quiet = console, quiet
+    def __init__(self, console: Console, deadline: Deadline, *, quiet: bool) -> None:
+        self._console, self._deadline, self._quiet = console, deadline, quiet
         self._display: Display | None = None
 
     def begin(self, name: str, task: Task) -> None:
-        self._display = Display(self._console, task, quiet=self._quiet)
+        self._display = Display(self._console, task, quiet=self._quiet, deadline=self._deadline)
         self._display.__enter__()
 
     def observe(self, name: str, generation: Generation) -> None:
@@ -148,8 +149,10 @@ class _Showing:
         if self._quiet:
             return
         found = "it does not keep the limits" if part.certificate is None else _found(part.certificate)
+        left = self._deadline.left
         self._console.print(
             f"{part.name}: {part.trials} trials, {part.seconds:.0f} s, T = {part.motion.horizon:.3g} s; {found}"
+            + (f"; {left}" if left else "")
         )
 
     def close(self) -> None:

@@ -72,10 +72,11 @@ class PostureSearch:
     Args:
         bare: The robot.
         torque: Torque limits [Nm], shape (joints,).
+        during: Called in every generation of a search.
     """
 
-    def __init__(self, bare: Bare, torque: Array) -> None:
-        self.bare, self.model = bare, bare.model
+    def __init__(self, bare: Bare, torque: Array, *, during: Callable[[], None] = lambda: None) -> None:
+        self.bare, self.model, self._during = bare, bare.model, during
         model = self.model
         self.data = mujoco.MjData(model)
         self.joints = {name: k for k, name in enumerate(bare.joints)}
@@ -247,6 +248,7 @@ class PostureSearch:
         }
         es = cma.CMAEvolutionStrategy(np.zeros(len(leaders)), spread, options)
         while not es.stop():
+            self._during()
             asked = es.ask()
             es.tell(asked, [total(u) for u in asked])
         return posture(np.asarray(es.result.xbest)).round(DIGITS)

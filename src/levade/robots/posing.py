@@ -10,6 +10,7 @@ import numpy as np
 
 from levade.arrays import Array
 from levade.errors import LevadeError
+from levade.patience import Patience
 from levade.robots.anatomy import Followers, bare_robot
 from levade.robots.findings import named, note
 from levade.robots.holding import hold_elsewhere
@@ -79,14 +80,14 @@ def _postures(draft: Draft, bare: Bare, path: Path, form: RobotForm, torque: Arr
                 raise LevadeError(f"{where} is outside its range {lower:.4g} .. {upper:.4g} rad")
     draft.origins["neutral"] = "robot.yaml"
     if "neutral" not in postures:
-        found = _neutral(draft, bare, path, torque)
+        found = _neutral(draft, bare, path, form.name, torque)
         postures = {"neutral": np.array([found[joint] for joint in joints]), **postures}
-    for name, angles in _derived(bare, torque, postures).items():
+    for name, angles in _derived(bare, form.name, torque, postures).items():
         postures[name] = np.array([angles[joint] for joint in joints])
     return postures
 
 
-def _derived(bare: Bare, torque: Array, postures: Mapping[str, Array]) -> dict[str, dict[str, float]]:
+def _derived(bare: Bare, robot: str, torque: Array, postures: Mapping[str, Array]) -> dict[str, dict[str, float]]:
     """Derive the crouched and the stretched posture, if they exist and the description does not give them."""
     wanted = {"crouched": CROUCHED_EXTENSION, "stretched": STRETCHED_EXTENSION}
     missing = {name: extension for name, extension in wanted.items() if name not in postures}
@@ -94,7 +95,10 @@ def _derived(bare: Bare, torque: Array, postures: Mapping[str, Array]) -> dict[s
         found = {name: bare.posture(extension) for name, extension in missing.items()}
         neutral = dict(zip(bare.joints, postures["neutral"].tolist(), strict=True))
         return {name: {**neutral, **angles} for name, angles in found.items() if angles is not None}
-    search = PostureSearch(bare, torque)
+    patience = Patience(
+        f"searching for the postures {' and '.join(missing)} of {robot}; its robot.yaml can give them, which spares this"
+    )
+    search = PostureSearch(bare, torque, during=patience.check)
     derived: dict[str, Array] = {}
     if "crouched" in missing:
         crouched = search.standing(postures["neutral"], CROUCHED * search.extension())
@@ -104,7 +108,7 @@ def _derived(bare: Bare, torque: Array, postures: Mapping[str, Array]) -> dict[s
     return {name: dict(zip(bare.joints, angles.tolist(), strict=True)) for name, angles in derived.items()}
 
 
-def _neutral(draft: Draft, bare: Bare, path: Path, torque: Array) -> dict[str, float]:
+def _neutral(draft: Draft, bare: Bare, path: Path, robot: str, torque: Array) -> dict[str, float]:
     keyframe = neutral_from(bare, draft.keyframes)
     if keyframe is not None:
         angles, name = keyframe
@@ -112,7 +116,7 @@ def _neutral(draft: Draft, bare: Bare, path: Path, torque: Array) -> dict[str, f
         draft.findings.append(note("posture neutral", f"is {draft.origins['neutral']}"))
         return angles
     if not bare.columnar:
-        return _searched(draft, bare, path, torque)
+        return _searched(draft, bare, path, robot, torque)
     reachable = None
     for extension in NEUTRAL_EXTENSION:
         angles = bare.posture(extension)
@@ -137,8 +141,12 @@ def _neutral(draft: Draft, bare: Bare, path: Path, torque: Array) -> dict[str, f
     return angles
 
 
-def _searched(draft: Draft, bare: Bare, path: Path, torque: Array) -> dict[str, float]:
-    search = PostureSearch(bare, torque)
+def _searched(draft: Draft, bare: Bare, path: Path, robot: str, torque: Array) -> dict[str, float]:
+    patience = Patience(
+        f"searching for a posture in which {robot} stands; a keyframe of its model, or postures: neutral in its robot.yaml,"
+        " spares this"
+    )
+    search = PostureSearch(bare, torque, during=patience.check)
     angles = search.neutral()
     faults = search.faults(angles)
     if faults:

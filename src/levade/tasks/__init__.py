@@ -6,23 +6,16 @@ task = load_task("my-task.yaml", robot="my/robot.yaml")
 """
 
 from levade.tasks.demands import Demands
-from levade.tasks.document import (
-    TERMS,
-    holds_code,
-    load_task,
-    task_checksum,
-    task_from_dict,
-    task_text,
-    task_to_dict,
-    task_to_yaml,
-)
+from levade.tasks.document import load_task, task_from_dict, task_text
 from levade.tasks.files import builtin_tasks, builtin_variants, is_builtin
 from levade.tasks.listing import Overview, available_tasks, is_unchanged, overview
 from levade.tasks.parts import Change, Cost, HorizonRange, PolicyChoice, RobotChoice, Search, Stage, StartChoice
 from levade.tasks.regulation import Regulation
 from levade.tasks.robust import Racing, Robust
 from levade.tasks.task import Task
+from levade.tasks.terms import TERMS
 from levade.tasks.validation import looks_at_hold
+from levade.tasks.writing import holds_code, task_checksum, task_to_dict, task_to_yaml
 
 __all__ = [
     "TERMS",

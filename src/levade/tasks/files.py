@@ -5,7 +5,6 @@ A path in a task file is relative to the task file. A run's ``task.yaml`` is com
 
 from __future__ import annotations
 
-import difflib
 import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -15,7 +14,7 @@ import numpy as np
 
 from levade.archive import unpack
 from levade.document import hides, kind_of, parse_yaml, read_yaml
-from levade.errors import LevadeError, did_you_mean, located
+from levade.errors import LevadeError, did_you_mean, located, nearest
 from levade.scenes import read_heights
 
 _BUILT_IN = Path(__file__).parent / "data"
@@ -89,7 +88,7 @@ def find(name_or_path: str) -> Path:
         return path
     if _is_path(name_or_path):
         raise LevadeError(f"{path}: no such file; give a built-in task or the path of a YAML file")
-    near = difflib.get_close_matches(name_or_path, [*tasks, *variants], n=1)
+    near = nearest(name_or_path, [*tasks, *variants])
     raise LevadeError(
         f"no task {name_or_path!r}; {did_you_mean(name_or_path, near or tasks)} (or the path of a YAML file)"
     )

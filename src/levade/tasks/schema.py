@@ -19,12 +19,12 @@ from typing import Any, Literal
 from levade.costs import Criterion
 from levade.costs.success import QUANTITIES
 from levade.engines import ENGINES
-from levade.tasks.document import TERMS
 from levade.tasks.families import FAMILIES
 from levade.tasks.files import BY_STANCE, BY_VARIANT, EXTENDS, VARIANT, VARIANTS
 from levade.tasks.parts import HorizonRange
 from levade.tasks.stances import ATTITUDES, LYING, STANCES
 from levade.tasks.task import Task
+from levade.tasks.terms import TERMS
 from levade.tasks.units import PLURALS, ROBOT_UNITS, UNITS, measured
 from levade.tasks.variants import KEEP, KEPT
 

@@ -204,7 +204,7 @@ def _ask_library(
 
     Exit status: 0 there is an answer, 1 it does not work even after --refine, 2 the input is wrong.
     """
-    from levade.cli.librarian import ask_library
+    from levade.cli.asking import ask_library
 
     return ask_library(library, state=state, reference=reference, refine=refine, as_json=as_json)
 
