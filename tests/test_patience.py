@@ -12,7 +12,13 @@ import pytest
 from levade import patience
 from levade.cli import main
 from levade.patience import Patience, on_long_wait
-from levade.robots import load_robot, neutral
+from levade.robots import load_robot, neutral, posing
+
+
+@pytest.fixture(autouse=True)
+def _anew(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Earlier tests found the same postures."""
+    monkeypatch.setattr(posing, "_FOUND", {})
 
 
 @pytest.fixture

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from pathlib import Path
+from typing import NoReturn
 
 import mujoco
 import numpy as np
@@ -17,6 +18,7 @@ from levade.policies import FreeGoal, FreePolicy, Policy
 from levade.robots import Robot, dimensions, load_robot, settling
 from levade.robots.limbs import read_limbs
 from levade.robots.naming import limbs_of as limbs_named
+from levade.robots.neutral import PostureSearch
 from levade.robots.settling import Settled as PutDown
 from levade.robots.settling import settle
 from levade.robots.shapes import support
@@ -136,6 +138,22 @@ def load(folder: Path, text: str, more: str = "") -> Robot:
     (folder / "robot.xml").write_text(text)
     (folder / "robot.yaml").write_text(f"model: robot.xml\n{more}")
     return load_robot(folder)
+
+
+def test_postures_of_the_same_model_are_searched_once(
+    walker: Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> NoReturn:
+        raise AssertionError
+
+    for name in ("neutral", "standing", "tiptoe"):
+        monkeypatch.setattr(PostureSearch, name, fail)
+    again = load(tmp_path, humanoid())
+    assert {name: again.posture(name).tolist() for name in again.postures} == {
+        name: walker.posture(name).tolist() for name in walker.postures
+    }
+    with pytest.raises(AssertionError):
+        load(tmp_path, humanoid().replace('mass="5"', 'mass="6"'))
 
 
 @pytest.fixture(scope="module")

@@ -1,11 +1,16 @@
-"""Posing: find the postures that every robot has, in its description, in a keyframe of its model, or by search."""
+"""Posing: find the postures that every robot has, in its description, in a keyframe of its model, or by search.
+
+A process searches only once for the same model: commands load a robot more than once.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import hashlib
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import mujoco
 import numpy as np
 
 from levade.arrays import Array
@@ -25,6 +30,9 @@ if TYPE_CHECKING:
 _ROUNDS = 20
 """Most iterations that bring followers and neutral posture into agreement; each depends on the other."""
 _SETTLED = 1e-6  # rad
+
+_FOUND: dict[str, tuple[Array, str]] = {}
+"""Checksum of what a search depends on -> the angles that it found, and why the robot cannot stand there, if it cannot."""
 
 
 def pose(
@@ -98,13 +106,15 @@ def _derived(bare: Bare, robot: str, torque: Array, postures: Mapping[str, Array
     patience = Patience(
         f"searching for the postures {' and '.join(missing)} of {robot}; its robot.yaml can give them, which spares this"
     )
-    search = PostureSearch(bare, torque, during=patience.check)
+    search, neutral = PostureSearch(bare, torque, during=patience.check), postures["neutral"]
     derived: dict[str, Array] = {}
     if "crouched" in missing:
-        crouched = search.standing(postures["neutral"], CROUCHED * search.extension())
-        derived |= {} if search.faults(crouched) else {"crouched": crouched}
+        crouched, fault = _once(
+            search, bare, torque, ("crouched", neutral), lambda: search.standing(neutral, CROUCHED * search.extension())
+        )
+        derived |= {} if fault else {"crouched": crouched}
     if "stretched" in missing and len(bare.standing) == 2:
-        derived["stretched"] = search.tiptoe(postures["neutral"])
+        derived["stretched"], _ = _once(search, bare, torque, ("stretched", neutral), lambda: search.tiptoe(neutral))
     return {name: dict(zip(bare.joints, angles.tolist(), strict=True)) for name, angles in derived.items()}
 
 
@@ -147,15 +157,41 @@ def _searched(draft: Draft, bare: Bare, path: Path, robot: str, torque: Array) -
         " spares this"
     )
     search = PostureSearch(bare, torque, during=patience.check)
-    angles = search.neutral()
-    faults = search.faults(angles)
-    if faults:
+    angles, fault = _once(search, bare, torque, ("neutral",), search.neutral)
+    if fault:
         raise LevadeError(
-            f"{path}: no standing posture was found: {faults[0]}; give one: robot.yaml, postures: {{neutral: {{joint: angle}}}}"
+            f"{path}: no standing posture was found: {fault}; give one: robot.yaml, postures: {{neutral: {{joint: angle}}}}"
         )
     draft.origins["neutral"] = "found by search: balanced, soles level, clear of the ends of the ranges"
     draft.findings.append(note("posture neutral", draft.origins["neutral"]))
     return dict(zip(bare.joints, angles.tolist(), strict=True))
+
+
+def _once(
+    search: PostureSearch, bare: Bare, torque: Array, what: tuple[str | Array, ...], find: Callable[[], Array]
+) -> tuple[Array, str]:
+    """Search for a posture, unless this was done before in this process.
+
+    Args:
+        search: The search.
+        bare: The robot.
+        torque: Torque limits [Nm], shape (joints,).
+        what: What distinguishes this posture from others of the robot.
+        find: Makes the search.
+
+    Returns:
+        Its angles [rad], shape (joints,), and why the robot cannot stand there; "" if it can.
+    """
+    model = np.empty(mujoco.mj_sizeModel(bare.model), dtype=np.uint8)
+    mujoco.mj_saveModel(bare.model, None, model)
+    named = [one if isinstance(one, str) else one.tolist() for one in what]
+    of = repr((bare.trunk, bare.legs, dict(bare.ranges), torque.tolist(), named))
+    key = hashlib.sha256(model.tobytes() + of.encode()).hexdigest()
+    if key not in _FOUND:
+        angles = find()
+        _FOUND[key] = angles.copy(), next(iter(search.faults(angles)), "")
+    angles, fault = _FOUND[key]
+    return angles.copy(), fault
 
 
 def _upside_down(bare: Bare) -> bool:
