@@ -123,10 +123,12 @@ def test_it_asks_again_until_it_stands_and_gives_up(exported: asker.Library) -> 
     tried = asker.get_up(exported, lying, attempts=2, tolerance=4.0, tilt_tolerance=4.0, wait=no_clock)
     assert [(one.stands, one.stopped) for one in tried] == [(False, "")] * 2
     rows = len(exported.fold.position) + round((exported.fold_time + 0.1) * exported.fold.rate)
-    number, share = exported.ask(np.array([0.0, 0.0, -1.0]), exported.fold.start_position)[0]
-    assert [(one.motion, one.probability) for one in tried] == [(number, share)] * 2
+    answers = exported.ask(np.array([0.0, 0.0, -1.0]), exported.fold.start_position)[:2]
+    assert [(one.motion, one.probability) for one in tried] == answers  # not the same again: it lies as before
+    number = answers[0][0]
     second = round(exported.fold.rate)  # in which the drives damp, as it has given up
-    assert lying.written == 2 * (rows + len(exported.motions[number][0].position)) + second
+    played = sum(len(exported.motions[number][0].position) for number, _ in answers)
+    assert lying.written == 2 * rows + played + second
     assert not any(lying.stiff[-second:])
     assert all(lying.stiff[:-second])
     lying.stands, lying.position = (
@@ -140,6 +142,23 @@ def test_it_asks_again_until_it_stands_and_gives_up(exported: asker.Library) -> 
     played = asker.nearest(exported.motions[tried[0].motion or 0], np.array([0.0, 0.0, 1.0]), fold)
     ends = bool(np.abs(played.position[-1] - played.expected[-1]).max() < asker.THERE)
     assert [one.stands for one in tried] == ([True] if ends else [False] * 3)
+
+
+def test_motions_that_failed_from_here_come_last() -> None:
+    answers = [(3, 0.9), (-4, 0.8), (7, 0.3)]
+    up, joints = np.array([0.0, 0.6, 0.8]), np.zeros(12)
+    near, far = np.array([0.0, 0.8, 0.6]), np.array([0.0, -0.6, 0.8])  # turned by 0.28 and by 1.29 rad
+    order = [
+        [number for number, _ in asker.without_repeats(answers, failed, up, joints)]
+        for failed in (
+            [],
+            [(3, near, joints)],
+            [(3, far, joints)],
+            [(3, near, joints + 0.4)],
+            [(3, up, joints), (-4, up, joints)],
+        )
+    ]
+    assert order == [[3, -4, 7], [-4, 7, 3], [3, -4, 7], [3, -4, 7], [7, 3, -4]]
 
 
 def test_what_is_astray_is_asked_again_and_what_is_not_to_be_trusted_ends_it(exported: asker.Library) -> None:

@@ -60,6 +60,9 @@ HEARD = 128
 PRIOR = 0.5
 """Weight of the share over all falls, in falls. Nearby falls soon outweigh it."""
 
+SIMILAR = 0.3
+"""Distance between two lying poses up to which they count as one [rad]: see `apart`."""
+
 LEVEL, THERE = 0.35, 0.4
 """Largest tilt of a standing robot, and largest distance of its joints from the end of the motion [rad]."""
 
@@ -313,6 +316,24 @@ def apart(up: Array, joint_position: Array, other_up: Array, other_position: Arr
     return max(angle, float(np.abs(joint_position - other_position).max()))
 
 
+def without_repeats(
+    answers: list[tuple[int, float]], failed: list[tuple[int, Array, Array]], up: Array, joint_position: Array
+) -> list[tuple[int, float]]:
+    """Rank motions that just failed from a similar state behind all others: they would fail again.
+
+    Args:
+        answers: Motions and their probabilities, the likeliest first.
+        failed: Motions that failed, each with the upward direction in trunk axes and the joint angles where it began.
+        up: Upward direction in trunk axes, shape (3,).
+        joint_position: Joint angles [rad], shape (joints,).
+
+    Returns:
+        The same motions and probabilities.
+    """
+    similar = {number for number, *where in failed if apart(where[0], where[1], up, joint_position) < SIMILAR}
+    return sorted(answers, key=lambda answer: answer[0] in similar)
+
+
 def unpacked(content: bytes) -> Model | Learned:
     """Return the model of a model.npz: that of the nearest falls, or a learned one."""
     with np.load(io.BytesIO(content), allow_pickle=False) as file:
@@ -423,6 +444,7 @@ def get_up(
     if not callable(getattr(robot, "read_trunk", None)):
         raise player.Stopped("the robot has no read_trunk, but a library needs the trunk's attitude")
     done: list[Attempt] = []
+    failed: list[tuple[int, Array, Array]] = []
     if any(stands(motion, robot) for own in library.motions.values() for motion in own):
         return done
     limits = {"speed_tolerance": speed_tolerance, "clamp": clamp}
@@ -454,7 +476,8 @@ def get_up(
                     rest(library.fold)
                     held = library.fold
                     up, joints = sense(robot, len(library.joints))
-                motion, probability = library.ask(up, joints)[0]
+                motion, probability = without_repeats(library.ask(up, joints), failed, up, joints)[0]
+                failed.append((motion, up, joints))  # unless it stands afterwards, when this is the last attempt
                 played = nearest(library.motions[motion], up, joints)
                 player.play(
                     played,

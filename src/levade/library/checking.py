@@ -17,6 +17,7 @@ from levade.arrays import Array
 from levade.checks.statistics import wilson
 from levade.engines import MujocoEngine, Perturbation
 from levade.errors import LevadeError
+from levade.exports.asker import without_repeats
 from levade.library.asking import Answer, Library
 from levade.library.falls import FACES, Falls, Play, Plays, face, posed, tried, tried_on_others
 from levade.library.refining import refined
@@ -226,7 +227,8 @@ class _Trial:
             better = refined(self._falls, self._plays, objectives[j], numbers[j], seconds=self._refine, seed=self._seed)
             self._refined += better.works
         if failed:
-            self._recovered += self._again([objectives[j] for j in failed], [first[j] for j in failed])
+            asked = [(numbers[j][0], *sensed[j]) for j in failed]
+            self._recovered += self._again([objectives[j] for j in failed], [first[j] for j in failed], asked)
 
     def _judge(self, answers: Sequence[Answer], found: Sequence[Evaluation]) -> None:
         """Count first answers with a certificate, and the criteria and limits that first answers miss."""
@@ -265,8 +267,13 @@ class _Trial:
         self._times.append(time.perf_counter() - began)
         return answer
 
-    def _again(self, objectives: Sequence[Objective], plays: Sequence[Play]) -> int:
-        """Count the failed falls that a second answer recovers, from where the first one left the robot."""
+    def _again(
+        self, objectives: Sequence[Objective], plays: Sequence[Play], asked: Sequence[tuple[int, Array, Array]]
+    ) -> int:
+        """Count the failed falls that a second answer recovers, from where the first one left the robot.
+
+        ``asked`` has the number of each first answer, and what the robot sensed before it.
+        """
         engine = self._falls.simulation.engine
         if not isinstance(engine, MujocoEngine):
             return 0
@@ -284,6 +291,9 @@ class _Trial:
             left = self._falls.from_state(
                 self._falls.folded(engine.layout.state(qpos, qvel, act, joint_reference=told))
             )
-            answer = self._asked(*self._falls.sensed(left.state))
-            recovered += bool(tried([left], [[self._plays[answer.number]]])[0].success[0])
+            up, joint_position = self._falls.sensed(left.state)
+            answer = self._asked(up, joint_position)
+            answers = [(answer.number, answer.probability), *answer.others]
+            number, _ = without_repeats(answers, [asked[int(j)]], up, joint_position)[0]
+            recovered += bool(tried([left], [[self._plays[number]]])[0].success[0])
         return recovered

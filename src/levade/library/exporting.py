@@ -27,7 +27,7 @@ from levade.engines import State
 from levade.errors import LevadeError
 from levade.exports import export
 from levade.exports.as_csv import write_json, write_player, write_script
-from levade.exports.asker import Model, apart, checksum
+from levade.exports.asker import SIMILAR, Model, apart, checksum
 from levade.exports.directory import filling
 from levade.library.asking import Library
 from levade.library.falls import Falls, Plays, simulated
@@ -37,9 +37,6 @@ from levade.library.records import fall_of, image_of
 from levade.library.storing import read_falls
 from levade.motions import Motion
 from levade.robots import Robot
-
-_APART = 0.3
-"""Distance between two lying poses [rad] beyond which a motion is simulated from both."""
 
 
 @dataclass(frozen=True)
@@ -156,7 +153,7 @@ def _ways(library: Library) -> dict[int, list[tuple[int, bool]]]:
             continue
         for image in (False, True) if mirror else (False,):
             played, lying = image_of(number) if image else number, _lying(known, i, image=image)
-            if min(apart(*other, *lying) for other in states[played]) > _APART:
+            if min(apart(*other, *lying) for other in states[played]) > SIMILAR:
                 ways[played].append((fall, image))
                 states[played].append(lying)
     return ways
