@@ -326,14 +326,16 @@ def builds(rows: list[dict[str, Any]]) -> str:
 def checks(rows: list[dict[str, Any]]) -> str:
     """Markdown: how often the robot gets up from falls that the build has not seen."""
     lines = [
-        "| robot | built | tried, of seed | first | one of 3 | one of 5 | twice | first, perturbed | predicted | answer [ms] |",
-        "|---|--:|--:|---|---|---|---|---|--:|---|",
+        "| robot | built | tried, of seed | first | one of 3 | one of 5 | twice | first, perturbed | twice, perturbed"
+        " | predicted | answer [ms] |",
+        "|---|--:|--:|---|---|---|---|---|---|--:|---|",
     ]
     for row in rows:
         found = row["check"]
         nominal, after = found["nominal"], found["nominal"]["after"]
-        told = (nominal["first"], after["3"], after["5"], nominal["twice"], found["perturbed"]["first"])
-        shares = " | ".join(str(Share(one["successes"], one["runs"])) for one in told)
+        on_others = found["perturbed"]
+        told = (nominal["first"], after["3"], after["5"], nominal["twice"], on_others["first"], on_others.get("twice"))
+        shares = " | ".join("" if one is None else str(Share(one["successes"], one["runs"])) for one in told)
         ms = found["answer_ms"]
         lines.append(
             f"| {family(row)} | {row['starts']} | {found['starts']} of {found['seed']} | {shares} | {found['expected']:.1%} |"

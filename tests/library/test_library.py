@@ -16,6 +16,7 @@ import pytest
 from tests.library.rolling import contents, rolling
 
 from levade.engines import Perturbation
+from levade.engines.perturbation import PARAMETERS
 from levade.errors import LevadeError
 from levade.library import Falls, Library, Method, Record, build, check_library
 from levade.library.building import rounds
@@ -234,12 +235,20 @@ def test_it_is_checked_on_falls_that_it_has_not_seen(library: Library) -> None:
     assert found.failed == tuple(i for i, works in enumerate(first) if not works)
     assert found.first.successes <= found.after[2].successes <= found.after[3].successes <= found.after[5].successes
     assert found.first.successes <= found.twice.successes <= n
+    assert found.perturbed.successes <= found.perturbed_twice.successes <= n
     assert 0 < found.expected < 1
     assert sum(share.runs for share in found.lying.values()) == n
     assert sum(share.successes for share in found.lying.values()) == sum(first)
     assert json.loads(json.dumps(found.to_json()))["nominal"]["first"]["share"] == found.first.share
     with pytest.raises(LevadeError, match="0 is the seed of the library's own falls"):
         check_library(library, starts=n, seed=0)
+
+
+def test_perturbed_models_that_do_not_differ_give_the_results_of_the_model(library: Library) -> None:
+    same = Perturbation(**dict.fromkeys(PARAMETERS))  # type: ignore[arg-type]
+    found = check_library(library, starts=8, seed=3, perturbation=same)
+    assert 0 < found.first.successes < 8
+    assert (found.perturbed, found.perturbed_twice) == (found.first, found.twice)
 
 
 def test_a_refined_answer_works_where_it_says_so(library: Library) -> None:

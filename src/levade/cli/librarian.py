@@ -386,6 +386,7 @@ def _told(found: LibraryCheck) -> list[tuple[str, str]]:
         *([("the first answer, refined in simulation", str(found.refined))] if found.refined else []),
         ("within two attempts, the second from where it lies", str(found.twice)),
         ("the first answer, on perturbed models", str(found.perturbed)),
+        ("within two attempts, on perturbed models", str(found.perturbed_twice)),
         ("mean probability predicted by the answers", f"{found.expected:.1%}"),
         ("an answer takes", f"{found.answer_ms[0]:.2f} ms, 99 % at most {found.answer_ms[1]:.2f} ms"),
     ]

@@ -12,6 +12,7 @@ import numpy as np
 
 from levade.arrays import Array
 from levade.engines.engine import Engine
+from levade.engines.models import Models
 from levade.engines.mujoco import MujocoEngine
 from levade.engines.start import Fold
 from levade.engines.state import State
@@ -54,7 +55,7 @@ class Folding:
         frees = fold.jammed is not None and _FREEING in robot.postures
         return cls(fold, _posture(robot, fold), robot.posture(_FREEING) if frees else None)
 
-    def folded(self, engine: Engine, state: State) -> State:
+    def folded(self, engine: Engine, state: State, models: Models | None = None) -> State:
         """Simulate how robots fold up: their joints move smoothly to the posture, and rest there.
 
         If a joint of a robot is farther from the posture then than `Fold.jammed`, this robot takes the freeing posture and
@@ -63,6 +64,7 @@ class Folding:
         Args:
             engine: The engine.
             state: How the robots lie.
+            models: Perturbed models, as many rows. None for the nominal one.
 
         Returns:
             How they lie afterwards, as many rows.
@@ -70,17 +72,19 @@ class Folding:
         Raises:
             LevadeError: If the engine cannot simulate this, or the simulation breaks down.
         """
-        lying = self._moved(engine, state, self.posture, self.fold.rest)
+        lying = self._moved(engine, state, self.posture, self.fold.rest, models)
         if self.freeing is None or self.fold.jammed is None:
             return lying
         jammed = np.abs(lying.joint_position - self.posture).max(axis=1) > self.fold.jammed
         if not jammed.any():
             return lying
-        again = self._moved(engine, self._moved(engine, lying[jammed], self.freeing, 0.0), self.posture, self.fold.rest)
+        own = None if models is None else models[jammed]
+        stretched = self._moved(engine, lying[jammed], self.freeing, 0.0, own)
+        again = self._moved(engine, stretched, self.posture, self.fold.rest, own)
         row = np.where(jammed, np.cumsum(jammed) - 1 + len(lying), np.arange(len(lying)))
         return State.stacked([lying, again])[row]
 
-    def _moved(self, engine: Engine, state: State, posture: Array, rest: float) -> State:
+    def _moved(self, engine: Engine, state: State, posture: Array, rest: float, models: Models | None) -> State:
         """Simulate a smooth move to a posture, and a rest there [s]."""
         if not isinstance(engine, MujocoEngine):
             raise LevadeError(f"start.fallen.fold: engine {engine.name} simulates no folding; use the engine mujoco")
@@ -91,7 +95,7 @@ class Folding:
         position = before[:, None] + s**2 * (3.0 - 2.0 * s) * way
         velocity = 6.0 * s * (1.0 - s) / (ramp * timestep) * way
         reference = JointReference(position, velocity, timestep, ramp, before=before)
-        out, diverged = engine.states(state, reference, ["qpos", "qvel", "act"])
+        out, diverged = engine.states(state, reference, ["qpos", "qvel", "act"], models=models)
         if diverged.any():
             raise LevadeError("start.fallen.fold: the simulation breaks down; give it more time, or another posture")
         qpos, qvel, act = (out[name][:, -1] for name in ("qpos", "qvel", "act"))

@@ -9,22 +9,33 @@ from __future__ import annotations
 import time
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from levade.arrays import Array
 from levade.checks.statistics import wilson
-from levade.engines import MujocoEngine, Perturbation
+from levade.engines import Models, MujocoEngine, Perturbation, State
 from levade.errors import LevadeError
 from levade.exports.asker import without_repeats
 from levade.library.asking import Answer, Library
-from levade.library.falls import FACES, Falls, Play, Plays, face, posed, tried, tried_on_others
+from levade.library.falls import (
+    FACES,
+    Falls,
+    Play,
+    Plays,
+    face,
+    judged_on_others,
+    others,
+    posed,
+    tried,
+    tried_on_others,
+)
 from levade.library.refining import refined
 from levade.library.storing import read_falls, read_library
 from levade.robots import Robot
 from levade.search.evaluation import Evaluation, Mask
-from levade.search.objective import Objective, Rollouts
+from levade.search.objective import Objective
 
 AFTER = (2, 3, 5)
 """Numbers k for which the check counts whether one of the k likeliest motions works in simulation from that state."""
@@ -79,6 +90,7 @@ class LibraryCheck:
         after: Number k -> how often one of the k likeliest motions works.
         refined: How often the first answer works on the model after refinement. None without refinement.
         twice: How often the first answer works, or a second answer works from where the first one left the robot.
+        perturbed_twice: The same on perturbed models.
         lying: What the robot lies on (`levade.library.falls.FACES`) -> how often the first answer works from there.
         perturbed: How often the first answer works on a perturbed model, which is another one for each fall.
         expected: Mean probability that the first answers predict. Calibrated probabilities lie between `first` and
@@ -100,6 +112,7 @@ class LibraryCheck:
     twice: Share
     lying: Mapping[str, Share]
     perturbed: Share
+    perturbed_twice: Share
     expected: float
     answer_ms: tuple[float, float]
     failed: tuple[int, ...]
@@ -126,7 +139,7 @@ class LibraryCheck:
             "starts": self.starts,
             "seed": self.seed,
             "nominal": nominal,
-            "perturbed": {"first": self.perturbed.to_json()},
+            "perturbed": {"first": self.perturbed.to_json(), "twice": self.perturbed_twice.to_json()},
             **hardware,
             "expected": self.expected,
             "answer_ms": {"median": self.answer_ms[0], "p99": self.answer_ms[1]},
@@ -190,7 +203,7 @@ class _Trial:
         self._works: list[Mask] = []
         self._perturbed: list[bool] = []
         self._faces: list[str] = []
-        self._recovered, self._certified = 0, 0
+        self._recovered, self._recovered_perturbed, self._certified = 0, 0, 0
         self._missed: Counter[str] = Counter()
         self._times: list[float] = []
         self._expected: list[float] = []
@@ -210,25 +223,32 @@ class _Trial:
         found = tried(objectives, [own[:1] for own in plays])
         works: list[Mask] = [one.success for one in found]
         left = [j for j, one in enumerate(works) if not one[0] and len(plays[j]) > 1]
-        for j, others in zip(left, tried([objectives[j] for j in left], [plays[j][1:] for j in left]), strict=True):
-            works[j] = np.concatenate([works[j], others.success])
+        for j, further in zip(left, tried([objectives[j] for j in left], [plays[j][1:] for j in left]), strict=True):
+            works[j] = np.concatenate([works[j], further.success])
         self._works += works
         if self._library.hardware:
             self._judge(answers, found)
         self._expected += [one.probability for one in answers]
         first = [own[0] for own in plays]
-        self._perturbed += [
+        perturbed = [
             bool(tried_on_others(objective, {0: play}, self._perturbation, seed=(self._seed, i))[0])
             for i, objective, play in zip(indices, objectives, first, strict=True)
         ]
+        self._perturbed += perturbed
         failed = [j for j, one in enumerate(works) if not one[0]]
         for j in failed if self._refine is not None else ():
             assert self._refine is not None
             better = refined(self._falls, self._plays, objectives[j], numbers[j], seconds=self._refine, seed=self._seed)
             self._refined += better.works
-        if failed:
-            asked = [(numbers[j][0], *sensed[j]) for j in failed]
-            self._recovered += self._again([objectives[j] for j in failed], [first[j] for j in failed], asked)
+        asked = [_Asked(objectives[j], first[j], numbers[j][0], *sensed[j]) for j in range(len(indices))]
+        self._recovered += self._again([(asked[j], objectives[j].state, None) for j in failed])
+        self._recovered_perturbed += self._again(
+            [
+                (asked[j], *others(objectives[j], self._perturbation, [0], seed=(self._seed, i)))
+                for j, i in enumerate(indices)
+                if not perturbed[j]
+            ]
+        )
 
     def _judge(self, answers: Sequence[Answer], found: Sequence[Evaluation]) -> None:
         """Count first answers with a certificate, and the criteria and limits that first answers miss."""
@@ -249,6 +269,7 @@ class _Trial:
             twice=Share(first + self._recovered, n),
             lying={name: self._of_those_on(name) for name in FACES if name in self._faces},
             perturbed=Share(sum(self._perturbed), n),
+            perturbed_twice=Share(sum(self._perturbed) + self._recovered_perturbed, n),
             expected=float(np.mean(self._expected)) if self._expected else 0.0,
             answer_ms=(1e3 * float(median), 1e3 * float(late)),
             failed=tuple(i for i, one in enumerate(self._works) if not one[0]),
@@ -267,33 +288,45 @@ class _Trial:
         self._times.append(time.perf_counter() - began)
         return answer
 
-    def _again(
-        self, objectives: Sequence[Objective], plays: Sequence[Play], asked: Sequence[tuple[int, Array, Array]]
-    ) -> int:
-        """Count the failed falls that a second answer recovers, from where the first one left the robot.
+    def _again(self, failures: Sequence[tuple[_Asked, State, Models | None]]) -> int:
+        """Count the failures of first answers that a second one recovers, from where the first one left the robot.
 
-        ``asked`` has the number of each first answer, and what the robot sensed before it.
+        Each failure has the start of the first answer, and the perturbed model on which it failed. None is the nominal one.
         """
         engine = self._falls.simulation.engine
         if not isinstance(engine, MujocoEngine):
             return 0
-        parts = []
-        for objective, play in zip(objectives, plays, strict=True):
-            own, weights = posed(objective, play)
-            reference = own.policy.reference(weights, hold_steps=own.task.hold_steps)
-            parts.append(Rollouts(own.state, reference, None))
-        joined = Rollouts.joined(parts)
-        out, diverged = engine.states(joined.starts, joined.reference, ["qpos", "qvel", "act"])
         recovered = 0
-        for j in np.flatnonzero(~diverged):
-            qpos, qvel, act = (out[name][j, -1] for name in ("qpos", "qvel", "act"))
-            told = joined.reference.position[j, -1]
-            left = self._falls.from_state(
-                self._falls.folded(engine.layout.state(qpos, qvel, act, joint_reference=told))
-            )
+        for asked, start, models in failures:
+            own, weights = posed(asked.objective, asked.play)
+            reference = own.policy.reference(weights, hold_steps=own.task.hold_steps)
+            if models is not None:
+                reference = replace(reference, before=start.joint_reference[0])
+            out, diverged = engine.states(start, reference, ["qpos", "qvel", "act"], models=models)
+            if diverged[0]:
+                continue
+            qpos, qvel, act = (out[name][0, -1] for name in ("qpos", "qvel", "act"))
+            fallen = engine.layout.state(qpos, qvel, act, joint_reference=reference.position[0, -1])
+            left = self._falls.from_state(self._falls.folded(fallen, models))
             up, joint_position = self._falls.sensed(left.state)
             answer = self._asked(up, joint_position)
             answers = [(answer.number, answer.probability), *answer.others]
-            number, _ = without_repeats(answers, [asked[int(j)]], up, joint_position)[0]
-            recovered += bool(tried([left], [[self._plays[number]]])[0].success[0])
+            failed = (asked.number, asked.up, asked.joint_position)
+            play = self._plays[without_repeats(answers, [failed], up, joint_position)[0][0]]
+            if models is None:
+                recovered += bool(tried([left], [[play]])[0].success[0])
+            else:
+                again, weights = posed(left, play)
+                recovered += bool(judged_on_others(again, weights, left.state, models)[0])
         return recovered
+
+
+@dataclass(frozen=True, eq=False)
+class _Asked:
+    """A first answer: the task from its fall, what is played, its number, and what the robot sensed before it."""
+
+    objective: Objective
+    play: Play
+    number: int
+    up: Array
+    joint_position: Array

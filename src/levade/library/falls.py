@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from levade.arrays import Array
-from levade.engines import Fallen, Fold, Perturbation, State, perturbed_models, start_state
+from levade.engines import Fallen, Fold, Models, Perturbation, State, perturbed_models, start_state
 from levade.engines.folding import Folding
 from levade.errors import LevadeError
 from levade.feedback import up_in_trunk
@@ -110,16 +110,17 @@ class Falls:
         """
         return replace(self.task, start=StartChoice(fallen=replace(self._fallen, index=index)))
 
-    def folded(self, state: State) -> State:
+    def folded(self, state: State, models: Models | None = None) -> State:
         """Simulate folding up, which the robot does first after a fall or a failure.
 
         Args:
             state: State after the fall.
+            models: Perturbed models, as many rows. None for the nominal one.
 
         Returns:
             State after folding up; unchanged if the robot does not fold up.
         """
-        return state if self.folding is None else self.folding.folded(self.simulation.engine, state)
+        return state if self.folding is None else self.folding.folded(self.simulation.engine, state, models)
 
     @property
     def fold(self) -> Array | None:
@@ -339,22 +340,53 @@ def tried_on_others(
     Returns:
         Whether each one works, shape (plays,).
     """
-    engine, hold = objective.engine, objective.task.hold_steps
     numbers = np.array(list(plays), dtype=int)
-    drawn = perturbation.draw(engine.model, engine.embodiment.joints, n=int(numbers.max()) + 1, seed=(*seed, _TAG))
+    starts, models = others(objective, perturbation, numbers.tolist(), seed=seed)
     works = np.zeros(len(plays), dtype=bool)
     for one, members in _by_policy(objective, list(plays.values())):
         for first in range(0, len(members), AT_ONCE):
             rows = members[first : first + AT_ONCE]
-            sample = drawn[numbers[rows].tolist()]
-            starts, models = perturbed_models(engine.model, engine.layout, sample, objective.state)
             weights = np.concatenate([plays[int(number)].decisions(one.policy) for number in numbers[rows]])
-            # until the first reference arrives, the joints keep their last command
-            made = one.policy.reference(weights, hold_steps=hold)
-            reference = replace(made, before=objective.state.joint_reference[0])
-            trajectories = engine.rollout(starts, reference, models=models, record=one.recorded)
-            works[rows] = one.judge(trajectories, hold, perturbed=True).success
+            works[rows] = judged_on_others(one, weights, starts[rows], models[rows])
     return works
+
+
+def others(
+    objective: Objective, perturbation: Perturbation, numbers: Sequence[int], *, seed: tuple[int, ...]
+) -> tuple[State, Models]:
+    """Make perturbed models. Each depends on its own number only.
+
+    Args:
+        objective: The task from one fall.
+        perturbation: How far the models differ from the nominal one.
+        numbers: Numbers of the models.
+        seed: Seed of the models.
+
+    Returns:
+        The start of each, and the models.
+    """
+    engine = objective.engine
+    drawn = perturbation.draw(engine.model, engine.embodiment.joints, n=max(numbers) + 1, seed=(*seed, _TAG))
+    return perturbed_models(engine.model, engine.layout, drawn[numbers], objective.state)
+
+
+def judged_on_others(objective: Objective, weights: Array, starts: State, models: Models) -> Mask:
+    """Play motions on perturbed models.
+
+    Args:
+        objective: The task.
+        weights: Weights of the motions, shape (n, d).
+        starts: Start of each.
+        models: Model of each.
+
+    Returns:
+        Whether each one works, shape (n,).
+    """
+    hold = objective.task.hold_steps
+    # until the first reference arrives, the joints keep their last command
+    reference = replace(objective.policy.reference(weights, hold_steps=hold), before=objective.state.joint_reference[0])
+    trajectories = objective.engine.rollout(starts, reference, models=models, record=objective.recorded)
+    return objective.judge(trajectories, hold, perturbed=True).success
 
 
 def tried(objectives: Sequence[Objective], plays: Sequence[Sequence[Playable]]) -> list[Evaluation]:
