@@ -31,10 +31,10 @@ def generation(share: float | None, trials: int = 100) -> Generation:
 @pytest.mark.parametrize(
     ("share", "seconds", "end"),
     [
-        (0.95, 10.0, 73.0),  # 160 runs and the rest took as long as 200 runs: 50 ms for each of 540
-        (0.5, 10.0, 93.0),  # of which 140 are made where few robots succeed
-        (None, 10.0, 93.0),
-        (0.95, 100.0, 60.0),  # most of the time is for searches
+        (0.95, 8.0, 78.4),  # 160 runs and the rest took as long as 200 runs: 40 ms for each of 540
+        (0.5, 8.0, 94.4),  # of which 140 are made where few robots succeed
+        (None, 8.0, 94.4),
+        (0.95, 100.0, 75.0),  # most of the time is for searches
     ],
 )
 def test_a_search_ends_so_early_that_its_certificate_fits(

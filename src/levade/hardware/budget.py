@@ -22,7 +22,7 @@ _LIKELY = 0.9
 _VARIANTS = 40
 """Duration of the rest of a certificate, in perturbed runs: finer time steps, other contacts and another engine."""
 
-_RESERVED = 0.4
+_RESERVED = 0.25
 """Largest share of the time that is kept for the last certificate."""
 
 
