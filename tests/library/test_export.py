@@ -22,6 +22,8 @@ from levade.library.exporting import export_library
 from levade.robots import Robot
 from levade.tasks import Task, load_task
 
+pytestmark = pytest.mark.slow
+
 FOLD = "start={fallen: {height: 0.5, time: 0.4, fold: {time: 0.1, rest: 0.1}}}"
 
 

@@ -12,6 +12,8 @@ from levade.library import Falls, build, hardening
 from levade.library.falls import Plays
 from levade.tasks.robust import Racing
 
+pytestmark = pytest.mark.slow
+
 
 def few(monkeypatch: pytest.MonkeyPatch, trials: int) -> None:
     """Harden with few roll-outs, on few robots."""

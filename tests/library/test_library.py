@@ -32,6 +32,8 @@ from levade.robots import load_robot
 from levade.search import make_objective
 from levade.tasks import load_task
 
+pytestmark = pytest.mark.slow
+
 STARTS = 7
 
 

@@ -25,6 +25,8 @@ from levade.library.storing import Shard, read_hardware
 from levade.motions import Motion
 from levade.tasks import Demands, Task, load_task
 
+pytestmark = pytest.mark.slow
+
 STARTS = 4
 FAST = Demands.robust()
 FAST = replace(FAST, share=0.5, numerics=False, engines=False, speed=-5.0)

