@@ -11,10 +11,10 @@ from levade.tasks import Task, load_task
 FALLEN = "start={fallen: {height: 0.5, time: 0.4}}"
 
 
-def rolling(robot: str | None = None, *, polish: int = 4, trials: int = 24) -> Task:
+def rolling(robot: str | None = None, *, start: str = FALLEN, polish: int = 4, trials: int = 24) -> Task:
     """Lie with the back anywhere but down, after a third of a second: some motions do, from some falls."""
     small = ("hold=0.1", "horizon=0.3", f"search.polish={polish}", "search.population=4", f"search.trials={trials}")
-    task = load_task("self-righting", robot=robot, changes=[FALLEN, *small])
+    task = load_task("self-righting", robot=robot, changes=[start, *small])
     return replace(task, success={"over": Criterion("tilt", maximum=1.9, at="end")})
 
 

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.library.rolling import rolling
 
-from levade.costs import Criterion
 from levade.engines import Fold
 from levade.errors import LevadeError
 from levade.exports import asker
@@ -27,18 +27,14 @@ pytestmark = pytest.mark.slow
 FOLD = "start={fallen: {height: 0.5, time: 0.4, fold: {time: 0.1, rest: 0.1}}}"
 
 
-def rolling() -> Task:
-    """As tests/library/test_library.py has it, from where the robot has drawn its legs in."""
-    small = ("hold=0.1", "horizon=0.3", "search.polish=4", "search.population=4", "search.trials=24")
-    return replace(
-        load_task("self-righting", changes=[FOLD, *small]),
-        success={"over": Criterion("tilt", maximum=1.9, at="end")},
-    )
+def folding() -> Task:
+    """`rolling` from where the robot has drawn its legs in."""
+    return rolling(start=FOLD)
 
 
 @pytest.fixture(scope="module")
 def library(tmp_path_factory: pytest.TempPathFactory) -> Library:
-    return build(rolling(), starts=3, directory=tmp_path_factory.mktemp("libraries") / "rolling")
+    return build(folding(), starts=3, directory=tmp_path_factory.mktemp("libraries") / "rolling")
 
 
 @pytest.fixture(scope="module")
@@ -289,9 +285,6 @@ def test_a_robot_that_folds_lies_with_its_legs_drawn_in(packaged: Callable[[str]
 
 
 def test_only_what_folds_is_exported(tmp_path: Path) -> None:
-    task = replace(
-        rolling(), start=load_task("self-righting", changes=["start={fallen: {height: 0.5, time: 0.4}}"]).start
-    )
-    library = build(task, starts=1, directory=tmp_path / "library")
+    library = build(rolling(), starts=1, directory=tmp_path / "library")
     with pytest.raises(LevadeError, match="the robot does not fold up first"):
         export_library(library, tmp_path / "robot")

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.document import build, read_yaml
 from levade.errors import LevadeError, Remedy
 from levade.library.asking import LIBRARY, fold_of
@@ -130,14 +131,19 @@ def _check_fold(directory: Path, falls: Falls) -> None:
     freeing = None if falls.folding is None else falls.folding.freeing
     for name, own in (("fold", falls.fold), ("freeing", freeing)):
         known = fold_of(content.get(name), where=f"{where}: {name}")
-        if known is own is None or (
-            known is not None and own is not None and known.shape == own.shape and np.allclose(known, own)
-        ):
+        if _alike(known, own):
             continue
         raise LevadeError(
             f"{directory}: its robot folded up in another way, as an earlier version or file of the robot had it",
             remedies=(Remedy("build it again elsewhere", "elsewhere"),),
         )
+
+
+def _alike(one: Array | None, other: Array | None) -> bool:
+    """Return whether two postures are the same, or both missing."""
+    if one is None or other is None:
+        return one is other
+    return one.shape == other.shape and np.allclose(one, other)
 
 
 def read_hardware(directory: Path) -> Hardware | None:

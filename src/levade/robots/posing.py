@@ -110,11 +110,11 @@ def _derived(bare: Bare, robot: str, torque: Array, postures: Mapping[str, Array
     derived: dict[str, Array] = {}
     if "crouched" in missing:
         crouched, fault = _once(
-            search, bare, torque, ("crouched", neutral), lambda: search.standing(neutral, CROUCHED * search.extension())
+            search, torque, ("crouched", neutral), lambda: search.standing(neutral, CROUCHED * search.extension())
         )
         derived |= {} if fault else {"crouched": crouched}
     if "stretched" in missing and len(bare.standing) == 2:
-        derived["stretched"], _ = _once(search, bare, torque, ("stretched", neutral), lambda: search.tiptoe(neutral))
+        derived["stretched"], _ = _once(search, torque, ("stretched", neutral), lambda: search.tiptoe(neutral))
     return {name: dict(zip(bare.joints, angles.tolist(), strict=True)) for name, angles in derived.items()}
 
 
@@ -157,7 +157,7 @@ def _searched(draft: Draft, bare: Bare, path: Path, robot: str, torque: Array) -
         " spares this"
     )
     search = PostureSearch(bare, torque, during=patience.check)
-    angles, fault = _once(search, bare, torque, ("neutral",), search.neutral)
+    angles, fault = _once(search, torque, ("neutral",), search.neutral)
     if fault:
         raise LevadeError(
             f"{path}: no standing posture was found: {fault}; give one: robot.yaml, postures: {{neutral: {{joint: angle}}}}"
@@ -168,13 +168,12 @@ def _searched(draft: Draft, bare: Bare, path: Path, robot: str, torque: Array) -
 
 
 def _once(
-    search: PostureSearch, bare: Bare, torque: Array, what: tuple[str | Array, ...], find: Callable[[], Array]
+    search: PostureSearch, torque: Array, what: tuple[str | Array, ...], find: Callable[[], Array]
 ) -> tuple[Array, str]:
     """Search for a posture, unless this was done before in this process.
 
     Args:
-        search: The search.
-        bare: The robot.
+        search: The search, which knows the robot.
         torque: Torque limits [Nm], shape (joints,).
         what: What distinguishes this posture from others of the robot.
         find: Makes the search.
@@ -182,6 +181,7 @@ def _once(
     Returns:
         Its angles [rad], shape (joints,), and why the robot cannot stand there; "" if it can.
     """
+    bare = search.bare
     model = np.empty(mujoco.mj_sizeModel(bare.model), dtype=np.uint8)
     mujoco.mj_saveModel(bare.model, None, model)
     named = [one if isinstance(one, str) else one.tolist() for one in what]
