@@ -500,8 +500,8 @@ def get_up(
             done.append(Attempt(motion, probability, standing, stopped))
             observe(done[-1])
     except BaseException as error:
-        if held is not None and (failed := player.let_go(held, robot, wait=wait())):
-            error.__notes__ = [*getattr(error, "__notes__", []), *failed]
+        if held is not None and (lines := player.let_go(held, robot, wait=wait())):
+            error.__notes__ = [*getattr(error, "__notes__", []), *lines]
         raise
     if held is not None and not done[-1].stands:
         player.let_go(held, robot, wait=wait())
