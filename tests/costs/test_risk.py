@@ -18,6 +18,16 @@ def test_mean_and_worst_are_what_they_say() -> None:
     assert risk(COSTS, ALL, measure="worst").tolist() == [7.0, 2.0, 9.0]
 
 
+def test_mean_log_prefers_few_failures_to_mild_ones() -> None:
+    """One robot of four that fails badly is better than two that fail less; for the mean it is the other way round."""
+    costs = np.array([[0.5, 0.5, 0.5, 500.0], [0.5, 0.5, 50.0, 50.0]])
+    mean, logarithm = (risk(costs, ALL[:2], measure=one) for one in ("mean", "mean-log"))
+    assert mean[0] > mean[1]
+    assert logarithm[0] < logarithm[1]
+    np.testing.assert_allclose(logarithm[0], (3 * np.log(1.5) + np.log(501)) / 4)
+    assert risk(np.array([[-2.0, 0.0]]), ALL[:1, :2], measure="mean-log").tolist() == [-1.0]
+
+
 @pytest.mark.parametrize(
     ("tail", "expected"), [(0.5, [6.0, 2.0, 4.5]), (0.25, [7.0, 2.0, 9.0]), (1.0, [4.0, 2.0, 2.25])]
 )

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from levade.arrays import Array
 from levade.costs import Criterion
-from levade.costs.risk import Measure
+from levade.costs.risk import MEASURES, Measure
 from levade.engines import Perturbation
 from levade.errors import LevadeError
 
@@ -84,8 +84,10 @@ class Robust:
     def __post_init__(self) -> None:
         if not 1 <= self.samples <= 1000:
             raise LevadeError(f"robust.samples: {self.samples} should be 1 to 1000; 8 is usual")
-        if self.measure not in ("mean", "cvar", "worst"):
-            raise LevadeError(f"robust.measure: {self.measure!r} is unknown; give mean, cvar or worst")
+        if self.measure not in MEASURES:
+            raise LevadeError(
+                f"robust.measure: {self.measure!r} is unknown; give {', '.join(MEASURES[:-1])} or {MEASURES[-1]}"
+            )
         if self.redraw not in ("never", "generation"):
             raise LevadeError(f"robust.redraw: {self.redraw!r} is unknown; give never or generation")
         if self.contender not in ("best", "mean"):
