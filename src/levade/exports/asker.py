@@ -67,6 +67,16 @@ LEVEL, THERE = 0.35, 0.4
 """Largest tilt of a standing robot, and largest distance of its joints from the end of the motion [rad]."""
 
 
+def distances(ups: Array, joint_positions: Array, up: Array, joint_position: Array) -> Array:
+    """Compute the distance of a state from others, of shapes (n, 3) and (n, joints) [rad], shape (n,).
+
+    It combines the angle between upward directions with the joints' differences.
+    """
+    angle = np.arccos(np.clip(ups @ up, -1.0, 1.0))
+    joints = np.sqrt(((joint_positions - joint_position) ** 2).mean(axis=1))
+    return np.hypot(angle, JOINTS * joints)
+
+
 @dataclass(frozen=True, eq=False)
 class Model:
     """Predicts which motion works from where.
@@ -94,13 +104,8 @@ class Model:
     mirror_signs: Array
 
     def distances(self, up: Array, joint_position: Array) -> Array:
-        """Compute the distance of a state from each fall [rad], shape (n,).
-
-        It combines the angle between upward directions with the joints' differences.
-        """
-        angle = np.arccos(np.clip(self.up @ up, -1.0, 1.0))
-        joints = np.sqrt(((self.joint_position - joint_position) ** 2).mean(axis=1))
-        return np.hypot(angle, JOINTS * joints)
+        """Compute the distance of a state from each fall [rad], shape (n,)."""
+        return distances(self.up, self.joint_position, up, joint_position)
 
     def probabilities(self, up: Array, joint_position: Array) -> Array:
         """Predict how likely each motion works from a state, on the nominal model or a perturbed one, shape (m,)."""

@@ -14,6 +14,7 @@ from levade.arrays import Array
 from levade.engines import Fallen, Fold, Models, Perturbation, State, perturbed_models, start_state
 from levade.engines.folding import Folding
 from levade.errors import LevadeError
+from levade.exports.asker import distances
 from levade.feedback import up_in_trunk
 from levade.hardware import Plan
 from levade.library.mirror import Mirror
@@ -32,6 +33,13 @@ FACES = ("tail", "nose", "right", "left", "belly", "back")
 
 _TAG = 1_818_845_550
 """Part of a seed, so that perturbed models differ from those of searches and of checks of motions."""
+
+
+_NEIGHBOURS, _NEAR = 47, 0.6
+"""Number of other falls from which a robust motion of a fall has to work, too, and how far they may be from it [rad]."""
+
+_DRAWN, _BEYOND = 128, 1_000_000_000
+"""Most falls that are drawn to find them, and the number of the first."""
 
 
 class Falls:
@@ -84,6 +92,7 @@ class Falls:
         self.judged = self.task if self.plan is None else self.plan.certifiable(self.plan.within_limits())
         self.simulation = Simulation.of(self.judged, robot=robot, threads=threads)
         self.folding = None if fallen.fold is None else Folding.of(robot, fallen.fold)
+        self._others: list[State] = []
         self.mirror = None if task.scene.boxes or task.scene.terrain else self._mirror()
 
     def _mirror(self) -> Mirror | None:
@@ -126,6 +135,35 @@ class Falls:
     def fold(self) -> Array | None:
         """Joint angles to which the robot folds up first [rad], shape (joints,). None if it does not fold up."""
         return None if self.folding is None else self.folding.posture
+
+    def widened(self, objective: Objective) -> Objective:
+        """Let perturbed models also start as the robot lies after other falls of the family nearby.
+
+        These falls are numbered far beyond those of a library. If the robot does not fold up, there are none: each fall
+        leaves the joints with other commands.
+
+        Args:
+            objective: The task from one fall.
+
+        Returns:
+            The task from that fall; a motion that is robust in this sense also works nearby.
+        """
+        state, near = objective.state, list[State]()
+        if self.folding is not None:
+            (up, joint_position), drawn = self.sensed(state), 0
+            while len(near) < _NEIGHBOURS and drawn < _DRAWN:
+                other = self._other(drawn)
+                own = distances(*(part[None] for part in self.sensed(other)), up, joint_position)[0]
+                if own < _NEAR and np.allclose(other.joint_reference, state.joint_reference):
+                    near.append(other)
+                drawn += 1
+        return Objective(objective.simulation.starting(state, *near), objective.task)
+
+    def _other(self, number: int) -> State:
+        """Return how the robot lies after another fall, which no library has; simulate it once."""
+        while len(self._others) <= number:
+            self._others.append(self.objective(_BEYOND + len(self._others)).state)
+        return self._others[number]
 
     def from_state(self, state: State) -> Objective:
         """Return the task from a state that is not one of the falls.

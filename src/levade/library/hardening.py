@@ -19,14 +19,14 @@ from levade.tasks.robust import Racing, Robust
 _STEP = 0.3
 """Factor on the initial step size, which is small because the search begins at a motion that works."""
 
-_TRIALS, _SHARE = 1000, 0.4
-"""Most roll-outs for one motion, as a number and as a share of the task's own search."""
+_TRIALS, _LEAST = 3000, 250
+"""Most roll-outs for one motion; and the fewest, in the task's own search, that are worth one: they make two generations."""
 
-_LEAST = 100
-"""Fewest roll-outs that are worth a search: fewer do not make one generation on perturbed models."""
+_HOLD = 0.5
+"""Simulated part of the hold [s]. A motion that is about to fall shows it by then."""
 
 _ROBUST = Robust(
-    samples=16, measure="mean", redraw="generation", validation=48, required=1.0, racing=Racing(first=2, keep=0.25)
+    samples=16, measure="mean-log", redraw="generation", validation=48, required=1.0, racing=Racing(first=2, keep=0.25)
 )
 """Two samples decide which quarter of the candidates runs all sixteen. The best has to work on 48 fixed samples."""
 
@@ -59,10 +59,10 @@ def harden(
 
 
 def _trials(task: Task) -> int:
-    return min(_TRIALS, int(_SHARE * task.search.trials))
+    return min(_TRIALS, task.search.trials)
 
 
 def _hard(task: Task) -> Task:
     search = replace(task.search, trials=_trials(task), restart=None, patience=None, polish=0)
     robust = replace(_ROBUST, success=task.good_enough)  # so that success on the model is reported separately
-    return replace(task, robust=robust, stages=(Stage(),), search=search)
+    return replace(task, robust=robust, stages=(Stage(hold=_HOLD),), search=search)

@@ -216,7 +216,7 @@ class Solver:
         asked = [objectives[i] for i in left]
         weights = [self._plays[_given(begun[i].works)].decisions(objectives[i].policy) for i in left]
         seeds = [self._seed + _APART * i for i in left]
-        better = harden(asked, weights, seeds=seeds, observe=self._interrupted)
+        better = harden([self._falls.widened(one) for one in asked], weights, seeds=seeds, observe=self._interrupted)
         for i, one, seed, found in zip(left, asked, seeds, better, strict=True):
             begun[i] = replace(begun[i], trials=begun[i].trials + (found.trials if found else 0))
             if found is not None and found.stopped == Stopped.INTERRUPTED:
@@ -244,7 +244,7 @@ class Solver:
             guesses = [_around(one, begun[i]) for i, one in zip(left, asked, strict=True)]
         seeds = [self._seed + _APART * i for i in left]
         solutions = solve_many(asked, seeds=seeds, initial=guesses, observe=self._interrupted)
-        solutions = self._hardened(asked, solutions, seeds)
+        solutions = self._hardened([objectives[i] for i in left], solutions, seeds)  # with the task's own budget
         for i, objective, seed, solution in zip(left, asked, seeds, solutions, strict=True):
             begun[i] = one = replace(begun[i], trials=begun[i].trials + solution.trials)
             if solution.stopped == Stopped.INTERRUPTED:
@@ -261,7 +261,7 @@ class Solver:
         """Harden the successful solutions on perturbed models; return all solutions."""
         found = [j for j, one in enumerate(solutions) if one.success and one.stopped != Stopped.INTERRUPTED]
         better = harden(
-            [asked[j] for j in found],
+            [self._falls.widened(asked[j]) for j in found],
             [solutions[j].best.weights[None] for j in found],
             seeds=[seeds[j] for j in found],
             observe=self._interrupted,

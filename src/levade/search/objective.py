@@ -23,6 +23,7 @@ from levade.engines import (
     SELF_FORCE,
     Engine,
     Models,
+    Sample,
     State,
     make_engine,
     perturbed_models,
@@ -34,7 +35,7 @@ from levade.optimizers import SearchSpace
 from levade.policies import FreePolicy, JointPolicy, Policy
 from levade.robots import Robot
 from levade.search.closed_loop import ClosedLoop
-from levade.search.evaluation import Evaluation, Trials, joined
+from levade.search.evaluation import Evaluation, Index, Trials, joined
 from levade.search.memory import check_fits, needed
 from levade.search.optimizing import make_attempt
 from levade.search.space import search_space
@@ -49,6 +50,9 @@ AT_ONCE = 128
 _TAG = 1_380_930_130
 """Separates the perturbed models from those that `levade check` draws with the same seed."""
 
+_ELSEWHERE = 1_701_606_770
+"""Separates the order of the starts from all other random numbers."""
+
 
 @dataclass(frozen=True, eq=False)
 class Simulation:
@@ -58,11 +62,14 @@ class Simulation:
         robot: The robot.
         engine: The engine, whose model includes the scene.
         start: State where roll-outs start.
+        elsewhere: Further states, one row each, where roll-outs on perturbed models start, in turn with ``start``. Motions that
+            are robust in this sense also work from there.
     """
 
     robot: Robot
     engine: Engine
     start: State
+    elsewhere: tuple[State, ...] = ()
 
     @classmethod
     def of(cls, task: Task, *, robot: Robot | None = None, threads: int = 0) -> Simulation:
@@ -88,13 +95,15 @@ class Simulation:
         )
         return cls(robot, engine, start_state(engine, robot, task.scene, task.start.choice))
 
-    def starting(self, start: State) -> Simulation:
+    def starting(self, start: State, *elsewhere: State) -> Simulation:
         """Return the same simulation with another start.
 
         Args:
             start: State where roll-outs start.
+            elsewhere: Further states where roll-outs on perturbed models start, one row each. Their joints' last commands
+                should be those of ``start``.
         """
-        return replace(self, start=start)
+        return replace(self, start=start, elsewhere=elsewhere)
 
 
 @dataclass(frozen=True, eq=False)
@@ -305,8 +314,21 @@ class Objective:
             n = robust.samples if draw else robust.fixed
             sample = robust.perturb.spread(engine.model, engine.embodiment.joints, n=n, seed=(seed, draw, _TAG))
             kept = {other: models for other, models in self._drawn.items() if other[1] == 0}
-            self._drawn = {**kept, key: perturbed_models(engine.model, engine.layout, sample, self.state)}
+            order = np.random.default_rng((seed, draw, _ELSEWHERE)).permutation(n) if draw else np.arange(n)
+            self._drawn = {**kept, key: self._started(sample, order)}
         return self._drawn[key]
+
+    def _started(self, sample: Sample, order: Index) -> tuple[State, Models]:
+        """Make perturbed models, and start them in turn, in this order, from each of the states where roll-outs start."""
+        starts = (self.state, *self.simulation.elsewhere)
+        rows = [np.flatnonzero(order % len(starts) == i) for i in range(len(starts))]
+        made = [
+            perturbed_models(self.engine.model, self.engine.layout, sample[own], start)
+            for own, start in zip(rows, starts, strict=True)
+            if len(own)
+        ]
+        back = np.argsort(np.concatenate(rows))
+        return State.stacked([states for states, _ in made])[back], Models.stacked([models for _, models in made])[back]
 
 
 def make_objective(
