@@ -30,6 +30,9 @@ _ROBUST = Robust(
 )
 """Two samples decide which quarter of the candidates runs all sixteen. The best has to work on 48 fixed samples."""
 
+_SAMPLES = 3
+"""Fixed samples, one after another, on all of which a motion has to work: one alone it passes by chance, if it fails on 5 %."""
+
 
 def harden(
     objectives: Sequence[Objective],
@@ -52,17 +55,40 @@ def harden(
     """
     if not objectives or _trials(objectives[0].task) < _LEAST:
         return [None] * len(objectives)
-    asked = [one.with_task(_hard(one.task)) for one in objectives]
-    guesses = [InitialGuess(one, step=_STEP) for one in weights]
-    found = solve_many(asked, seeds=seeds, initial=guesses, observe=observe)
-    return [replace(one, best=replace(one.best, success=one.best.met)) for one in found]
+    found: list[Solution | None] = [None] * len(objectives)
+    left = list(range(len(objectives)))
+    for number in range(_SAMPLES):
+        spent = {i: one.trials if (one := found[i]) else 0 for i in left}
+        asked = [objectives[i].with_task(_hard(objectives[i].task, spent[i])) for i in left]
+        guesses = [InitialGuess(one.best.weights[None] if (one := found[i]) else weights[i], step=_STEP) for i in left]
+        again = solve_many(
+            asked, seeds=[seeds[i] + number for i in left], initial=guesses, observe=_named(observe, left)
+        )
+        for i, one in zip(left, again, strict=True):
+            found[i] = replace(one, trials=spent[i] + one.trials)
+        left = [
+            i
+            for i, one in zip(left, again, strict=True)
+            if one.stopped == Stopped.SUCCESS and _trials(objectives[i].task) - spent[i] - one.trials >= _LEAST
+        ]
+        if not left:
+            break
+    return [one and replace(one, best=replace(one.best, success=one.best.met)) for one in found]
+
+
+def _named(
+    observe: Callable[[int, Generation], Stopped | None], numbers: Sequence[int]
+) -> Callable[[int, Generation], Stopped | None]:
+    """Observe searches of some of the objectives by the objectives' own numbers."""
+    own = tuple(numbers)
+    return lambda number, generation: observe(own[number], generation)
 
 
 def _trials(task: Task) -> int:
     return min(_TRIALS, task.search.trials)
 
 
-def _hard(task: Task) -> Task:
-    search = replace(task.search, trials=_trials(task), restart=None, patience=None, polish=0)
+def _hard(task: Task, spent: int) -> Task:
+    search = replace(task.search, trials=_trials(task) - spent, restart=None, patience=None, polish=0)
     robust = replace(_ROBUST, success=task.good_enough)  # so that success on the model is reported separately
     return replace(task, robust=robust, stages=(Stage(hold=_HOLD),), search=search)
