@@ -45,7 +45,10 @@ _NEAR = 240
 """Number of trials of a search around the best of them."""
 
 _ROBOTS, _SURE, _TOLD = 6, 0.8, 2
-"""Number of perturbed models; how many of the working motions are tried on them; the share at which a motion is reliable."""
+"""Number of perturbed models; the share at which a motion is reliable; how many of the working motions are tried on them."""
+
+_EARLY, _EARLY_ROBOTS, _EARLY_SURE = 16, 12, 1.0
+"""Number of falls that are the first, and what they have instead: their motions serve all later falls."""
 
 _MANY = 20
 """Number of perturbed models within the limits of hardware. They have to tell the demanded share from a smaller one."""
@@ -154,7 +157,8 @@ class Solver:
             if self._hardware is not None:
                 self._keep_if_known(i, begun, objective, self._hardware)
             elif worked:
-                begun[i] = self._asked(begun[i], i, objective, worked[:_TOLD], _ROBOTS, _SURE)
+                robots, enough = (_EARLY_ROBOTS, _EARLY_SURE) if i < _EARLY else (_ROBOTS, _SURE)
+                begun[i] = self._asked(begun[i], i, objective, worked[:_TOLD], robots, enough)
                 if begun[i].sure or knowledge.apart(*sensed[i]) < _ELSEWHERE:
                     self._keep(i, begun[i], Method.KNOWN, begun[i].works)
         self._observe()
