@@ -53,7 +53,7 @@ def harden(
         One solution per motion. Its best motion works on most of the perturbed models; it may be the given one. The solution
         counts as a success if the motion meets the criteria on the model. None if the task's budget is too small.
     """
-    if not objectives or _trials(objectives[0].task) < _LEAST:
+    if not objectives or not affords(objectives[0].task):
         return [None] * len(objectives)
     found: list[Solution | None] = [None] * len(objectives)
     left = list(range(len(objectives)))
@@ -74,6 +74,15 @@ def harden(
         if not left:
             break
     return [one and replace(one, best=replace(one.best, success=one.best.met)) for one in found]
+
+
+def affords(task: Task) -> bool:
+    """Return whether a task's budget is large enough to harden its motions.
+
+    Args:
+        task: The task.
+    """
+    return _trials(task) >= _LEAST
 
 
 def _named(

@@ -27,7 +27,7 @@ from levade.checks import Certificate
 from levade.engines import Perturbation
 from levade.errors import Remedy
 from levade.library.falls import Falls, Play, Plays, posed, simulated, tried, tried_on_others
-from levade.library.hardening import harden
+from levade.library.hardening import affords, harden
 from levade.library.knowledge import Knowledge
 from levade.library.pursuing import PURSUITS, Hardware, pursue_fall, write_certificate
 from levade.library.records import Method, Record, fall_of, motion_path, record_path
@@ -220,7 +220,7 @@ class Solver:
         asked = [objectives[i] for i in left]
         weights = [self._plays[_given(begun[i].works)].decisions(objectives[i].policy) for i in left]
         seeds = [self._seed + _APART * i for i in left]
-        better = harden([self._falls.widened(one) for one in asked], weights, seeds=seeds, observe=self._interrupted)
+        better = harden([self._wide(one) for one in asked], weights, seeds=seeds, observe=self._interrupted)
         for i, one, seed, found in zip(left, asked, seeds, better, strict=True):
             begun[i] = replace(begun[i], trials=begun[i].trials + (found.trials if found else 0))
             if found is not None and found.stopped == Stopped.INTERRUPTED:
@@ -231,6 +231,10 @@ class Solver:
             else:
                 self._keep(i, begun[i], Method.KNOWN, begun[i].works)
         self._observe()
+
+    def _wide(self, objective: Objective) -> Objective:
+        """Let perturbed models also start from falls nearby, if motions are hardened at all: these falls take time."""
+        return self._falls.widened(objective) if affords(objective.task) else objective
 
     def _interrupted(self, number: int, generation: Generation) -> Stopped | None:
         return Stopped.INTERRUPTED if self._stopping() else None
@@ -265,7 +269,7 @@ class Solver:
         """Harden the successful solutions on perturbed models; return all solutions."""
         found = [j for j, one in enumerate(solutions) if one.success and one.stopped != Stopped.INTERRUPTED]
         better = harden(
-            [self._falls.widened(asked[j]) for j in found],
+            [self._wide(asked[j]) for j in found],
             [solutions[j].best.weights[None] for j in found],
             seeds=[seeds[j] for j in found],
             observe=self._interrupted,
