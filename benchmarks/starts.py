@@ -27,9 +27,10 @@ import numpy as np
 
 from levade.arrays import Array
 from levade.exports.asker import features
-from levade.library.falls import Falls, tried
+from levade.library.falls import Falls
 from levade.library.knowledge import Knowledge
 from levade.library.mirror import Mirror
+from levade.library.plays import tried
 from levade.policies import JointPolicy
 from levade.search import InitialGuess, Objective, solve
 from levade.search.initial import AROUND

@@ -10,7 +10,7 @@ import pytest
 from tests.library.rolling import rolling
 
 from levade.library import Falls, Method, build, hardening, solving
-from levade.library.falls import Plays
+from levade.library.plays import Plays
 from levade.tasks.robust import Racing
 
 pytestmark = pytest.mark.slow

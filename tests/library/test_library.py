@@ -20,11 +20,12 @@ from levade.engines.perturbation import PARAMETERS
 from levade.errors import LevadeError
 from levade.library import Falls, Library, Method, Record, build, check_library
 from levade.library.building import rounds
-from levade.library.falls import Plays, face
+from levade.library.falls import face
 from levade.library.figure import projected
 from levade.library.knowledge import Knowledge
 from levade.library.merging import merge
 from levade.library.mirror import Mirror
+from levade.library.plays import Plays
 from levade.library.refining import refine, refined
 from levade.library.storing import Shard
 from levade.motions import Motion

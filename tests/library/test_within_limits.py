@@ -16,9 +16,9 @@ from levade.cli.app import main
 from levade.costs import Criterion
 from levade.errors import LevadeError
 from levade.library import Falls, Hardware, Library, Method, build, check_library
-from levade.library.falls import Plays, tried, tried_on_others
 from levade.library.merging import merge
 from levade.library.page import library_data, library_page
+from levade.library.plays import Plays, tried, tried_on_others
 from levade.library.pursuing import read_certificate
 from levade.library.records import fall_of
 from levade.library.storing import Shard, read_hardware

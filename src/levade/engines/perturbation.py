@@ -18,6 +18,7 @@ from typing import Literal
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from levade.arrays import Array
 from levade.errors import LevadeError
@@ -304,7 +305,7 @@ class Sample:
     def __len__(self) -> int:
         return len(next(iter(self.values.values())))
 
-    def __getitem__(self, rows: slice | Sequence[int]) -> Sample:
+    def __getitem__(self, rows: slice | Sequence[int] | NDArray[np.intp]) -> Sample:
         """Select runs, in the order given."""
         return Sample({name: values[rows] for name, values in self.values.items()})
 

@@ -19,18 +19,8 @@ from levade.engines import Models, MujocoEngine, Perturbation, State
 from levade.errors import LevadeError
 from levade.exports.asker import without_repeats
 from levade.library.asking import Answer, Library
-from levade.library.falls import (
-    FACES,
-    Falls,
-    Play,
-    Plays,
-    face,
-    judged_on_others,
-    others,
-    posed,
-    tried,
-    tried_on_others,
-)
+from levade.library.falls import FACES, Falls, face
+from levade.library.plays import Play, Plays, judged_on_others, others, posed, tried, tried_on_others
 from levade.library.refining import refined
 from levade.library.storing import read_falls, read_library
 from levade.robots import Robot

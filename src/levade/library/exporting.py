@@ -30,9 +30,10 @@ from levade.exports.as_csv import write_json, write_player, write_script
 from levade.exports.asker import SIMILAR, Model, apart, checksum
 from levade.exports.directory import filling
 from levade.library.asking import Library
-from levade.library.falls import Falls, Plays, simulated
+from levade.library.falls import Falls
 from levade.library.knowledge import Knowledge
 from levade.library.learning import arrays_of
+from levade.library.plays import Plays, simulated
 from levade.library.records import fall_of, image_of
 from levade.library.storing import read_falls
 from levade.motions import Motion

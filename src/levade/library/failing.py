@@ -12,7 +12,7 @@ import numpy as np
 
 from levade.costs import errors
 from levade.library.asking import Library
-from levade.library.falls import Plays, posed
+from levade.library.plays import Plays, posed
 from levade.library.storing import read_falls
 from levade.motions import Motion
 from levade.robots import Robot

@@ -20,8 +20,9 @@ from levade.arrays import Array
 from levade.engines import Fall, Perturbation, State, start_state
 from levade.errors import LevadeError
 from levade.library.asking import Library
-from levade.library.falls import Falls, Play, Plays, posed, tried, tried_on_others
+from levade.library.falls import Falls
 from levade.library.hardening import harden
+from levade.library.plays import Play, Plays, posed, tried, tried_on_others
 from levade.library.storing import read_falls
 from levade.policies import JointPolicy
 from levade.robots import Robot

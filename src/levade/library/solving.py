@@ -26,9 +26,10 @@ from levade.arrays import Array
 from levade.checks import Certificate
 from levade.engines import Perturbation
 from levade.errors import Remedy
-from levade.library.falls import Falls, Play, Plays, posed, simulated, tried, tried_on_others
+from levade.library.falls import Falls
 from levade.library.hardening import affords, harden
 from levade.library.knowledge import Knowledge
+from levade.library.plays import Play, Plays, posed, simulated, tried, tried_on_others
 from levade.library.pursuing import PURSUITS, Hardware, pursue_fall, write_certificate
 from levade.library.records import Method, Record, fall_of, motion_path, record_path
 from levade.motions import Motion
