@@ -136,16 +136,13 @@ class Falls:
             The task from that fall; a motion that is robust in this sense also works nearby.
         """
         state, near = objective.state, list[State]()
-        if self.folding is not None:
-            (up, joint_position), drawn = self.sensed(state), 0
-            while len(near) < _NEIGHBOURS and drawn < _DRAWN:
-                other = self._other(drawn)
-                its_up, its_joints = self.sensed(other)
-                if distances(its_up[None], its_joints[None], up, joint_position)[0] < _NEAR and np.allclose(
-                    other.joint_reference, state.joint_reference
-                ):
-                    near.append(other)
-                drawn += 1
+        up, joint_position = self.sensed(state)
+        for number in range(_DRAWN if self.folding is not None else 0):
+            its_up, its_joints = self.sensed(other := self._other(number))
+            if distances(its_up[None], its_joints[None], up, joint_position)[0] < _NEAR:
+                near.append(other)
+            if len(near) == _NEIGHBOURS:
+                break
         return Objective(objective.simulation.starting(state, *near), objective.task)
 
     def _other(self, number: int) -> State:
