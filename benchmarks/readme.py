@@ -69,10 +69,11 @@ def hardware() -> str:
 
 def library() -> str:
     check = [row for row in rows_of("library") if row["robot"] == "go1" and row.get("folds")][-1]["check"]
-    nominal = check["nominal"]
+    share, perturbed = check["nominal"]["first"]["share"], check["perturbed"]["first"]["share"]
+    found = "all" if share == 1 else f"{share:.1%}"
     return (
-        f"**Any fall.** The first answer of a library of motions gets Go1 up from {nominal['first']['share']:.1%} of "
-        f"{check['starts']} falls that it has never seen, and two answers from {nominal['twice']['share']:.0%}. It says which "
+        f"**Any fall.** The first answer of a library of motions gets Go1 up from {found} of {check['starts']} falls that it "
+        f"has never seen, and from {perturbed:.1%} if the robot differs from its model. It says which "
         f"motion to play in {check['answer_ms']['median']:.1f} ms, without a simulator ([falls](docs/falls.md))."
     )
 
