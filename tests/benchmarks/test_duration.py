@@ -57,6 +57,7 @@ def test_a_longer_duration_may_do_what_a_shorter_one_does_and_stand(script: Scri
     assert (speeds[0.4], speeds[0.5], speeds[3.0]) == (1.4, 0.9, 0.9)
 
 
+@pytest.mark.slow
 def test_the_cases_of_a_free_duration_and_posture_are_what_the_page_says(script: Script) -> None:
     freedom = script("freedom")
     for kind, polish in (("free", 0), ("best", 600)):
@@ -81,6 +82,7 @@ def test_the_interval_of_a_ratio_of_medians_holds_it_and_grows_with_the_spread(s
     assert wide[0] < narrow[0] < 1.5 < narrow[1] < wide[1]
 
 
+@pytest.mark.slow
 def test_the_rearing_is_as_large_against_go1_as_against_hyq2max(
     script: Script, packaged: Callable[[str], Robot]
 ) -> None:

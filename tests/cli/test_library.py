@@ -49,6 +49,7 @@ def state(path: Path, **content: Any) -> str:
     return str(path)
 
 
+@pytest.mark.slow
 def test_it_is_built_asked_and_checked(built: Path, run: Run, tmp_path: Path) -> None:
     asked = state(tmp_path / "state.json", up=[0, 0, -1], joints=[0.0] * 12)
     status, out, _ = run("library", "ask", str(built), "--state", asked)
@@ -68,6 +69,7 @@ def test_it_is_built_asked_and_checked(built: Path, run: Run, tmp_path: Path) ->
     assert "within two attempts" in out
 
 
+@pytest.mark.slow
 def test_it_is_shown_and_drawn(built: Path, run: Run, tmp_path: Path) -> None:
     status, out, _ = run("library", "show", str(built), "--json")
     assert status == 0
@@ -157,6 +159,7 @@ def test_another_task_is_not_built_into_it(built: Path, run: Run) -> None:
     assert "--out DIR" in err
 
 
+@pytest.mark.slow
 def test_shards_are_built_and_merged(built: Path, run: Run, tmp_path: Path) -> None:
     changes = [word for change in (*SMALL, EASY, FAMILY) for word in ("--set", change)]
     for i in range(2):

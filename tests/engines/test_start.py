@@ -234,6 +234,7 @@ def test_tucked_is_a_deep_crouch_with_the_feet_under_the_hips(name: str, package
     assert np.abs(robot.foot_positions(posture)[:, 0] - robot.foot_positions(crouched)[:, 0]).max() < 0.01
 
 
+@pytest.mark.slow
 def test_a_robot_that_fits_nowhere_is_said(robot: Robot) -> None:
     scene = Scene(boxes=(Box((0.0, 0.0, 1.0), (0.5, 0.5, 0.5)),))
     with pytest.raises(LevadeError, match=r"start\.fallen: .*box0.* overlap by .* in the last of 1000 postures"):

@@ -276,7 +276,7 @@ def test_the_last_search_within_limits_is_around_the_nearest(tmp_path: Path) -> 
     told: list[Part] = []
     task = standing()
     impossible = replace(task, success={**task.success, "high": Criterion("height", minimum=9.0, at="max")})
-    late = pursue(impossible, directory=tmp_path, runs=RUNS, minutes=0.25, tell=told.append)
+    late = pursue(impossible, directory=tmp_path, runs=RUNS, minutes=0.4, tell=told.append)
     assert late.stopped == "time"
     first, second, third, certified = told
     assert [part.name for part in told[:3]] == ["limits-1", "limits-2", "limits-3"]
@@ -301,7 +301,7 @@ def test_the_last_search_within_limits_is_around_the_nearest(tmp_path: Path) -> 
     def observe(name: str, generation: Generation) -> None:
         seen.setdefault(name, []).append(generation.replayed)
 
-    more = pursue(impossible, directory=tmp_path, runs=RUNS, minutes=0.4, observe=observe)
+    more = pursue(impossible, directory=tmp_path, runs=RUNS, minutes=0.6, observe=observe)
     assert list(seen) == ["limits-1", "limits-2", "limits-3"]
     assert all(flags[0] for flags in seen.values())
     assert more.parts[2].motion.task.horizon == begun

@@ -83,6 +83,7 @@ def learning_raw(arrays: dict[str, np.ndarray], x: np.ndarray) -> np.ndarray:
     return _trees(arrays, x)
 
 
+@pytest.mark.slow
 def test_the_kind_is_taken_whose_first_answers_work_most_often(tmp_path: Path) -> None:
     """Here, probabilities are 0 or 1 at a sharp edge. Written and read back, it answers the same to the bit."""
     knowledge = known()

@@ -42,6 +42,7 @@ def test_falls_are_counted_by_what_the_robot_lies_on() -> None:
     assert found["all"].interval == pytest.approx((0.3755, 0.9638), abs=1e-4)
 
 
+@pytest.mark.slow
 def test_a_library_of_another_robot_is_refused(packaged: Callable[[str], Robot]) -> None:
     other = packaged("g1")
     with pytest.raises(LevadeError, match=r"library: falls: its robot has 12 joints, g1 has \d+"):

@@ -135,6 +135,7 @@ def test_left_and_right_are_as_likely_on_a_symmetric_robot() -> None:
 
 
 @pytest.mark.parametrize(("most", "counts"), [(2, (1, 1, 1)), (3, (1, 3, 1)), (9, (1, 3, 3)), (27, (3, 3, 3))])
+@pytest.mark.slow
 def test_joints_get_both_ends_of_their_ranges_and_the_neutral_angle(
     most: int, counts: tuple[int, ...], packaged: Callable[[str], Robot]
 ) -> None:

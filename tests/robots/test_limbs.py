@@ -140,6 +140,7 @@ def load(folder: Path, text: str, more: str = "") -> Robot:
     return load_robot(folder)
 
 
+@pytest.mark.slow
 def test_postures_of_the_same_model_are_searched_once(
     walker: Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -204,6 +205,7 @@ def test_wheels_are_locked_and_are_the_feet() -> None:
     assert sorted(limb.foot for limb in found.legs) == ["tyre0", "tyre1", "tyre2", "tyre3"]
 
 
+@pytest.mark.slow
 def test_the_height_of_the_trunk_frame_has_no_effect() -> None:
     """Some files put its origin between the soles, or far above the head."""
     for text in (humanoid(), insect(6)):
@@ -221,6 +223,7 @@ def test_legs_straight_ahead_and_behind_are_legs(number: int, start: float) -> N
     assert not found.held
 
 
+@pytest.mark.slow
 def test_legs_ahead_behind_and_aside_are_not_in_another_frame(tmp_path: Path) -> None:
     robot = load(tmp_path, spokes(4))
     assert robot.stance == "sprawled"
@@ -327,6 +330,7 @@ def turned_round(text: str) -> str:
     return spec.to_xml()
 
 
+@pytest.mark.slow
 def test_a_push_forward_is_one_to_where_the_toes_point(
     walker: Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -357,6 +361,7 @@ def armature_of(robot: Robot, joint: str) -> float:
     return float(robot.model.joint(joint).armature[0])
 
 
+@pytest.mark.slow
 def test_a_model_without_armature_gets_that_of_drives_of_its_torque(walker: Robot, without_rotors: Robot) -> None:
     assert all(armature_of(walker, joint) == 0.01 for joint in walker.joint_names)
     for joint, torque in zip(without_rotors.joint_names, without_rotors.limits.torque, strict=True):
@@ -364,6 +369,7 @@ def test_a_model_without_armature_gets_that_of_drives_of_its_torque(walker: Robo
     assert any("no armature" in finding.what for finding in without_rotors.findings)
 
 
+@pytest.mark.slow
 def test_a_description_gives_armature(tmp_path: Path) -> None:
     own = load(tmp_path, humanoid(), "armature: {one_knee: 0.02, '*_elbow': 0.003}\n")
     given = {"one_knee": 0.02, "two_knee": 0.01, "p_elbow": 0.003, "q_elbow": 0.003}
@@ -381,6 +387,7 @@ def test_a_torque_that_a_heavy_rotor_needs_is_believed(tmp_path: Path) -> None:
     assert light.limits.torque.max() < 15.0
 
 
+@pytest.mark.slow
 def test_a_servo_is_not_slower_than_its_rotor_needs(tmp_path: Path) -> None:
     torque = 4000.0
     text = humanoid().replace('armature="0.01"', 'armature="1"').replace("-60.0 60.0", f"-{torque} {torque}")
@@ -455,6 +462,7 @@ def test_tasks_fit_how_a_robot_stands(walker: Robot) -> None:
         load_task("self-righting", robot=walker, changes=["start.fall.lying=belly"])
 
 
+@pytest.mark.slow
 def test_an_insect_stands_with_its_feet_level(tmp_path: Path) -> None:
     robot = load(tmp_path, insect(6))
     depths = robot.foot_depths(robot.postures["neutral"])

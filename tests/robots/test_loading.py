@@ -136,6 +136,7 @@ def test_a_robot_can_be_pickled_for_other_processes() -> None:
     assert pickle.loads(pickle.dumps(robot)).spec().to_xml() == robot.spec().to_xml()
 
 
+@pytest.mark.slow
 def test_a_users_robot_with_mesh_include_and_no_free_joint(toy: Path) -> None:
     robot = load_robot(toy)
     assert list(robot.assets) == ["wedge.obj"]
@@ -152,6 +153,7 @@ def test_a_users_robot_with_mesh_include_and_no_free_joint(toy: Path) -> None:
     assert robot.neutral_height == pytest.approx(0.52)
 
 
+@pytest.mark.slow
 def test_a_path_may_be_the_folder_the_file_or_a_string(toy: Path) -> None:
     assert (
         load_robot(toy).name == load_robot(toy / "robot.yaml").name == load_robot(str(toy / "robot.yaml")).name == "toy"
@@ -270,6 +272,7 @@ def test_mistakes_in_the_model(toy: Path, file: str, old: str, new: str, message
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.slow
 def test_a_variant_replaces_only_what_it_names(toy: Path) -> None:
     change(toy, "actuation: servo", "variants: {heavy: {inertials: {left: {mass: 3}}}}\nactuation: servo")
     plain, heavy = load_robot(toy), load_robot(toy, variant="heavy")

@@ -49,6 +49,7 @@ def test_the_schema_knows_the_name() -> None:
 
 
 @needs_go1
+@pytest.mark.slow
 def test_the_example_judges_as_playground_does() -> None:
     task = load_task(GET_UP)
     robot = task.robot.load()
