@@ -55,25 +55,24 @@ def harden(
     """
     if not objectives or not affords(objectives[0].task):
         return [None] * len(objectives)
-    found: list[Solution | None] = [None] * len(objectives)
-    left = list(range(len(objectives)))
+    found: dict[int, Solution] = {}
+    left, around, budget = list(range(len(objectives))), list(weights), [_trials(one.task) for one in objectives]
     for number in range(_SAMPLES):
-        spent = {i: one.trials if (one := found[i]) else 0 for i in left}
-        asked = [objectives[i].with_task(_hard(objectives[i].task, spent[i])) for i in left]
-        guesses = [InitialGuess(one.best.weights[None] if (one := found[i]) else weights[i], step=_STEP) for i in left]
         again = solve_many(
-            asked, seeds=[seeds[i] + number for i in left], initial=guesses, observe=_named(observe, left)
+            [objectives[i].with_task(_hard(objectives[i].task, budget[i])) for i in left],
+            seeds=[seeds[i] + number for i in left],
+            initial=[InitialGuess(around[i], step=_STEP) for i in left],
+            observe=_named(observe, left),
         )
         for i, one in zip(left, again, strict=True):
-            found[i] = replace(one, trials=spent[i] + one.trials)
-        left = [
-            i
-            for i, one in zip(left, again, strict=True)
-            if one.stopped == Stopped.SUCCESS and _trials(objectives[i].task) - spent[i] - one.trials >= _LEAST
-        ]
+            found[i], around[i], budget[i] = one, one.best.weights[None], budget[i] - one.trials
+        left = [i for i in left if found[i].stopped == Stopped.SUCCESS and budget[i] >= _LEAST]
         if not left:
             break
-    return [one and replace(one, best=replace(one.best, success=one.best.met)) for one in found]
+    return [
+        replace(one, best=replace(one.best, success=one.best.met), trials=_trials(objectives[i].task) - budget[i])
+        for i, one in sorted(found.items())
+    ]
 
 
 def affords(task: Task) -> bool:
@@ -97,7 +96,7 @@ def _trials(task: Task) -> int:
     return min(_TRIALS, task.search.trials)
 
 
-def _hard(task: Task, spent: int) -> Task:
-    search = replace(task.search, trials=_trials(task) - spent, restart=None, patience=None, polish=0)
+def _hard(task: Task, trials: int) -> Task:
+    search = replace(task.search, trials=trials, restart=None, patience=None, polish=0)
     robust = replace(_ROBUST, success=task.good_enough)  # so that success on the model is reported separately
     return replace(task, robust=robust, stages=(Stage(hold=_HOLD),), search=search)
