@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import levade.search.robust
 from levade.costs import total
 from levade.engines import MujocoEngine, Perturbation, perturbed_models
 from levade.engines.ode.library import load
@@ -247,7 +248,7 @@ def test_the_best_of_a_generation_is_compared_on_a_sample_of_its_own_size() -> N
         assert validated.samples is not None
         assert validated.samples.known.shape == (1, 5)
         verified = generation.evaluation.verified + validated.verified
-        more = trials - (6 * (1 + 2) + 1 + 5 + verified)
+        more = trials - (6 * (1 + 2) + 1 + int(validated.samples.known.sum()) + verified)
         assert 1 + 5 <= more <= 2 * (1 + 5) if i == 0 else more == 0  # the best of the nominal stage, on these models
 
 
@@ -289,6 +290,24 @@ def test_a_search_starts_anew_on_the_nominal_model_only() -> None:
 
 
 BARELY = ("success={pitch: {target: 0, tolerance: 0.02}}", "search.step=0.03")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("success", ["", ", success: {pitch: {target: 0, tolerance: 0.5}}"])
+def test_contenders_that_cannot_win_are_tried_on_fewer_models_with_the_same_winners(
+    success: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    robust = f"robust={{samples: 2, measure: mean, redraw: generation, validation: 24{success}}}"
+    more = ("search.trials=400", *BARELY, robust)
+    soon = generations(objective(VALIDATED, *more))
+    monkeypatch.setattr(levade.search.robust, "_contenders", lambda robust, nominal, samples, best: np.arange(1))
+    whole = generations(objective(VALIDATED, *more))
+    assert len(whole) > 4
+    assert whole[-1].best.share
+    for one, other in zip(soon, whole, strict=False):
+        assert one.best.rank == other.best.rank
+        np.testing.assert_array_equal(one.best.weights, other.best.weights)
+    assert soon[len(whole) - 1].trials < whole[-1].trials
 
 
 @pytest.mark.slow

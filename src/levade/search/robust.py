@@ -16,6 +16,7 @@ import numpy as np
 
 from levade.arrays import Array
 from levade.search.evaluation import Evaluation, Index, Samples, Trials
+from levade.search.outcome import Trial
 from levade.search.schedule import Level, level_of
 from levade.tasks import Robust, Task
 
@@ -23,6 +24,9 @@ Judging = Generator[Trials, Evaluation, Evaluation]
 
 _AT_ONCE = 20
 """Models in one batch when a candidate is verified through the hold. Batches end once the answer is known."""
+
+_CONTENDED = 8
+"""The same when a contender is compared with the best trial so far."""
 
 FIXED = 0
 """Number of the draw of perturbed models that stay the same."""
@@ -52,6 +56,7 @@ class Judge:
         *,
         generation: int = FIXED,
         racing: Mapping[str, float] | None = None,
+        best: Trial | None = None,
     ) -> Judging:
         """Judge candidates as a stage does.
 
@@ -61,6 +66,8 @@ class Judge:
             generation: Generation whose perturbed models to use. `FIXED` uses the models that stay the same.
             racing: Cost weights that decide which candidates drop out after the first few models. None runs all candidates on
                 all models.
+            best: The best trial so far, on the models that stay the same. A candidate that can no longer rank above it is
+                tried on no further models. None tries it on all.
 
         Returns:
             Their evaluation, n rows.
@@ -75,7 +82,7 @@ class Judge:
         contend = generation == FIXED or robust.redraw == "never"
         draw = FIXED if robust.redraw == "never" else generation
         nominal = yield from self.nominal(candidates, level.hold_steps, verify=contend)
-        return (yield from self._on_models(robust, nominal, candidates, level.hold_steps, draw, racing))
+        return (yield from self._on_models(robust, nominal, candidates, level.hold_steps, draw, racing, best))
 
     def nominal(self, candidates: Array, hold_steps: int, *, verify: bool) -> Judging:
         """Judge candidates on the nominal model.
@@ -134,13 +141,20 @@ class Judge:
         hold_steps: int,
         draw: int,
         racing: Mapping[str, float] | None,
+        best: Trial | None,
     ) -> Judging:
         """Also try the candidates on perturbed models."""
         models = robust.samples if draw else robust.fixed
         columns, everyone = np.arange(models), np.arange(len(candidates))
         samples = Samples.none(nominal.terms, len(candidates), models)
         first = models if racing is None or robust.racing is None else robust.racing.first
-        samples = yield from self._run(samples, candidates, hold_steps, draw, everyone, columns[:first])
+        left = everyone if best is None else _contenders(robust, nominal, samples, best)
+        at_once = first if best is None else _CONTENDED
+        for start in range(0, first, at_once) if first else ():
+            samples = yield from self._run(
+                samples, candidates, hold_steps, draw, left, columns[start : min(start + at_once, first)]
+            )
+            left = left if best is None else _contenders(robust, nominal, samples, best)
         result = replace(nominal, samples=samples)
         if racing is not None and first < models:
             order = np.argsort(result.cost(racing, robust), kind="stable")
@@ -179,3 +193,10 @@ class Judge:
 
     def _trials(self, candidates: Array, hold_steps: int) -> Trials:
         return Trials(candidates, hold_steps, seed=self.seed, closing=self.closing)
+
+
+def _contenders(robust: Robust, nominal: Evaluation, samples: Samples, best: Trial) -> Index:
+    """Return the candidates that may still rank above the best trial, by `Trial.rank`."""
+    failing = best.success or (best.met and robust.success is not None)
+    out = (~nominal.success & failing) | (samples.attainable < (best.share or 0.0))
+    return np.flatnonzero(~out)

@@ -282,7 +282,7 @@ class Search:
         validated, contenders, start = None, candidates, None
         if level.robust and task.robust is not None and task.robust.redraw == "generation":
             contenders = (candidates[np.argmin(cost)] if mean is None else mean)[None]
-            validated = yield from self._judge.evaluate(contenders, level)
+            validated = yield from self._judge.evaluate(contenders, level, best=self._best)
         elif schedule.finds_start(promoted=ends, spent=evaluation.trials):
             first = first_to_end(stage, cost, evaluation)
             found = candidates[first : first + 1]
