@@ -166,6 +166,7 @@ def _signal_group(group: int, number: int) -> bool:
 # without one
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shared", [True, False])
 def test_a_fall_that_a_node_solves_is_that_of_the_library(
     shared: bool, whole: dict[str, bytes], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -210,6 +211,7 @@ def test_other_versions_on_a_node_are_said() -> None:
     spreading._check_versions({"numpy": "2.4", "more": "1"}, {"numpy": "2.4"})
 
 
+@pytest.mark.slow
 def test_without_ray_it_says_what_to_install(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

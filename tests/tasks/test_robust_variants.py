@@ -128,6 +128,7 @@ def test_a_free_duration_becomes_the_one_that_the_variant_says() -> None:
     assert load_task("levade-within-limits").feedback is None  # what is said of the search holds for one variant alone
 
 
+@pytest.mark.slow
 def test_another_robot_has_limits_of_its_own(tmp_path: Path, quadruped: type[Any]) -> None:
     path = written(tmp_path / "toy.urdf", quadruped().urdf())
     made, own = load_task("sit-to-stand-within-limits", robot=path), load_task("sit-to-stand-within-limits")
@@ -189,6 +190,7 @@ def test_own_words_win_over_the_plan(tmp_path: Path) -> None:
     assert within.horizon == 0.5
 
 
+@pytest.mark.slow
 def test_a_robot_that_is_asked_for_comes_before_the_file_s(tmp_path: Path, quadruped: type[Any]) -> None:
     toy = written(tmp_path / "toy.urdf", quadruped().urdf())
     path = written(tmp_path / "it.yaml", "name: it\nextends: sit-to-stand-robust\nrobot: {linkage: true}\n")
