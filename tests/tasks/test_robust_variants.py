@@ -256,7 +256,7 @@ def test_the_schema_knows_them() -> None:
 @pytest.mark.slow
 def test_a_robust_search_finds_a_motion_that_holds_on_robots_it_has_not_seen() -> None:
     """With feedback, which needs fewer trials; docs/check.md has the shares of whole searches without."""
-    task = load_task("rearing-robust", changes=["feedback={}", "search.trials=4000"])
+    task = load_task("rearing-robust", changes=["feedback={}", "search.trials=2000"])
     solution = solve(objective := make_objective(task, threads=0), seed=0)
     motion = record(objective, solution, seed=0)
     simulation = RecordedSimulation(motion)
