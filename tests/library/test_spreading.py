@@ -228,7 +228,11 @@ def test_without_ray_it_says_what_to_install(
     [
         (["--ray", "nowhere"], "--ray: nowhere: is not an address; give HOST:PORT"),
         (["--ray", "ray://h:1"], "--ray: ray://h:1: should be HOST:PORT"),
-        (["--ray", "127.0.0.1:1"], "--ray: 127.0.0.1:1: no Ray cluster answers there (Connection refused); give the"),
+        pytest.param(
+            ["--ray", "127.0.0.1:1"],
+            "--ray: 127.0.0.1:1: no Ray cluster answers there (Connection refused); give the",
+            marks=pytest.mark.slow,
+        ),
         (["--ray", "--jobs", "2"], "--jobs: 2 processes are for this computer"),
     ],
 )
