@@ -134,6 +134,7 @@ def test_a_run_in_a_directory_finds_the_same(task: levade.Task, found: levade.Re
     np.testing.assert_array_equal(loaded["ctrl"], found.motion["ctrl"])
 
 
+@pytest.mark.slow
 def test_a_motion_or_its_file_may_be_given(found: levade.Result, tmp_path: Path) -> None:
     found.motion.save(tmp_path / "motion.npz")
     one = levade.export(found.motion, "csv", tmp_path / "one")

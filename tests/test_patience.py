@@ -45,6 +45,7 @@ def test_a_wait_is_said_once_and_not_before_its_time(monkeypatch: pytest.MonkeyP
     Patience("nobody hears it").check()
 
 
+@pytest.mark.slow
 def test_a_search_of_postures_says_what_would_spare_it(
     slow: None, ankled: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -65,6 +66,7 @@ def test_a_search_of_postures_says_what_would_spare_it(
     assert capsys.readouterr() == ("", "")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("words", "lines"), [([], 2), (["--json"], 0)])
 def test_the_command_line_prints_it_except_to_programs(
     slow: None, ankled: Path, words: list[str], lines: int, capsys: pytest.CaptureFixture[str]

@@ -142,12 +142,14 @@ def test_spent_to_success_is_counted_in_whole_generations() -> None:
     assert (result.trials_to_success, result.trials, result.stopped) == (8, 40, "budget")
 
 
+@pytest.mark.slow
 def test_a_budget_of_physics_steps_ends_a_run_with_the_generation_that_spends_it() -> None:
     (case,) = cases(dataclasses.replace(PLAN, optimizers=("cma",), seeds=1, steps=500.0))
     result = run_case(case)
     assert (result.stopped, result.trials, result.steps, result.budget_steps) == ("steps", 24, 720, 500)
 
 
+@pytest.mark.slow
 def test_what_is_simulated_twice_is_counted_twice() -> None:
     """With none of the hold simulated, trials that succeed so far are simulated again, through all of it."""
     stages = [{"name": "full", "hold": False}]

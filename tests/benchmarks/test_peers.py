@@ -103,6 +103,7 @@ def test_it_stops_at_success_unless_told_to_go_on(case: ModuleType, job) -> None
     assert (result.trials_to_success, result.trials, result.stopped) == (5, 20, "budget")
 
 
+@pytest.mark.slow
 def test_a_basis_of_its_own_is_what_the_joints_follow(case: ModuleType, job) -> None:
     """Two nodes and straight lines between them: the reference is that line, and its slope."""
     mine = job(nodes=2)

@@ -78,6 +78,7 @@ def test_what_touches_at_the_start_does_not_meet() -> None:
     assert replay_contacts(at_rest).impacts == ()
 
 
+@pytest.mark.slow
 def test_legs_that_are_driven_into_each_other_are_named(standing: Motion) -> None:
     """Both front legs are commanded inward. The forces are those of a loop over MuJoCo's contacts."""
     plain = margins(RecordedSimulation(standing, threads=1), Demands(self_force=0.0, self_impact_speed=0.0))

@@ -135,6 +135,7 @@ def with_windings(motion: Motion, change: Change, wound: Wound, limit: str = "",
     return change(motion, {"task": {**motion.meta["task"], "robot": named}}, **arrays)
 
 
+@pytest.mark.slow
 def test_windings_have_a_current_and_a_temperature(standing: Motion, changed: Change, wound: Wound) -> None:
     """At 150 Nm one takes 30 of 40 A, which is 180 W: from 25 degC it is 360 K (1 - e^(-t / 10 s)) warmer."""
     torque = np.zeros_like(standing["joint_torque"])
@@ -159,6 +160,7 @@ def test_windings_have_a_current_and_a_temperature(standing: Motion, changed: Ch
     assert driving["robot_power"].more["with_winding_heat"] == pytest.approx(480.0)
 
 
+@pytest.mark.slow
 def test_an_assumed_temperature_is_not_judged_and_unknown_windings_are_said(
     standing: Motion, changed: Change, wound: Wound
 ) -> None:
@@ -175,6 +177,7 @@ def test_an_assumed_temperature_is_not_judged_and_unknown_windings_are_said(
     assert asked.unknown == standing.joint_names
 
 
+@pytest.mark.slow
 def test_flow_is_displacement_times_speed(standing: Motion, changed: Change) -> None:
     """At 12 rad/s and 20 MPa a hip takes 120 / 20e6 m3/rad * 12 rad/s = 4.32 l/min, and all twelve joints 88.6 l/min."""
     speed = np.zeros_like(standing["joint_velocity"])
@@ -279,6 +282,7 @@ def test_an_assumed_limit_is_neither_met_nor_missed(standing: Motion, changed: C
     assert (nothing.passed, nothing.unknown) == (None, ())
 
 
+@pytest.mark.slow
 def test_the_force_on_any_part_is_in_weights_of_the_robot(standing: Motion) -> None:
     """A robot that stands bears itself on its shanks, and its trunk touches nothing."""
     found = margins(RecordedSimulation(standing), Demands(part_force=1.0))["part_force"]

@@ -23,6 +23,7 @@ def moving() -> Motion:
     return record(objective, solve(objective, seed=3), seed=3)
 
 
+@pytest.mark.slow
 def test_as_recorded_is_the_motion_itself(moving: Motion) -> None:
     found = numerics(RecordedSimulation(moving, threads=1))
     assert list(found) == list(VARIANTS)

@@ -155,6 +155,7 @@ def test_a_robust_search_without_success_says_that_the_model_alone_does_it(levad
     assert summary_data(motion)["verdict"] == "met on the model, but not on enough robots that differ from it"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("extra", "status"), [(LOOSE, 0), ([], 1)])
 def test_json_is_one_object_and_nothing_else(levade, extra: list[str], status: int) -> None:
     code, out, err = levade("solve", "rearing", "--json", "--seed", "5", "--out", "x/y", *QUICK, *extra)

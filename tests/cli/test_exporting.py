@@ -113,6 +113,7 @@ def test_a_certificate_that_is_asked_for_has_to_pass(motion: Path, tmp_path: Pat
     assert "no certificate" not in out
 
 
+@pytest.mark.slow
 def test_motions_for_robots_without_a_certificate_beside_them_are_remarked_on(
     motion: Path, tmp_path: Path, levade
 ) -> None:

@@ -152,6 +152,7 @@ def test_what_is_no_library_is_one_line(run: Run, tmp_path: Path) -> None:
     assert "--starts: 0 falls are too few" in err
 
 
+@pytest.mark.slow
 def test_another_task_is_not_built_into_it(built: Path, run: Run) -> None:
     status, _, err = run("library", "build", "self-righting", "--out", str(built), "--starts", "4")
     assert status == 2
@@ -189,6 +190,7 @@ def test_shards_are_built_and_merged(built: Path, run: Run, tmp_path: Path) -> N
         assert said in err
 
 
+@pytest.mark.slow
 def test_an_answer_is_refined(built: Path, run: Run, tmp_path: Path) -> None:
     asked = state(tmp_path / "state.json", up=[0, 0, -1], joints=[0.1] * 12)
     status, out, _ = run("library", "ask", str(built), "--state", asked, "--refine", "1 ms", "--json")

@@ -238,6 +238,7 @@ def test_a_model_that_finds_shapes_at_the_clearance_keeps_its_bits() -> None:
         assert np.array_equal(*ends)
 
 
+@pytest.mark.slow
 def test_the_sensor_of_a_batch_finds_what_single_configurations_have(
     measuring: Engine, state: State, wave: Wave
 ) -> None:

@@ -61,6 +61,7 @@ def test_an_exported_robot_has_no_sensor_of_it(feeling: Engine) -> None:
     assert "_self_force" not in robot_alone(feeling.xml, feeling.assets, feeling.embodiment.feet)
 
 
+@pytest.mark.slow
 def test_it_is_a_cost() -> None:
     task = load_task("rearing", changes=["costs.apart={term: self_contact, measure: peak, weight: 1e-4}", "hold=0"])
     assert task.self_force

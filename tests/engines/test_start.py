@@ -139,6 +139,7 @@ def test_a_fall_begins_clear_of_the_ground(robot: Robot, scene: Scene, roll: flo
     assert abs(nearest) < (0.003 if scene.slope else 1e-9)
 
 
+@pytest.mark.slow
 def test_a_family_of_falls_has_every_attitude_and_posture_alike(robot: Robot, engine: Engine) -> None:
     """Archimedes: of a direction that is uniform on the sphere, each component is uniform between -1 and 1. Kolmogorov: then
     the empirical distribution is 1.95 / sqrt(n) off with a probability of one in a thousand.
@@ -224,7 +225,7 @@ def test_a_distance_that_jams_nothing_or_everything_is_refused(jammed: float) ->
         Fold(jammed=jammed)
 
 
-@pytest.mark.parametrize("name", ["go1", "hyq2max"])
+@pytest.mark.parametrize("name", [pytest.param("go1", marks=pytest.mark.slow), "hyq2max"])
 def test_tucked_is_a_deep_crouch_with_the_feet_under_the_hips(name: str, packaged: Callable[[str], Robot]) -> None:
     robot = packaged(name)
     posture, crouched = tucked(robot), robot.posture("crouched")

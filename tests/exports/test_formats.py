@@ -283,6 +283,7 @@ def test_other_files_in_the_directory_stay(rearing: Motion, tmp_path: Path) -> N
         export(rearing, "csv", tmp_path / "file")
 
 
+@pytest.mark.slow
 def test_notes_say_what_the_robot_would_find_out(held: Motion, tmp_path: Path) -> None:
     around = "the motion needs 1 box where its task has it (scene in the provenance); the rows do not say so"
     assert export(held, "csv", tmp_path).notes == ("the motion does not meet its success criteria", around)

@@ -379,6 +379,7 @@ def test_no_tick_comes_before_its_time() -> None:
     assert wait(0.024) > 0.02
 
 
+@pytest.mark.slow
 def test_csv_and_json_hold_the_same(rearing: Motion, tmp_path: Path) -> None:
     export(rearing, "csv", tmp_path)
     export(rearing, "json", tmp_path)

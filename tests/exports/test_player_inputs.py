@@ -49,13 +49,12 @@ def places(meta: Any, at: tuple = ()) -> Iterator[tuple]:
         yield from ((*at, i) for i in (0, len(meta) - 1))
 
 
-def altered(meta: dict[str, Any], at: tuple, value: Any) -> dict[str, Any]:
-    meta = copy.deepcopy(meta)
-    inner: Any = meta
-    for key in at[:-1]:
-        inner = inner[key]
-    inner[at[-1]] = value
-    return meta
+def altered(meta: Any, at: tuple, value: Any) -> Any:
+    """A meta with another value at a place; what is elsewhere is shared."""
+    first, *rest = at
+    other = copy.copy(meta)
+    other[first] = altered(meta[first], tuple(rest), value) if rest else value
+    return other
 
 
 def alterations(meta: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Iterator
+import sys
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -17,7 +19,19 @@ from levade.checks.record import CERTIFICATE
 from levade.checks.statistics import wilson
 from levade.costs import Criterion
 from levade.errors import LevadeError
-from levade.hardware import Part, Plan, Pursued, binding, discard, is_pursuit, obstacles, pursue, read_pursuit
+from levade.hardware import (
+    Part,
+    Plan,
+    Pursued,
+    binding,
+    budget,
+    discard,
+    is_pursuit,
+    obstacles,
+    pursue,
+    read_pursuit,
+    starts,
+)
 from levade.hardware.pursuit import Observe
 from levade.hardware.state import ASKED
 from levade.motions import Motion
@@ -32,22 +46,43 @@ RUNS = 12
 
 
 def standing() -> Task:
-    """A task that needs no more than its first search, with a short hold."""
-    return load_task("sit-to-stand", changes=["hold=0.6"])
+    """A task that needs no more than its first search: short, with few time steps."""
+    return load_task("sit-to-stand", changes=["horizon=2 falls", "hold=0.2", "physics={timestep: 0.004}"])
 
 
 @pytest.fixture(scope="module", autouse=True)
 def _short() -> Iterator[None]:
-    """Searches go on for 60 trials after a success, not 240: what is tried here does not depend on how good a motion is."""
+    """Searches go on for 48 trials after a success, not 240, and rough starts are the best of 24 motions.
+
+    Certificates have 2 runs with each parameter alone. What is tried here does not depend on how good a motion is, nor on why.
+    """
     within_limits = Plan.within_limits
 
     def shorter(self: Plan, number: int = 0) -> Task:
         task = within_limits(self, number)
-        return replace(task, search=replace(task.search, polish=60))
+        return replace(task, search=replace(task.search, polish=48))
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Plan, "within_limits", shorter)
+        patch.setattr(starts, "ROUGH", 24)
+        patch.setattr(sys.modules["levade.checks.perturbed"], "_CORNERS", 2)  # the package has a function of that name
         yield
+
+
+@pytest.fixture
+def clock(monkeypatch: pytest.MonkeyPatch) -> Callable[[str, Generation], None]:
+    """Time passes with the generations, a second for each: which search ends when does not depend on the computer.
+
+    Pursuits have to observe with it.
+    """
+    now = [0.0]
+
+    def tick(name: str, generation: Generation) -> None:
+        now[0] += not generation.replayed
+
+    for module in (pursuit_module, budget):
+        monkeypatch.setattr(module, "time", SimpleNamespace(monotonic=lambda: now[0]))
+    return tick
 
 
 @pytest.fixture(scope="module")
@@ -190,10 +225,13 @@ def test_a_search_that_was_not_chosen_is_not_gone_on_with(found: Pursued, tmp_pa
     assert first(Demands(share=0.9)) == "limits-1"  # it was chosen by other demands
 
 
-def test_where_none_is_within_the_limits_the_nearest_is_certified(tmp_path: Path) -> None:
+def test_where_none_is_within_the_limits_the_nearest_is_certified(
+    tmp_path: Path, clock: Callable[[str, Generation], None]
+) -> None:
     """Interrupted in the second search: the first, which comes nearer, is what there is to show."""
 
     def interrupted(name: str, generation: Generation) -> Stopped | None:
+        clock(name, generation)
         late = generation.generation == (3 if name == "limits-1" else 1)
         return Stopped.INTERRUPTED if late and name == "limits-2" else None
 
@@ -213,7 +251,7 @@ def test_with_time_left_it_searches_again_with_another_seed(tmp_path: Path, monk
     within_limits, robust = Plan.within_limits, Plan.robust
 
     def shorter(task: Task) -> Task:
-        return replace(task, search=replace(task.search, trials=72, polish=36))
+        return replace(task, search=replace(task.search, trials=36, polish=12))
 
     def robust_for_short(self: Plan, horizon: float, policy: PolicyChoice | None = None) -> Task:
         return shorter(robust(self, horizon, policy))
@@ -272,11 +310,13 @@ def references(motion: Motion) -> np.ndarray:
     )
 
 
-def test_the_last_search_within_limits_is_around_the_nearest(tmp_path: Path) -> None:
+def test_the_last_search_within_limits_is_around_the_nearest(
+    tmp_path: Path, clock: Callable[[str, Generation], None]
+) -> None:
     told: list[Part] = []
     task = standing()
     impossible = replace(task, success={**task.success, "high": Criterion("height", minimum=9.0, at="max")})
-    late = pursue(impossible, directory=tmp_path, runs=RUNS, minutes=0.4, tell=told.append)
+    late = pursue(impossible, directory=tmp_path, runs=RUNS, minutes=0.2, observe=clock, tell=told.append)
     assert late.stopped == "time"
     first, second, third, certified = told
     assert [part.name for part in told[:3]] == ["limits-1", "limits-2", "limits-3"]
@@ -299,9 +339,10 @@ def test_the_last_search_within_limits_is_around_the_nearest(tmp_path: Path) -> 
     seen: dict[str, list[bool]] = {}
 
     def observe(name: str, generation: Generation) -> None:
+        clock(name, generation)
         seen.setdefault(name, []).append(generation.replayed)
 
-    more = pursue(impossible, directory=tmp_path, runs=RUNS, minutes=0.6, observe=observe)
+    more = pursue(impossible, directory=tmp_path, runs=RUNS, minutes=0.3, observe=observe)
     assert list(seen) == ["limits-1", "limits-2", "limits-3"]
     assert all(flags[0] for flags in seen.values())
     assert more.parts[2].motion.task.horizon == begun

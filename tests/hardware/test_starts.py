@@ -23,7 +23,11 @@ def robot() -> Robot:
 
 @pytest.fixture(scope="module")
 def objective(robot: Robot) -> Objective:
-    return make_objective(Plan.of(load_task("squat-jump"), robot).within_limits(1), robot=robot, threads=1)
+    return make_objective(
+        Plan.of(load_task("squat-jump", changes=["physics={timestep: 0.004}"]), robot).within_limits(1),
+        robot=robot,
+        threads=1,
+    )
 
 
 def test_legs_are_between_crouched_and_stretched(robot: Robot, objective: Objective) -> None:

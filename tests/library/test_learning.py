@@ -63,6 +63,7 @@ def test_what_is_learned_is_true(kind: str) -> None:
     assert np.abs(image - said[:, [2, 3, 0, 1]]).mean() < 0.1
 
 
+@pytest.mark.slow
 def test_trees_answer_as_those_of_scikit_learn() -> None:
     """Which motion's tree is which, where a leaf is, and which way an equal value goes: of 20 rows, and of those fitted to."""
     from sklearn.ensemble import GradientBoostingRegressor
@@ -101,6 +102,7 @@ def test_the_kind_is_taken_whose_first_answers_work_most_often(tmp_path: Path) -
     assert packed(arrays_of(again)) == packed(arrays_of(model))
 
 
+@pytest.mark.slow
 def test_what_was_learned_answers_until_the_library_grows(tmp_path: Path) -> None:
     knowledge = known()
     x, y = learning._table(knowledge, np.ones(len(knowledge.falls), dtype=bool))

@@ -166,6 +166,7 @@ def _signal_group(group: int, number: int) -> bool:
 # without one
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shared", [True, False])
 def test_a_fall_that_a_node_solves_is_that_of_the_library(
     shared: bool, whole: dict[str, bytes], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -210,6 +211,7 @@ def test_other_versions_on_a_node_are_said() -> None:
     spreading._check_versions({"numpy": "2.4", "more": "1"}, {"numpy": "2.4"})
 
 
+@pytest.mark.slow
 def test_without_ray_it_says_what_to_install(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -226,7 +228,11 @@ def test_without_ray_it_says_what_to_install(
     [
         (["--ray", "nowhere"], "--ray: nowhere: is not an address; give HOST:PORT"),
         (["--ray", "ray://h:1"], "--ray: ray://h:1: should be HOST:PORT"),
-        (["--ray", "127.0.0.1:1"], "--ray: 127.0.0.1:1: no Ray cluster answers there (Connection refused); give the"),
+        pytest.param(
+            ["--ray", "127.0.0.1:1"],
+            "--ray: 127.0.0.1:1: no Ray cluster answers there (Connection refused); give the",
+            marks=pytest.mark.slow,
+        ),
         (["--ray", "--jobs", "2"], "--jobs: 2 processes are for this computer"),
     ],
 )

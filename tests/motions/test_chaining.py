@@ -79,6 +79,7 @@ def test_the_start_is_in_the_task_to_the_bit(motions: tuple[Motion, Motion]) -> 
     assert motions[1].task.start == task.start
 
 
+@pytest.mark.slow
 def test_what_does_not_go_together_is_refused(motions: tuple[Motion, Motion], tmp_path: Path) -> None:
     first, second = motions
     with pytest.raises(LevadeError, match="there are no motions"):

@@ -231,6 +231,7 @@ def test_angular_velocity_is_in_trunk_axes() -> None:
     assert np.abs(world - expected).max() > 0.5 * size  # the test tells them apart
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_bytes(objective: Objective, motion: Motion) -> None:
     other = make_objective(load_task("rearing", changes=HERE), threads=2)
     again = record(other, solve(other, seed=1), seed=1)
@@ -611,6 +612,7 @@ def test_a_file_that_says_it_is_smaller_than_it_is(tmp_path: Path) -> None:
         Motion.load(path)
 
 
+@pytest.mark.slow
 def test_an_archive_that_numpy_does_not_write(file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with zipfile.ZipFile(file) as archive:
         members = {name: archive.read(name) for name in archive.namelist()}

@@ -72,6 +72,7 @@ def test_a_horizon_of_no_whole_number_of_steps_stays_as_long_as_the_file() -> No
     assert {"half time step", "quarter time step"} <= set(numerics(RecordedSimulation(motion, threads=1)))
 
 
+@pytest.mark.slow
 def test_it_takes_nothing_but_the_file(moving: Motion, changed: Callable[..., Motion]) -> None:
     """Where the robot's description is gone, the policy is in the file; where that is not, cubics come as near."""
     exact = ReferenceCurve.of(moving).divided(4)

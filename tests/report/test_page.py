@@ -83,6 +83,7 @@ def test_summary_adds_up_and_agrees_with_the_arrays(solved: tuple[Motion, Path])
     assert torque["share"] == torque["value"] / torque["limit"]
 
 
+@pytest.mark.slow
 def test_the_command_gives_the_same_task(solved: tuple[Motion, Path], tmp_path: Path) -> None:
     motion, _ = solved
     changed = provenance_data(motion)

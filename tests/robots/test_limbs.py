@@ -501,7 +501,7 @@ def test_sketches_of_an_upright_robot_bend_it_forward_and_back(walker: Robot) ->
         assert step == pytest.approx(np.full(len(step), 1.0 if bends else 0.3), rel=0.05), names[joint]
 
 
-@pytest.mark.parametrize("name", ["mujoco", "ode"])
+@pytest.mark.parametrize("name", ["mujoco", pytest.param("ode", marks=pytest.mark.slow)])
 def test_the_force_on_a_sole_is_that_on_all_of_its_shapes(walker: Robot, name: str) -> None:
     """Standing, the soles carry the weight, whichever engine says so."""
     if name == "ode":
@@ -520,6 +520,7 @@ def test_the_force_on_a_sole_is_that_on_all_of_its_shapes(walker: Robot, name: s
     assert carried == pytest.approx(weight, rel=0.1)
 
 
+@pytest.mark.slow
 def test_sketches_have_any_duration_that_the_task_allows(walker: Robot) -> None:
     free = load_task("self-righting", robot=walker, changes=["horizon={minimum: 2.0, maximum: 4.0}"])
     objective = make_objective(free, robot=walker, threads=1)

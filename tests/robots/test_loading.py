@@ -279,3 +279,14 @@ def test_a_variant_replaces_only_what_it_names(toy: Path) -> None:
     assert heavy.mass == pytest.approx(plain.mass + 2)
     np.testing.assert_allclose(heavy.model.body_ipos, plain.model.body_ipos)
     np.testing.assert_allclose(heavy.model.body_inertia, plain.model.body_inertia)
+
+
+def test_what_a_caller_changes_is_not_in_the_next_copy_of_a_built_in_robot() -> None:
+    """A process reads it only once."""
+    first, neutral = load_robot("hyq2max"), load_robot("hyq2max").postures["neutral"].copy()
+    first.postures["neutral"][:] = 9.0
+    first.limits.torque[:] = 0.0
+    again = load_robot("hyq2max")
+    np.testing.assert_array_equal(again.postures["neutral"], neutral)
+    assert (again.limits.torque > 0).all()
+    assert again.mjcf == first.mjcf

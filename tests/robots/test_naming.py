@@ -101,6 +101,7 @@ def test_what_a_robot_lacks_is_one_line(goal: str, says: str) -> None:
     assert "\n" not in str(error.value)
 
 
+@pytest.mark.slow
 def test_a_task_for_legs_that_another_robot_lacks_does_not_apply_to_it(tmp_path: Path) -> None:
     path = tmp_path / "own.yaml"
     path.write_text(

@@ -32,7 +32,7 @@ def test_current_is_torque_over_the_motor_constant_and_heat_is_its_square() -> N
     assert winding().heat(torque).ravel() == pytest.approx([400 * OHM, 1600 * OHM])
 
 
-@pytest.mark.parametrize("timestep", [0.002, 10.0])
+@pytest.mark.parametrize("timestep", [pytest.param(0.002, marks=pytest.mark.slow), 10.0])
 def test_a_motor_held_at_constant_torque_warms_up_with_the_thermal_time_constant(timestep: float) -> None:
     """63 % of the way to I^2 R R_th after R_th C = 40 s, for any time step."""
     steps = round(120 / timestep)

@@ -98,6 +98,7 @@ def on_the_way(engine: MujocoEngine, start: State, arrays: dict[str, Array], per
     )
 
 
+@pytest.mark.slow
 def test_a_batch_is_its_roll_outs_one_by_one(objective: Objective) -> None:
     weights = objective.space.mean + 0.05 * np.random.default_rng(3).standard_normal((3, objective.space.size))
     pairs = (np.array([0, 0, 1, 2, 2]), np.array([0, 1, 1, 0, 1]))
@@ -166,6 +167,7 @@ def test_what_makes_no_sense_is_one_line() -> None:
         Regulation(rate=0.0)
 
 
+@pytest.mark.slow
 def test_an_engine_without_feedback_says_so() -> None:
     try:
         load()

@@ -46,6 +46,7 @@ def test_models_that_stay_the_same_start_in_turn_from_each_state(simulation: Sim
     np.testing.assert_array_equal(started(simulation, starts, draw=0), expected)
 
 
+@pytest.mark.slow
 def test_each_generation_shares_the_states_out_anew(simulation: Simulation, starts: list[State]) -> None:
     """So that which model starts where is left to chance, and each state starts as many of them, or one fewer."""
     orders = []

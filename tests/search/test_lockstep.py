@@ -213,6 +213,7 @@ def test_ctrl_c_in_an_observer_ends_all_with_the_best_so_far(simulation: Simulat
     assert [one.generations for one in found] == [2, 2]
 
 
+@pytest.mark.slow
 def test_a_search_that_dies_is_not_said_to_be_running(simulation: Simulation) -> None:
     objective = Objective(simulation, tasks()["nominal"])
 

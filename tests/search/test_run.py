@@ -208,6 +208,7 @@ def test_it_may_be_interrupted_again_and_again(
     assert_same_end(tmp_path, whole)
 
 
+@pytest.mark.slow
 def test_a_finished_run_resumed_is_the_run(
     whole: Outcome, objective: Objective, tmp_path: Path, assert_same_end: SameEnd
 ) -> None:
@@ -345,6 +346,7 @@ def test_there_has_to_be_a_run(tmp_path: Path, whole: Outcome) -> None:
         resume(whole.directory / MOTION)
 
 
+@pytest.mark.slow
 def test_an_interrupted_run_is_not_replaced_unasked(
     objective: Objective, whole: Outcome, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

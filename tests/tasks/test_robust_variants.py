@@ -128,6 +128,7 @@ def test_a_free_duration_becomes_the_one_that_the_variant_says() -> None:
     assert load_task("levade-within-limits").feedback is None  # what is said of the search holds for one variant alone
 
 
+@pytest.mark.slow
 def test_another_robot_has_limits_of_its_own(tmp_path: Path, quadruped: type[Any]) -> None:
     path = written(tmp_path / "toy.urdf", quadruped().urdf())
     made, own = load_task("sit-to-stand-within-limits", robot=path), load_task("sit-to-stand-within-limits")
@@ -189,6 +190,7 @@ def test_own_words_win_over_the_plan(tmp_path: Path) -> None:
     assert within.horizon == 0.5
 
 
+@pytest.mark.slow
 def test_a_robot_that_is_asked_for_comes_before_the_file_s(tmp_path: Path, quadruped: type[Any]) -> None:
     toy = written(tmp_path / "toy.urdf", quadruped().urdf())
     path = written(tmp_path / "it.yaml", "name: it\nextends: sit-to-stand-robust\nrobot: {linkage: true}\n")
@@ -254,7 +256,7 @@ def test_the_schema_knows_them() -> None:
 @pytest.mark.slow
 def test_a_robust_search_finds_a_motion_that_holds_on_robots_it_has_not_seen() -> None:
     """With feedback, which needs fewer trials; docs/check.md has the shares of whole searches without."""
-    task = load_task("rearing-robust", changes=["feedback={}", "search.trials=4000"])
+    task = load_task("rearing-robust", changes=["feedback={}", "search.trials=2000"])
     solution = solve(objective := make_objective(task, threads=0), seed=0)
     motion = record(objective, solution, seed=0)
     simulation = RecordedSimulation(motion)

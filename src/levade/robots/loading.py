@@ -1,7 +1,11 @@
-"""Loading: make a `Robot` from a name, an MJCF, a URDF or a robot.yaml."""
+"""Loading: make a `Robot` from a name, an MJCF, a URDF or a robot.yaml.
+
+A process reads a built-in robot only once: commands load a robot more than once, and reading its meshes takes seconds.
+"""
 
 from __future__ import annotations
 
+import copy
 import os
 from dataclasses import replace
 from pathlib import Path
@@ -39,6 +43,9 @@ if TYPE_CHECKING:
 
 _BUILT_IN = Path(__file__).parent / "data"
 _MODELS = (".xml", ".urdf", ".mjcf")
+
+_READ: dict[tuple[object, ...], Robot] = {}
+"""What distinguishes built-in robots -> the robot. Callers get a copy, whose arrays they may change."""
 
 
 def builtin_robots() -> list[tuple[str, str]]:
@@ -120,6 +127,25 @@ def load_robot(
     place = find_package_robot(form.model) or path.parent / form.model
     if not place.is_file():
         raise LevadeError(f"{path}: model: no file {place}")
+    if not path.is_relative_to(_BUILT_IN):
+        return _read(path, form, place, actuation, variant, linkage, kp, kd)
+    key = path, place, actuation, variant, linkage, kp, kd
+    if key not in _READ:
+        _READ[key] = _read(path, form, place, actuation, variant, linkage, kp, kd)
+    return copy.deepcopy(_READ[key])
+
+
+def _read(
+    path: Path,
+    form: RobotForm,
+    place: Path,
+    actuation: str | None,
+    variant: str | None,
+    linkage: bool,
+    kp: float | None,
+    kd: float | None,
+) -> Robot:
+    """Make the robot of a description from the model in the file ``place``. The arguments are those of `load_robot`."""
     draft = read_model(place, trunk=form.trunk, joints=[joint for leg in form.legs.values() for joint in leg.joints])
     if form.trunk is not None:
         float_freely(draft, form.trunk, path)
