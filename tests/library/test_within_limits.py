@@ -107,7 +107,9 @@ def test_a_motion_that_works_on_the_model_is_not_known_beyond_a_limit(library: L
         if (
             demands is FAST
         ):  # perturbed models have to reach the goal; their limits are not demanded, as in a certificate
-            share = tried_on_others(falls.objective(fall), dict.fromkeys(range(8), play), falls.plan.perturb, seed=(1,))
+            (share,) = tried_on_others(
+                [falls.objective(fall)], [dict.fromkeys(range(8), play)], falls.plan.perturb, seeds=[(1,)]
+            )
             assert share.any()
     assert results == [(True, True), (False, False)]
 

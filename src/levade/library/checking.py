@@ -220,10 +220,10 @@ class _Trial:
             self._judge(answers, found)
         self._expected += [one.probability for one in answers]
         first = [own[0] for own in plays]
-        perturbed = [
-            bool(tried_on_others(objective, {0: play}, self._perturbation, seed=(self._seed, i))[0])
-            for i, objective, play in zip(indices, objectives, first, strict=True)
-        ]
+        on_others = tried_on_others(
+            objectives, [{0: play} for play in first], self._perturbation, seeds=[(self._seed, i) for i in indices]
+        )
+        perturbed = [bool(one[0]) for one in on_others]
         self._perturbed += perturbed
         failed = [j for j, one in enumerate(works) if not one[0]]
         for j in failed if self._refine is not None else ():

@@ -5,12 +5,13 @@ works = tried([falls.objective(4)], [[plays[0], plays[-1]]])[0].success
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from levade.arrays import Array
 from levade.engines import Models, Perturbation, State, perturbed_models
@@ -19,7 +20,7 @@ from levade.library.records import fall_of, motion_path
 from levade.motions import Motion
 from levade.policies import FreePolicy, JointPolicy
 from levade.search.evaluation import Evaluation, Mask, Trials, joined
-from levade.search.objective import AT_ONCE, Objective, evaluate_many
+from levade.search.objective import AT_ONCE, Objective, Rollouts, evaluate_many
 from levade.search.outcome import Solution, Stopped, Trial
 from levade.search.recording import record
 from levade.tasks import PolicyChoice
@@ -170,28 +171,81 @@ def _by_policy(objective: Objective, plays: Sequence[Playable]) -> list[tuple[Ob
 
 
 def tried_on_others(
-    objective: Objective, plays: Mapping[int, Playable], perturbation: Perturbation, *, seed: tuple[int, ...]
-) -> Mask:
-    """Play motions from one fall, each on another perturbed model.
+    objectives: Sequence[Objective],
+    plays: Sequence[Mapping[int, Playable]],
+    perturbation: Perturbation,
+    *,
+    seeds: Sequence[tuple[int, ...]],
+) -> list[Mask]:
+    """Play motions from falls in shared batches, each on another perturbed model.
 
     Args:
-        objective: The task from that fall.
-        plays: Number of a perturbed model -> what to play. A model depends on its own number only.
+        objectives: The task from each fall.
+        plays: For each fall, number of a perturbed model -> what to play. A model depends on its own number and the seed only.
         perturbation: How far the models differ from the nominal one.
-        seed: Seed of the perturbed models.
+        seeds: Seed of the perturbed models of each fall.
 
     Returns:
-        Whether each one works, shape (plays,).
+        For each fall, whether each one works, shape (plays,).
     """
-    numbers = np.array(list(plays), dtype=int)
-    starts, models = others(objective, perturbation, numbers.tolist(), seed=seed)
-    works = np.zeros(len(plays), dtype=bool)
-    for one, members in _by_policy(objective, list(plays.values())):
-        for first in range(0, len(members), AT_ONCE):
-            rows = members[first : first + AT_ONCE]
-            weights = np.concatenate([plays[int(number)].decisions(one.policy) for number in numbers[rows]])
-            works[rows] = judged_on_others(one, weights, starts[rows], models[rows])
-    return works
+    found = [np.zeros(len(own), dtype=bool) for own in plays]
+    together: dict[tuple[int, int, tuple[str, ...]], list[_Piece]] = {}
+    for objective, own, seed, works in zip(objectives, plays, seeds, found, strict=True):
+        numbers, playables = list(own), list(own.values())
+        if not numbers:
+            continue
+        starts, models = others(objective, perturbation, numbers, seed=seed)
+        for one, members in _by_policy(objective, playables):
+            key = (id(one.engine), one.policy.horizon_steps, one.recorded)
+            for first in range(0, len(members), AT_ONCE):
+                rows = np.array(members[first : first + AT_ONCE])
+                piece = _Piece(one, [playables[k] for k in rows], starts[rows], models[rows], works, rows)
+                together.setdefault(key, []).append(piece)
+    for pieces in together.values():
+        for batch in _batches(pieces):
+            _play(batch)
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class _Piece:
+    """Roll-outs from one fall: what to play, from where and on which models, and the rows of ``works`` that they fill in."""
+
+    objective: Objective
+    plays: Sequence[Playable]
+    starts: State
+    models: Models
+    works: Mask
+    rows: NDArray[np.intp]
+
+    @property
+    def rollouts(self) -> Rollouts:
+        """The roll-outs."""
+        weights = np.concatenate([play.decisions(self.objective.policy) for play in self.plays])
+        return _on_others(self.objective, weights, self.starts, self.models)
+
+
+def _batches(pieces: Sequence[_Piece]) -> Iterator[list[_Piece]]:
+    """Group pieces so that no batch has more than `AT_ONCE` roll-outs; no piece has more."""
+    batch: list[_Piece] = []
+    for piece in pieces:
+        if batch and sum(len(one.plays) for one in batch) + len(piece.plays) > AT_ONCE:
+            yield batch
+            batch = []
+        batch.append(piece)
+    yield batch
+
+
+def _play(batch: Sequence[_Piece]) -> None:
+    """Simulate roll-outs of one length in one batch, and note which ones work."""
+    one, first = batch[0].objective, 0
+    rollouts = Rollouts.joined([piece.rollouts for piece in batch])
+    trajectories = one.engine.rollout(rollouts.starts, rollouts.reference, models=rollouts.models, record=one.recorded)
+    for piece in batch:
+        own = slice(first, first + len(piece.plays))
+        judged = trajectories if len(batch) == 1 else trajectories[own]
+        piece.works[piece.rows] = piece.objective.judge(judged, piece.objective.task.hold_steps, perturbed=True).success
+        first = own.stop
 
 
 def others(
@@ -225,11 +279,15 @@ def judged_on_others(objective: Objective, weights: Array, starts: State, models
     Returns:
         Whether each one works, shape (n,).
     """
-    hold = objective.task.hold_steps
-    # until the first reference arrives, the joints keep their last command
-    reference = replace(objective.policy.reference(weights, hold_steps=hold), before=objective.state.joint_reference[0])
-    trajectories = objective.engine.rollout(starts, reference, models=models, record=objective.recorded)
-    return objective.judge(trajectories, hold, perturbed=True).success
+    rollouts = _on_others(objective, weights, starts, models)
+    trajectories = objective.engine.rollout(starts, rollouts.reference, models=models, record=objective.recorded)
+    return objective.judge(trajectories, objective.task.hold_steps, perturbed=True).success
+
+
+def _on_others(objective: Objective, weights: Array, starts: State, models: Models) -> Rollouts:
+    """Make the roll-outs of weights on perturbed models. Until the first reference arrives, joints keep their last command."""
+    reference = objective.policy.reference(weights, hold_steps=objective.task.hold_steps)
+    return Rollouts(starts, replace(reference, before=objective.state.joint_reference[0]), models)
 
 
 def tried(objectives: Sequence[Objective], plays: Sequence[Sequence[Playable]]) -> list[Evaluation]:

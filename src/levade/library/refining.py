@@ -169,7 +169,7 @@ def _searching(falls: Falls, objective: Objective, play: Play) -> Objective:
 def _share(objective: Objective, weights: Array, seed: int) -> float:
     """Return the share of perturbed models on which weights of shape (1, d) work."""
     plays = dict.fromkeys(range(_ROBOTS), _Weights(weights))
-    return float(tried_on_others(objective, plays, Perturbation(), seed=(seed, _ROBOTS)).mean())
+    return float(tried_on_others([objective], [plays], Perturbation(), seeds=[(seed, _ROBOTS)])[0].mean())
 
 
 @dataclass(frozen=True, eq=False)

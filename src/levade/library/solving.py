@@ -188,7 +188,7 @@ class Solver:
     ) -> _Begun:
         """Find which of the motions works on most perturbed models, and whether it works on a large enough share of them."""
         plays = {len(told) * robot + k: self._plays[told[k]] for robot in range(robots) for k in range(len(told))}
-        works = tried_on_others(objective, plays, Perturbation(), seed=(self._seed, fall, robots))
+        (works,) = tried_on_others([objective], [plays], Perturbation(), seeds=[(self._seed, fall, robots)])
         share = works.reshape(robots, len(told)).mean(axis=0)
         best = int(np.argmax(share))
         trials = begun.trials + len(plays)
@@ -325,13 +325,13 @@ class Solver:
         asked = [objectives[k] for k in untried]
         for (k, which), found in zip(untried.items(), tried(asked, own), strict=True):
             success[k, which] = found.success
-        for k, objective in enumerate(objectives):
-            # perturbed models are numbered by motions, in an order in which later ones come last
-            numbers = {int(j): _robot(int(known.motions[j])) for j in np.flatnonzero(np.isnan(perturbed[k]))}
-            plays = {number: self._plays[int(known.motions[j])] for j, number in numbers.items()}
-            if plays:
-                seed = (self._seed, int(known.falls[rows[k]]))
-                perturbed[k, list(numbers)] = tried_on_others(objective, plays, Perturbation(), seed=seed)
+        # perturbed models are numbered by motions, in an order in which later ones come last
+        columns = [np.flatnonzero(np.isnan(one)) for one in perturbed]
+        plays = [{_robot(int(one)): self._plays[int(one)] for one in known.motions[which]} for which in columns]
+        seeds = [(self._seed, int(known.falls[row])) for row in rows]
+        on_others = tried_on_others(objectives, plays, Perturbation(), seeds=seeds)
+        for k, (which, works) in enumerate(zip(columns, on_others, strict=True)):
+            perturbed[k, which] = works
         return success, perturbed
 
     def practised(self, known: Knowledge, numbers: Sequence[int]) -> Practice:
@@ -348,11 +348,11 @@ class Solver:
         plays = [[self._plays[motion] for motion in own] for own in likely]
         columns = {int(motion): j for j, motion in enumerate(known.motions)}
         success, perturbed = (np.full((len(numbers), len(columns)), np.nan) for _ in range(2))
-        for k, found in enumerate(tried(objectives, plays)):
+        seeds = [(self._seed, number) for number in numbers]
+        on_others = tried_on_others(objectives, [dict(enumerate(own)) for own in plays], Perturbation(), seeds=seeds)
+        for k, (found, works) in enumerate(zip(tried(objectives, plays), on_others, strict=True)):
             there = [columns[motion] for motion in likely[k]]
-            success[k, there] = found.success
-            seed = (self._seed, numbers[k])
-            perturbed[k, there] = tried_on_others(objectives[k], dict(enumerate(plays[k])), Perturbation(), seed=seed)
+            success[k, there], perturbed[k, there] = found.success, works
         up, joint_position = (np.array(one) for one in zip(*sensed, strict=True))
         return Practice(np.array(numbers, dtype=np.intp), up, joint_position, success, perturbed)
 

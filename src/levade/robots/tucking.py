@@ -8,6 +8,8 @@ gets it up from there once works again.
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from levade.arrays import Array
@@ -36,6 +38,11 @@ def tucked(robot: Robot) -> Array:
     Raises:
         LevadeError: If the robot's legs do not consist of hips and knees, or it has no crouched posture.
     """
+    return _tucked(robot).copy()
+
+
+@lru_cache(maxsize=8)  # each of a thousand falls asks
+def _tucked(robot: Robot) -> Array:
     if "crouched" not in robot.postures or not all({"hfe", "kfe"} <= set(leg.roles) for leg in robot.standing):
         raise LevadeError(f"robot {robot.name}: its legs have no tucked posture; name another, such as neutral")
     crouched, neutral = robot.posture("crouched"), robot.posture("neutral")
