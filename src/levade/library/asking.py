@@ -23,7 +23,6 @@ from levade.errors import LevadeError
 from levade.exports.asker import Learned, Model, unpacked
 from levade.library.knowledge import Knowledge
 from levade.library.mirror import Mirror
-from levade.library.outcomes import read_outcomes
 from levade.library.records import FALLS, Record, fall_of, motion_path
 from levade.motions import Motion
 from levade.trajectory import JointReference
@@ -33,6 +32,9 @@ LIBRARY = "library.yaml"
 
 LEARNED = "learned.npz"
 """Name of the file that holds the learned model, if there is one."""
+
+SUCCESS = "success.npz"
+"""Name of the file that holds which motion works from which fall; a build writes it at its end."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,7 +133,7 @@ class Library:
         knowledge = Knowledge.of(records, mirror)
         fold = fold_of(content.get("fold"), where=f"{place}: fold")
         learned = _read_learned(directory / LEARNED, knowledge)
-        known = read_outcomes(directory, knowledge)
+        known = knowledge.merged(read_success(directory, knowledge))
         return cls(directory, records, known, fold, learned, content.get("hardware") is not None)
 
     def ask(self, up: Any, joint_position: Any) -> Answer:
@@ -240,3 +242,34 @@ def _read_learned(place: Path, knowledge: Knowledge) -> Learned | None:
         raise LevadeError(f"{place}: the file is damaged; remove it, or learn again") from None
     same = np.array_equal(falls, knowledge.falls) and np.array_equal(model.motions, knowledge.motions)
     return model if same else None
+
+
+def read_success(directory: Path, knowledge: Knowledge) -> dict[str, Array]:
+    """Read which motion works from which fall, as far as a build has written it.
+
+    Args:
+        directory: Directory of the library.
+        knowledge: Names the falls and motions.
+
+    Returns:
+        The tables ``success`` and ``perturbed`` of `Knowledge`, shape (n, m) each, NaN where nothing was written.
+
+    Raises:
+        LevadeError: If the file is damaged.
+    """
+    place = directory / SUCCESS
+    tables = {name: np.full(knowledge.success.shape, np.nan) for name in ("success", "perturbed")}
+    if not place.is_file():
+        return tables
+    try:
+        with np.load(place, allow_pickle=False) as file:
+            falls, motions, *written = (file[name] for name in ("falls", "motions", *tables))
+        if any(one.shape != (len(falls), len(motions)) for one in written):
+            raise ValueError
+    except (OSError, EOFError, ValueError, KeyError, zipfile.BadZipFile, zlib.error):
+        raise LevadeError(f"{place}: the file is damaged; remove it, and build the library again") from None
+    rows, here = np.intersect1d(knowledge.falls, falls, return_indices=True)[1:]
+    columns, there = np.intersect1d(knowledge.motions, motions, return_indices=True)[1:]
+    for table, one in zip(tables.values(), written, strict=True):
+        table[np.ix_(rows, columns)] = one[np.ix_(here, there)]
+    return tables

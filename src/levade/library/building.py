@@ -7,7 +7,7 @@ DIR/library.yaml         seed and number of falls
 DIR/falls/000012.json    how the robot lies, and the result: written when the fall is done
 DIR/motions/000012.npz   the motion that was found for this fall
 DIR/certificates/000012.json  the motion's certificate, in a library for hardware
-DIR/success.npz          which motion works from which fall, on the model and on a perturbed model; and from falls for practice
+DIR/success.npz          which motion works from which fall, on the model and on a perturbed model
 
 Falls are solved in rounds, and each fall sees the library as it was when its round began. So the result depends neither on
 threads and processes nor on where an earlier build was stopped. In one process, the searches of a round run in lockstep.
@@ -24,13 +24,13 @@ from pathlib import Path
 
 import numpy as np
 
+from levade.arrays import Array
 from levade.bench.pool import Pool
 from levade.errors import LevadeError, Remedy
-from levade.library.asking import LIBRARY, Library
+from levade.library.asking import LIBRARY, SUCCESS, Library, read_success
 from levade.library.falls import Falls
-from levade.library.knowledge import Knowledge, Practice
-from levade.library.outcomes import read_outcomes, write_outcomes
-from levade.library.pieces import Drill, Fall, Piece, Result, Row, Workshop
+from levade.library.knowledge import Knowledge
+from levade.library.pieces import Fall, Row, Workshop
 from levade.library.pursuing import PURSUITS, Hardware
 from levade.library.records import FALLS, MOTIONS, Method
 from levade.library.solving import Solver
@@ -40,15 +40,11 @@ from levade.locking import locked
 from levade.robots import Robot
 from levade.search.storage import storing
 from levade.tasks import Task
+from levade.writing import replacing
 
 _ROUND, _GROWTH = 32, 8
 """Number of falls in a round: this many, or this part of the falls before it if that is more. Large enough to share batches and
 to keep many nodes busy, and small enough that later falls profit from the motions."""
-
-_PRACTICE, _FIRST_PRACTICE = 2, 2_000_000_000
-"""Number of falls for practice for each fall of a library that has a whole round of falls, and the number of the first.
-
-In a smaller library, more falls of its own are worth more."""
 
 
 @dataclass(frozen=True)
@@ -155,7 +151,7 @@ def rounds(starts: int) -> Iterator[tuple[int, int]]:
         first += size
 
 
-_Workers = Pool[Piece, Result] | Spread
+_Workers = Pool[Fall | Row, tuple[Array, Array] | None] | Spread
 
 
 def _workers(
@@ -204,9 +200,7 @@ class _Builder:
                     self._round(workers, pending, self._own[:first])
                 if self._stopping():
                     return
-            known = self._complete(workers)
-            if known is not None:
-                self._practise(known, workers)
+            self._complete(workers)
 
     def _round(self, workers: _Workers, pending: Sequence[int], after: tuple[int, ...]) -> None:
         for fall, _ in workers.each([Fall(i, after) for i in pending], waiting=self._check):
@@ -219,59 +213,30 @@ class _Builder:
         if self._stopping():
             raise _Ended
 
-    def _complete(self, workers: _Workers | None) -> Knowledge | None:
-        """Try every motion from every fall, on the model and on a perturbed model, and write which ones work.
-
-        Returns which ones work, or None if the build has to end.
-        """
+    def _complete(self, workers: _Workers | None) -> None:
+        """Try every motion from every fall, on the model and on a perturbed model, and write which ones work."""
         records = self._solver.records
         known = Knowledge.of([records[i] for i in self._own], self._falls.mirror)
-        known = read_outcomes(self._directory, known)
+        known = known.merged(read_success(self._directory, known))
         success, perturbed = known.success.copy(), known.perturbed.copy()
         left = np.flatnonzero(np.isnan(success + perturbed).any(axis=1))
         if workers is None:
             for first in range(0, len(left), _ROUND):
                 if self._stopping():
-                    return None
+                    return
                 rows = left[first : first + _ROUND]
                 success[rows], perturbed[rows] = self._solver.rows(known, rows.tolist())
         else:
             index = {int(known.falls[row]): row for row in left}
             for row, found in workers.each([Row(i, self._own) for i in index], waiting=self._check):
-                assert isinstance(row, Row)
-                assert isinstance(found, tuple)
+                assert found is not None
                 success[index[row.number]], perturbed[index[row.number]] = found
                 self._check()
-        known = replace(known, success=success, perturbed=perturbed)
-        write_outcomes(self._directory, known)
+        place = self._directory / SUCCESS
+        with storing(place, then=Remedy("make room, then build again")), replacing(place) as partial:
+            tables = {"success": success == 1.0, "perturbed": perturbed == 1.0}
+            np.savez(partial, falls=known.falls, motions=known.motions, **tables)
         shutil.rmtree(self._directory / PURSUITS, ignore_errors=True)  # left by a build that was killed
-        return known
-
-    def _practise(self, known: Knowledge, workers: _Workers | None) -> None:
-        """Try the likeliest motions from further falls, and write what works after each round. No motion is searched for."""
-        if len(self._own) < _ROUND or not len(known.motions):
-            return
-        done = set() if known.practice is None else set(known.practice.falls.tolist())
-        every = [_FIRST_PRACTICE + _PRACTICE * i + k for i in self._own for k in range(_PRACTICE)]
-        left = [number for number in every if number not in done]
-        if isinstance(workers, Spread) and left:
-            workers.begin(self._falls.simulation.robot)  # now with the outcomes
-        for first in range(0, len(left), _ROUND):
-            numbers = left[first : first + _ROUND]
-            if self._stopping():
-                return
-            for found in self._drilled(known, numbers, workers):
-                known = replace(known, practice=found if known.practice is None else known.practice.joined(found))
-            write_outcomes(self._directory, known)
-
-    def _drilled(self, known: Knowledge, numbers: Sequence[int], workers: _Workers | None) -> Iterator[Practice]:
-        if workers is None:
-            yield self._solver.practised(known, numbers)
-            return
-        for _, found in workers.each([Drill(i, self._own) for i in numbers], waiting=self._check):
-            assert isinstance(found, Practice)
-            yield found
-            self._check()
 
     def _tell(self) -> None:
         if self._observe is None:

@@ -31,9 +31,8 @@ from levade.exports.asker import SIMILAR, Model, apart, checksum
 from levade.exports.directory import filling
 from levade.library.asking import Library
 from levade.library.falls import Falls
-from levade.library.knowledge import Knowledge, Practice
+from levade.library.knowledge import Knowledge
 from levade.library.learning import arrays_of
-from levade.library.mirror import Mirror
 from levade.library.plays import Plays, simulated
 from levade.library.records import fall_of, image_of
 from levade.library.storing import read_falls
@@ -141,33 +140,30 @@ def export_library(
 def _ways(library: Library) -> dict[int, list[tuple[int, bool]]]:
     """Choose the falls from which each motion is simulated, each with whether its mirror image is meant.
 
-    A motion gets its own fall, and each fall to which it is the first answer and works, those for practice included. Falls that
-    are close to one that was chosen already are left out.
+    A motion gets its own fall, and each fall to which it is the first answer and works. Falls that are close to one that was
+    chosen already are left out.
     """
     known, mirror = library.knowledge, library.knowledge.mirror
     row = {int(fall): i for i, fall in enumerate(known.falls)}
     column = {int(number): j for j, number in enumerate(known.motions)}
     ways = {number: [(fall_of(number), number < 0)] for number in column}
-    states = {
-        number: [_lying(known, row[fall], mirror if image else None)] for number, ((fall, image),) in ways.items()
-    }
-    for falls in (known,) if known.practice is None else (known, known.practice):
-        for i, fall in enumerate(falls.falls.tolist()):
-            number = library.model.ranked(falls.up[i], falls.joint_position[i])[0][0]
-            if falls.success[i, column[number]] != 1.0:
-                continue
-            for image in (False, True) if mirror else (False,):
-                played, lying = image_of(number) if image else number, _lying(falls, i, mirror if image else None)
-                if min(apart(*other, *lying) for other in states[played]) > SIMILAR:
-                    ways[played].append((fall, image))
-                    states[played].append(lying)
+    states = {number: [_lying(known, row[fall], image=image)] for number, ((fall, image),) in ways.items()}
+    for fall, i in row.items():
+        number = library.model.ranked(known.up[i], known.joint_position[i])[0][0]
+        if known.success[i, column[number]] != 1.0:
+            continue
+        for image in (False, True) if mirror else (False,):
+            played, lying = image_of(number) if image else number, _lying(known, i, image=image)
+            if min(apart(*other, *lying) for other in states[played]) > SIMILAR:
+                ways[played].append((fall, image))
+                states[played].append(lying)
     return ways
 
 
-def _lying(falls: Knowledge | Practice, row: int, mirror: Mirror | None) -> tuple[Array, Array]:
+def _lying(known: Knowledge, row: int, *, image: bool) -> tuple[Array, Array]:
     """Return the upward direction in a fall, or in its mirror image, and the joint angles."""
-    up, joints = falls.up[row], falls.joint_position[row]
-    return (up, joints) if mirror is None else (mirror.up(up), mirror.posture(joints))
+    up, joints = known.up[row], known.joint_position[row]
+    return (known.mirror.up(up), known.mirror.posture(joints)) if image and known.mirror is not None else (up, joints)
 
 
 def _simulated(falls: Falls, plays: Plays, number: int, fall: int, *, image: bool) -> Motion:

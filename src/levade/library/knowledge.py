@@ -10,45 +10,16 @@ here, too. Each fall counts by how near it is; the mean over all falls counts on
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from levade.arrays import Array
-from levade.exports.asker import Model, distances
+from levade.exports.asker import Model
 from levade.library.mirror import Mirror
 from levade.library.records import Record, image_of
-
-
-@dataclass(frozen=True, eq=False)
-class Practice:
-    """Holds falls from which the likeliest motions were tried, and no motion was searched for.
-
-    Attributes:
-        falls: Numbers of the falls, shape (k,).
-        up: Upward direction in each fall, in trunk axes, shape (k, 3).
-        joint_position: Joint angles in each fall [rad], shape (k, joints).
-        success: Whether each motion works from each fall: 1, 0, or NaN if it was not tried, shape (k, m).
-        perturbed: The same on a perturbed model, shape (k, m).
-    """
-
-    falls: NDArray[np.intp]
-    up: Array
-    joint_position: Array
-    success: Array
-    perturbed: Array
-
-    def joined(self, other: Practice) -> Practice:
-        """Return the falls of both, in the order of their numbers.
-
-        Args:
-            other: Further falls, with the same motions.
-        """
-        pairs = [(getattr(self, one.name), getattr(other, one.name)) for one in fields(self)]
-        order = np.argsort(np.concatenate(pairs[0]))
-        return Practice(*(np.concatenate(pair)[order] for pair in pairs))
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +35,6 @@ class Knowledge:
         perturbed: The same on a perturbed model, another one for each pair, shape (n, m).
         mirror: Mirror of the robot. None if the robot is not symmetric. With a mirror, a motion's success is also that of its
             image from the image of the fall.
-        practice: Further falls, which count in predictions only. None if there was no practice.
     """
 
     falls: Array
@@ -74,7 +44,6 @@ class Knowledge:
     success: Array
     perturbed: Array
     mirror: Mirror | None = None
-    practice: Practice | None = None
 
     @classmethod
     def of(cls, records: Sequence[Record], mirror: Mirror | None = None) -> Knowledge:
@@ -121,15 +90,10 @@ class Knowledge:
     @cached_property
     def model(self) -> Model:
         """The model that predicts for other states; an exported library contains it (`levade.exports.asker`)."""
-        of: list[Knowledge | Practice] = [self] if self.practice is None else [self, self.practice]
-        up, joint_position, success, perturbed = (
-            np.concatenate([getattr(one, name) for one in of])
-            for name in ("up", "joint_position", "success", "perturbed")
-        )
-        both, none = np.stack([success, perturbed]), self.mirror is None
+        both, none = np.stack([self.success, self.perturbed]), self.mirror is None
         return Model(
-            up=up,
-            joint_position=joint_position,
+            up=self.up,
+            joint_position=self.joint_position,
             tried=(~np.isnan(both)).sum(axis=0).astype(float),
             worked=np.nansum(both, axis=0),
             motions=np.asarray(self.motions, dtype=np.int64),
@@ -148,7 +112,7 @@ class Knowledge:
         Returns:
             Distances [rad], shape (n,).
         """
-        return distances(self.up, self.joint_position, up, joint_position)
+        return self.model.distances(up, joint_position)
 
     def probabilities(self, up: Array, joint_position: Array) -> Array:
         """Predict how likely each motion works from a state, on the model or on a perturbed model.

@@ -17,8 +17,8 @@ from pathlib import Path
 from typing import Any
 
 from levade.arrays import Array
-from levade.library.knowledge import Knowledge, Practice
-from levade.library.outcomes import read_outcomes
+from levade.library.asking import read_success
+from levade.library.knowledge import Knowledge
 from levade.library.records import Record
 from levade.library.solving import Solver
 from levade.library.storing import read_falls, read_hardware
@@ -58,27 +58,6 @@ class Row:
         return f"fall {self.number}"
 
 
-@dataclass(frozen=True)
-class Drill:
-    """Asks to try the likeliest motions from a fall for practice.
-
-    Attributes:
-        number: Number of the fall in the library's family. It is none of the library's own.
-        falls: Numbers of all falls of the library.
-    """
-
-    number: int
-    falls: tuple[int, ...]
-
-    def __str__(self) -> str:
-        return f"practice fall {self.number}"
-
-
-Piece = Fall | Row | Drill
-Result = tuple[Array, Array] | Practice | None
-"""Result of a row, of a drill, or of a fall."""
-
-
 class Workshop:
     """Does pieces of a library's work in this process. Pickling leaves out the simulation that it builds.
 
@@ -107,11 +86,8 @@ class Workshop:
         """
         self._solver.learn(records, motions)
 
-    def __call__(self, piece: Piece) -> Result:
-        """Do a piece of work. For a fall, write its record and return None.
-
-        For a row, return the result of `Solver.rows`, and for a drill that of `Solver.practised`.
-        """
+    def __call__(self, piece: Fall | Row) -> tuple[Array, Array] | None:
+        """Do a piece of work. Return the result of `Solver.rows` for a row; for a fall, write its record and return None."""
         solver = self._solver
         if isinstance(piece, Fall):
             solver.load(piece.after)
@@ -119,8 +95,6 @@ class Workshop:
             return None
         solver.load(piece.falls)
         known = Knowledge.of([solver.records[i] for i in piece.falls], self._falls.mirror)
-        known = read_outcomes(self._directory, known)
-        if isinstance(piece, Drill):
-            return solver.practised(known, [piece.number])
+        known = known.merged(read_success(self._directory, known))
         success, perturbed = solver.rows(known, [list(known.falls).index(piece.number)])
         return success[0], perturbed[0]

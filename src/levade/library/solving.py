@@ -28,7 +28,7 @@ from levade.engines import Perturbation
 from levade.errors import Remedy
 from levade.library.falls import Falls
 from levade.library.hardening import affords, harden
-from levade.library.knowledge import Knowledge, Practice
+from levade.library.knowledge import Knowledge
 from levade.library.plays import Play, Plays, posed, simulated, tried, tried_on_others
 from levade.library.pursuing import PURSUITS, Hardware, pursue_fall, write_certificate
 from levade.library.records import Method, Record, fall_of, motion_path, record_path
@@ -53,9 +53,6 @@ _EARLY, _EARLY_ROBOTS, _EARLY_SURE = 16, 12, 1.0
 
 _MANY = 20
 """Number of perturbed models within the limits of hardware. They have to tell the demanded share from a smaller one."""
-
-_PRACTISED = 4
-"""Number of motions that are tried from a fall for practice, the likeliest first."""
 
 _ELSEWHERE = 0.1
 """Distance from a fall with its own motion [rad], beyond which another motion may be worth finding."""
@@ -333,28 +330,6 @@ class Solver:
         for k, (which, works) in enumerate(zip(columns, on_others, strict=True)):
             perturbed[k, which] = works
         return success, perturbed
-
-    def practised(self, known: Knowledge, numbers: Sequence[int]) -> Practice:
-        """Try the likeliest motions from falls that the library does not have, on the model and on a perturbed model each.
-
-        Args:
-            known: Known outcomes of all motions. Earlier practice does not count, so that its order does not matter.
-            numbers: Numbers of the falls.
-        """
-        known = replace(known, practice=None)
-        objectives = [self._falls.objective(i) for i in numbers]
-        sensed = [self._falls.sensed(objective.state) for objective in objectives]
-        likely = [[motion for motion, _ in known.ranked(*one)[:_PRACTISED]] for one in sensed]
-        plays = [[self._plays[motion] for motion in own] for own in likely]
-        columns = {int(motion): j for j, motion in enumerate(known.motions)}
-        success, perturbed = (np.full((len(numbers), len(columns)), np.nan) for _ in range(2))
-        seeds = [(self._seed, number) for number in numbers]
-        on_others = tried_on_others(objectives, [dict(enumerate(own)) for own in plays], Perturbation(), seeds=seeds)
-        for k, (found, works) in enumerate(zip(tried(objectives, plays), on_others, strict=True)):
-            there = [columns[motion] for motion in likely[k]]
-            success[k, there], perturbed[k, there] = found.success, works
-        up, joint_position = (np.array(one) for one in zip(*sensed, strict=True))
-        return Practice(np.array(numbers, dtype=np.intp), up, joint_position, success, perturbed)
 
 
 @dataclass(frozen=True, eq=False)

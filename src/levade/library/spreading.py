@@ -24,11 +24,11 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
+from levade.arrays import Array
 from levade.bench.cluster import AUTO, Cluster, fetch
 from levade.errors import LevadeError, Remedy
-from levade.library.asking import LIBRARY
-from levade.library.outcomes import SUCCESS
-from levade.library.pieces import Fall, Piece, Result, Workshop
+from levade.library.asking import LIBRARY, SUCCESS
+from levade.library.pieces import Fall, Row, Workshop
 from levade.library.records import Record, certificate_path, motion_path, record_path
 from levade.library.storing import TASK
 from levade.motions import Motion, versions
@@ -82,7 +82,7 @@ class Parcel:
         news: References to the news of all falls that it needs, the earliest first.
     """
 
-    piece: Piece
+    piece: Fall | Row
     news: tuple[Any, ...]
 
     def __str__(self) -> str:
@@ -94,11 +94,11 @@ class Delivery:
     """Carries the result of a piece back.
 
     Attributes:
-        result: Result of a row or of a drill. None for a fall.
+        rows: Result of `Solver.rows`. None for a fall.
         files: Path within the library -> content, in the order to write them. None if the file is there.
     """
 
-    result: Result
+    rows: tuple[Array, Array] | None
     files: Mapping[str, bytes | None]
 
 
@@ -141,8 +141,8 @@ class Outpost:
             for news in map(fetch, parcel.news[self._heard :]):
                 workshop.learn(news.records, news.motions)
             self._heard = max(self._heard, len(parcel.news))
-            result = workshop(parcel.piece)
-            return Delivery(result, self._written(place, parcel.piece))
+            rows = workshop(parcel.piece)
+            return Delivery(rows, self._written(place, parcel.piece))
 
     @contextmanager
     def _place(self) -> Iterator[Path]:
@@ -173,9 +173,9 @@ class Outpost:
         except (OSError, UnicodeDecodeError):
             return False
 
-    def _written(self, place: Path, piece: Piece) -> dict[str, bytes | None]:
+    def _written(self, place: Path, piece: Fall | Row) -> dict[str, bytes | None]:
         """What a piece has written into a directory: the motion first, because a record says that all of a fall is there."""
-        if not isinstance(piece, Fall):
+        if isinstance(piece, Row):
             return {}
         paths = [path(place, piece.number) for path in (motion_path, certificate_path, record_path)]
         here = place == self._directory
@@ -216,7 +216,7 @@ class Spread:
         return self._cluster.cpus
 
     def begin(self, robot: Robot) -> None:
-        """Hand out what a library is built from, or hand it out again once its outcomes are written.
+        """Hand out what a library is built from.
 
         Args:
             robot: The library's robot.
@@ -230,8 +230,8 @@ class Spread:
         self._outpost = self._cluster.put(Outpost(directory, self._mark, robot))
 
     def each(
-        self, pieces: Sequence[Piece], *, waiting: Callable[[], object] | None = None
-    ) -> Iterator[tuple[Piece, Result]]:
+        self, pieces: Sequence[Fall | Row], *, waiting: Callable[[], object] | None = None
+    ) -> Iterator[tuple[Fall | Row, tuple[Array, Array] | None]]:
         """Yield each piece with its result, as they finish. The files of a fall are in the library's directory then.
 
         Args:
@@ -248,7 +248,7 @@ class Spread:
         for parcel, delivery in self._cluster.each(self._outpost, parcels, waiting=waiting):
             for name, content in delivery.files.items():
                 self._store(self._directory / name, content, waiting)
-            yield parcel.piece, delivery.result
+            yield parcel.piece, delivery.rows
 
     def _tell(self, falls: Sequence[int]) -> None:
         """Put the news of falls that no piece was sent with before."""
