@@ -20,10 +20,11 @@ from levade.library.records import fall_of, motion_path
 from levade.motions import Motion
 from levade.policies import FreePolicy, JointPolicy
 from levade.search.evaluation import Evaluation, Mask, Trials, joined
-from levade.search.objective import AT_ONCE, Objective, Rollouts, evaluate_many
+from levade.search.objective import AT_ONCE, Objective, Rollouts, evaluate_many, judge_together
 from levade.search.outcome import Solution, Stopped, Trial
 from levade.search.recording import record
 from levade.tasks import PolicyChoice
+from levade.trajectory import Trajectories
 
 _TAG = 1_818_845_550
 """Part of a seed, so that perturbed models differ from those of searches and of checks of motions."""
@@ -203,7 +204,9 @@ def tried_on_others(
                 together.setdefault(key, []).append(piece)
     for pieces in together.values():
         for batch in _batches(pieces):
-            _play(batch)
+            made = _judged_together([(piece.objective, piece.rollouts) for piece in batch])
+            for piece, one in zip(batch, made, strict=True):
+                piece.works[piece.rows] = one.success
     return found
 
 
@@ -234,18 +237,6 @@ def _batches(pieces: Sequence[_Piece]) -> Iterator[list[_Piece]]:
             batch = []
         batch.append(piece)
     yield batch
-
-
-def _play(batch: Sequence[_Piece]) -> None:
-    """Simulate roll-outs of one length in one batch, and note which ones work."""
-    one, first = batch[0].objective, 0
-    rollouts = Rollouts.joined([piece.rollouts for piece in batch])
-    trajectories = one.engine.rollout(rollouts.starts, rollouts.reference, models=rollouts.models, record=one.recorded)
-    for piece in batch:
-        own = slice(first, first + len(piece.plays))
-        judged = trajectories if len(batch) == 1 else trajectories[own]
-        piece.works[piece.rows] = piece.objective.judge(judged, piece.objective.task.hold_steps, perturbed=True).success
-        first = own.stop
 
 
 def others(
@@ -279,9 +270,18 @@ def judged_on_others(objective: Objective, weights: Array, starts: State, models
     Returns:
         Whether each one works, shape (n,).
     """
-    rollouts = _on_others(objective, weights, starts, models)
-    trajectories = objective.engine.rollout(starts, rollouts.reference, models=models, record=objective.recorded)
-    return objective.judge(trajectories, objective.task.hold_steps, perturbed=True).success
+    (found,) = _judged_together([(objective, _on_others(objective, weights, starts, models))])
+    return found.success
+
+
+def _judged_together(asked: Sequence[tuple[Objective, Rollouts]]) -> Iterator[Evaluation]:
+    """Judge roll-outs of one length on perturbed models, simulated in shared batches."""
+
+    def judge(i: int, trajectories: Trajectories) -> Evaluation:
+        objective = asked[i][0]
+        return objective.judge(trajectories, objective.task.hold_steps, perturbed=True)
+
+    return judge_together(asked, judge)
 
 
 def _on_others(objective: Objective, weights: Array, starts: State, models: Models) -> Rollouts:

@@ -401,9 +401,31 @@ def _evaluate_in_parts(asked: Sequence[tuple[Objective, Trials]]) -> Iterable[Ev
 
 def _evaluate_together(asked: Sequence[tuple[Objective, Trials]]) -> Iterator[Evaluation]:
     """Evaluate trials of one engine, of one length, all on the nominal model or all on perturbed ones."""
+
+    def judge(i: int, trajectories: Trajectories) -> Evaluation:
+        objective, trials = asked[i]
+        objective.remember(trials, trajectories)
+        return objective.judge(trajectories, trials.hold_steps, perturbed=trials.draw is not None)
+
+    return judge_together([(objective, objective.rollouts(trials)) for objective, trials in asked], judge)
+
+
+def judge_together(
+    asked: Sequence[tuple[Objective, Rollouts]], judge: Callable[[int, Trajectories], Evaluation]
+) -> Iterator[Evaluation]:
+    """Simulate roll-outs of several objectives in shared batches, and judge them.
+
+    Args:
+        asked: Objectives of one engine, which record the same, each with its roll-outs. All roll-outs have one length, and all
+            or none use perturbed models.
+        judge: Function that judges the trajectories of one of them, given its index. A part of its roll-outs may come alone.
+
+    Returns:
+        An evaluation for each, in order.
+    """
     engine, record = asked[0][0].engine, asked[0][0].recorded
-    rollouts = Rollouts.joined([objective.rollouts(trials) for objective, trials in asked])
-    owner = np.repeat(np.arange(len(asked)), [trials.n for _, trials in asked])
+    rollouts = Rollouts.joined([one for _, one in asked])
+    owner = np.repeat(np.arange(len(asked)), [len(one.reference.position) for _, one in asked])
     parts: list[list[Evaluation]] = [[] for _ in asked]
     for first in range(0, len(owner), AT_ONCE):
         rows = slice(first, min(first + AT_ONCE, len(owner)))
@@ -417,11 +439,9 @@ def _evaluate_together(asked: Sequence[tuple[Objective, Trials]]) -> Iterator[Ev
             record=record,
         )
         for i in np.unique(owner[rows]):
-            objective, trials = asked[i]
             own = np.flatnonzero(owner[rows] == i)
             judged = trajectories if len(own) == trajectories.n else trajectories[slice(own[0], own[-1] + 1)]
-            objective.remember(trials, judged)
-            parts[i].append(objective.judge(judged, trials.hold_steps, perturbed=trials.draw is not None))
+            parts[i].append(judge(int(i), judged))
     return map(joined, parts)
 
 
