@@ -107,7 +107,8 @@ class Generation:
             succeeds. Motions from which these stages already failed are left out.
         evaluation: Results of its candidates.
         validated: Results of its contender on the models that stay the same. The contender is the candidate, or the mean, that
-            may become the best of a robust search, or a motion to start one from. None without a contender.
+            may become the best of a robust search, or a motion to start one from. It is tried on no further models once it
+            cannot become the best. None without a contender.
         total_diverged: Number of trials of the whole search so far whose simulation broke down.
         initial: Number of motions or weights that the search began around.
         replayed: Whether records answered the whole generation, so that nothing was simulated.

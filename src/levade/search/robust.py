@@ -148,13 +148,11 @@ class Judge:
         columns, everyone = np.arange(models), np.arange(len(candidates))
         samples = Samples.none(nominal.terms, len(candidates), models)
         first = models if racing is None or robust.racing is None else robust.racing.first
-        left = everyone if best is None else _contenders(robust, nominal, samples, best)
-        at_once = first if best is None else _CONTENDED
-        for start in range(0, first, at_once) if first else ():
-            samples = yield from self._run(
-                samples, candidates, hold_steps, draw, left, columns[start : min(start + at_once, first)]
-            )
-            left = left if best is None else _contenders(robust, nominal, samples, best)
+        at_once = models if best is None else _CONTENDED
+        for start in range(0, first, at_once):
+            left = everyone if best is None else _contenders(robust, nominal, samples, best)
+            part = columns[:first][start : start + at_once]
+            samples = yield from self._run(samples, candidates, hold_steps, draw, left, part)
         result = replace(nominal, samples=samples)
         if racing is not None and first < models:
             order = np.argsort(result.cost(racing, robust), kind="stable")
