@@ -272,7 +272,8 @@ def test_a_folder_that_was_changed_is_refused(folder: Path, tmp_path: Path) -> N
 
 def test_a_robot_that_folds_lies_with_its_legs_drawn_in(packaged: Callable[[str], Robot]) -> None:
     """However it fell: its joints are told the same, and are there; its knees are nearly at their ends."""
-    falls = Falls(load_task("self-righting", robot="go1"), robot=packaged("go1"), seed=4, threads=1)
+    robot = packaged("go1")
+    falls = Falls(load_task("self-righting", robot="go1"), robot=robot, seed=4, threads=1)
     assert falls.task.start.fallen is not None
     assert falls.task.start.fallen.fold == Fold()
     assert falls.fold is not None
