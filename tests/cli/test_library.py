@@ -107,6 +107,41 @@ def test_an_attitude_is_which_way_is_up(built: Path, run: Run, tmp_path: Path) -
     )
 
 
+@pytest.mark.parametrize("attitude", [("--attitude", "0,1,0,0"), ("--up", "0 0 -1")])
+@pytest.mark.parametrize("named", [False, True])
+def test_the_command_line_asks_as_a_file_does(
+    built: Path, run: Run, tmp_path: Path, attitude: tuple[str, str], named: bool
+) -> None:
+    names = Library.load(built).ask([0, 0, -1], np.zeros(12)).motion.joint_names
+    angles = {name: -0.1 * i for i, name in enumerate(names)}
+    in_file = state(tmp_path / "state.json", up=[0, 0, -1], joints=list(angles.values()))
+    listed = ",".join(map(str, angles.values()))
+    typed = ", ".join(f"{name}={angle}" for name, angle in reversed(angles.items())) if named else listed
+    assert run("library", "ask", str(built), "--state", in_file, "--json") == run(
+        *("library", "ask", str(built), *attitude, "--joints", typed, "--json")
+    )
+
+
+@pytest.mark.parametrize(
+    ("typed", "said"),
+    [
+        ([], "give how the robot lies: --state FILE, or else --joints and one of --attitude and --up"),
+        (["--up", "0,0,1"], "give how the robot lies"),
+        (["--up", "0,0,1", "--attitude", "1,0,0,0", "--joints", "0"], "give how the robot lies"),
+        (["--state", "state.json", "--joints", "0"], "give how the robot lies"),
+        (["--up", "0,0,1", "--joints", "0,0"], "--joints: should be 12 numbers"),
+        (["--up", "0,0,up", "--joints", "0"], "--up: should be 3 numbers"),
+        (["--attitude", "0,0,0,0", "--joints", "0"], "--attitude: four zeros are not a rotation"),
+        (["--up", "0,0,1", "--joints", "lf_hxe=0"], "--joints: no joint 'lf_hxe'; did you mean lf_hfe"),
+        (["--up", "0,0,1", "--joints", "lf_hfe=0"], "--joints: lf_haa is missing"),
+    ],
+)
+def test_wrong_command_lines_are_one_line(built: Path, run: Run, typed: list[str], said: str) -> None:
+    status, out, err = run("library", "ask", str(built), *typed)
+    assert (status, out, err.count("\n")) == (2, "", 1)
+    assert said in err
+
+
 def test_the_reference_is_written_as_a_table(built: Path, run: Run, tmp_path: Path) -> None:
     asked = state(tmp_path / "state.json", up=[0, 0, -1], joints=[0.0] * 12)
     table = tmp_path / "reference.csv"

@@ -1,4 +1,4 @@
-"""``levade library ask``: a state from a file, and the library's answer as text, JSON and a table of references."""
+"""``levade library ask``: how the robot lies, and the library's answer as text, JSON and a table of references."""
 
 from __future__ import annotations
 
@@ -24,12 +24,21 @@ from levade.trajectory import JointReference
 from levade.writing import write_text
 
 
-def ask_library(directory: Path, *, state: Path, reference: Path | None, refine: str | None, as_json: bool) -> int:
+def ask_library(
+    directory: Path,
+    *,
+    state: Path | None,
+    sensed: Mapping[str, str | None],
+    reference: Path | None,
+    refine: str | None,
+    as_json: bool,
+) -> int:
     """Ask a library.
 
     Args:
         directory: Directory of the library.
-        state: File of the robot's attitude and joint angles, as JSON or YAML.
+        state: File of the robot's attitude and joint angles, as JSON or YAML. None if the command line has them.
+        sensed: "attitude", "up" and "joints" as the command line has them; None what it does not have.
         reference: File for the references of the joints, as CSV. None writes none.
         refine: Time to improve the answer in simulation, such as "1s". None does not improve it.
         as_json: Whether to print one JSON object.
@@ -40,7 +49,11 @@ def ask_library(directory: Path, *, state: Path, reference: Path | None, refine:
     library = Library.load(directory)
     first = library.ask([0.0, 0.0, 1.0], np.zeros(library.knowledge.joint_position.shape[1]))
     names = first.motion.joint_names
-    question = _read_state(state, names)
+    given = {name: text for name, text in sensed.items() if text is not None}
+    typed = "joints" in given and ("attitude" in given) != ("up" in given)
+    if (state is None) != typed or (state is not None and given):
+        raise LevadeError("give how the robot lies: --state FILE, or else --joints and one of --attitude and --up")
+    question = _typed(given, names) if state is None else _read_state(state, names)
     answer = library.ask(*question)
     better = None if refine is None else refined_answer(library, *question, seconds=refining_time(refine))
     if reference is not None:
@@ -115,7 +128,32 @@ def named_motion(path: Path, number: int) -> str:
     return f"{'the mirror image of ' if number < 0 else ''}{escape(str(path))}"
 
 
-def _read_state(path: Path, names: tuple[str, ...]) -> tuple[Any, Array]:
+def _typed(given: Mapping[str, str], names: tuple[str, ...]) -> tuple[Array, Array]:
+    """Read the upward direction in trunk axes and the joint angles from the command line."""
+    content: dict[str, Any] = {name: _listed(text) for name, text in given.items()}
+    if "=" in given.get("joints", ""):
+        pairs = [word.partition("=")[::2] for word in _words(given["joints"])]
+        content["joints"] = {name: _number(value) for name, value in pairs}
+    return _question(content, names, "--")
+
+
+def _words(text: str) -> list[str]:
+    return text.replace(",", " ").split()
+
+
+def _listed(text: str) -> list[Any]:
+    return [_number(word) for word in _words(text)]
+
+
+def _number(word: str) -> float | str:
+    """Convert a word to a number if it is one; whoever expects a number complains about the others."""
+    try:
+        return float(word)
+    except ValueError:
+        return word
+
+
+def _read_state(path: Path, names: tuple[str, ...]) -> tuple[Array, Array]:
     """Read the upward direction in trunk axes and the joint angles from a JSON or YAML file."""
     content = read_yaml(path, like="attitude and joints")
     known = {"attitude", "up", "joints"}
@@ -126,25 +164,30 @@ def _read_state(path: Path, names: tuple[str, ...]) -> tuple[Any, Array]:
         raise LevadeError(
             f"{path}: give either attitude, a quaternion w-x-y-z, or up, the upward direction in trunk axes"
         )
-    joints = content.get("joints")
+    return _question(content, names, f"{path}: ")
+
+
+def _question(content: Mapping[str, Any], names: tuple[str, ...], where: str) -> tuple[Array, Array]:
+    """Return the upward direction and the joint angles; ``where`` precedes the names of the entries in messages."""
+    joints, place = content.get("joints"), f"{where}joints"
     if isinstance(joints, Mapping):
         for name in joints:
             if name not in names:
-                raise LevadeError(f"{path}: joints: no joint {name!r}; {did_you_mean(str(name), names)}")
+                raise LevadeError(f"{place}: no joint {name!r}; {did_you_mean(str(name), names)}")
         missing = [name for name in names if name not in joints]
         if missing:
-            raise LevadeError(f"{path}: joints: {missing[0]} is missing; give the angle of each joint [rad]")
+            raise LevadeError(f"{place}: {missing[0]} is missing; give the angle of each joint [rad]")
         joints = [joints[name] for name in names]
-    return _up(content, path), _numbers(joints, len(names), f"{path}: joints")
+    return _up(content, where), _numbers(joints, len(names), place)
 
 
-def _up(content: Mapping[str, Any], path: Path) -> Array:
+def _up(content: Mapping[str, Any], where: str) -> Array:
     if "up" in content:
-        return _numbers(content["up"], 3, f"{path}: up")
-    quaternion = _numbers(content["attitude"], 4, f"{path}: attitude")
+        return _numbers(content["up"], 3, f"{where}up")
+    quaternion = _numbers(content["attitude"], 4, f"{where}attitude")
     norm = float(np.linalg.norm(quaternion))
     if not norm > 0:
-        raise LevadeError(f"{path}: attitude: four zeros are not a rotation; [1, 0, 0, 0] is level")
+        raise LevadeError(f"{where}attitude: four zeros are not a rotation; [1, 0, 0, 0] is level")
     return up_in_trunk(quaternion / norm)
 
 

@@ -192,7 +192,21 @@ def _show_library(
 @library_app.command("ask")
 def _ask_library(
     library: LibraryDirectory,
-    state: Annotated[Path, typer.Option(help="JSON or YAML: attitude (w-x-y-z) or up (in trunk axes), and joints.")],
+    state: Annotated[
+        Path | None, typer.Option(help="JSON or YAML: attitude (w-x-y-z) or up (in trunk axes), and joints.")
+    ] = None,
+    attitude: Annotated[
+        str | None, typer.Option(metavar="W,X,Y,Z", help="Without --state: attitude of the trunk, a quaternion.")
+    ] = None,
+    up: Annotated[
+        str | None, typer.Option(metavar="X,Y,Z", help="Instead of --attitude: upward direction in trunk axes.")
+    ] = None,
+    joints: Annotated[
+        str | None,
+        typer.Option(
+            metavar="ANGLES", help="Without --state: angles in the robot's joint order, or NAME=ANGLE,... [rad]."
+        ),
+    ] = None,
     reference: Annotated[Path | None, typer.Option(help="Write the joints' references to this file, as CSV.")] = None,
     refine: Annotated[
         str | None,
@@ -202,11 +216,16 @@ def _ask_library(
 ) -> int:
     """Say which motion most likely works from the state in which the robot lies. Only --refine simulates.
 
+    \b
+    levade library ask falls --state state.json
+    levade library ask falls --up 0,0,-1 --joints 0,1.3,-2.6,0,1.3,-2.6,0,1.3,-2.6,0,1.3,-2.6
+
     Exit status: 0 there is an answer, 1 it does not work even after --refine, 2 the input is wrong.
     """
     from levade.cli.asking import ask_library
 
-    return ask_library(library, state=state, reference=reference, refine=refine, as_json=as_json)
+    sensed = {"attitude": attitude, "up": up, "joints": joints}
+    return ask_library(library, state=state, sensed=sensed, reference=reference, refine=refine, as_json=as_json)
 
 
 @library_app.command("check")
