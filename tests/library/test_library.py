@@ -341,6 +341,22 @@ def test_of_two_motions_that_work_the_one_that_does_on_other_robots_is_likelier(
     assert ranked[1][1] == pytest.approx(0.5, abs=0.1)
 
 
+def test_all_other_robots_count_as_one_try() -> None:
+    """A motion that was tried on further models where it works on the model: these tries do not outweigh the other falls."""
+    angles = [0.0, 0.001]
+    knowledge = replace(known([[1, 1], [0, 0]], angles), perturbed=np.array([[1.0, 1.0], [0.0, 0.0]]))
+    again = np.zeros((2, 2, 2))
+    again[:, 0, 0] = (6, 6)
+    up, joints = np.array([0.0, 0.0, 1.0]), np.zeros(2)
+    np.testing.assert_array_equal(
+        replace(knowledge, again=again).probabilities(up, joints), knowledge.probabilities(up, joints)
+    )
+    again[:, 0, 0] = (5, 2)
+    more = replace(knowledge, again=again)
+    np.testing.assert_allclose(more.on_others, [[3 / 6, 1], [0, 0]])
+    assert more.ranked(up, joints)[0][0] == 1
+
+
 def test_what_was_not_tried_counts_neither_way() -> None:
     up, joints = np.array([0.0, 0.0, 1.0]), np.zeros(2)
     unknown = known([[1, np.nan], [1, np.nan], [1, 1]], [0.0, 0.1, 0.2]).probabilities(up, joints)

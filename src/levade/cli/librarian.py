@@ -100,8 +100,9 @@ def build_library(
         pace.add(progress.done)
         left = pace.left(progress.starts - progress.done) if progress.done < progress.starts else None
         console.print(
-            f"  {progress.done} of {progress.starts} falls: {progress.motions} motions, {progress.trials} trials,"
-            f" {spent:.0f} s"
+            f"  {progress.done} of {progress.starts} falls"
+            + (f", {progress.rare} rare ones" if progress.rare else "")
+            + f": {progress.motions} motions, {progress.trials} trials, {spent:.0f} s"
             + ("" if left is None else f", about {left} left")
             + ("" if progress.cpus is None else f", {progress.cpus} CPUs"),
             style="dim",
@@ -298,10 +299,12 @@ def _summary(library: Library, directory: Path, written: Sequence[Path]) -> dict
         }
     return {
         "library": str(directory),
-        "done": len(library.records),
+        "done": sum(not record.rare for record in library.records),
+        "rare": sum(record.rare for record in library.records),
         "methods": {name: sum(record.method == name for record in library.records) for name in _WORDS},
         "trials": sum(record.trials for record in library.records),
         "coverage": library.coverage,
+        "rare_coverage": library.rare_coverage,
         "cover": [{"motion": number, "falls": works} for number, works in library.knowledge.cover()],
         **certificates,
         "written": [str(path) for path in written],
@@ -323,7 +326,11 @@ def _tell_library(console: Console, library: Library) -> None:
     motions = sum(record.motion == record.fall for record in library.records)
     images = " and their mirror images" if library.knowledge.mirror else ""
     within = " within the limits" * library.hardware
-    console.print(f"{motions} motions{images} get up{within} from {library.coverage:.1%} of {falls} falls.")
+    rare = sum(record.rare for record in library.records)
+    added = f", and from {library.rare_coverage:.1%} of {rare} rare ones" if rare else ""
+    console.print(
+        f"{motions} motions{images} get up{within} from {library.coverage:.1%} of {falls - rare} falls{added}."
+    )
     if cover:
         enough = ", ".join(f"{k + 1}: {works / falls:.1%}" for k, (_, works) in enumerate(cover[:6]))
         console.print(f"The best few of them: {enough}.")

@@ -98,7 +98,7 @@ class Library:
 
     Attributes:
         directory: Directory of the library.
-        records: The falls, in order.
+        records: The falls, in order; rare ones come last.
         knowledge: Outcomes of the motions, collected from the records.
         fold: Joint angles to which the robot folds up before it asks [rad], shape (joints,). None if it asks as it fell.
         learned: Learned model, if it was fitted to these very falls and motions. None if the library answers by the
@@ -195,10 +195,17 @@ class Library:
 
     @property
     def coverage(self) -> float:
-        """Share of its falls from which at least one of its motions works; 0 without falls."""
-        if not self.records:
-            return 0.0
-        return float((self.knowledge.success == 1.0).any(axis=1).mean())
+        """Share of its falls, without the rare ones, from which at least one of its motions works; 0 without falls."""
+        return self._coverage(rare=False)
+
+    @property
+    def rare_coverage(self) -> float:
+        """Share of its rare falls (`levade.library.rarity`) from which at least one of its motions works; 0 without any."""
+        return self._coverage(rare=True)
+
+    def _coverage(self, *, rare: bool) -> float:
+        which = np.array([record.rare == rare for record in self.records], dtype=bool)
+        return float((self.knowledge.success == 1.0)[which].any(axis=1).mean()) if which.any() else 0.0
 
 
 def fold_of(content: Any, *, where: str) -> Array | None:

@@ -11,6 +11,8 @@ DIR/success.npz          which motion works from which fall, on the model and on
 
 Falls are solved in rounds, and each fall sees the library as it was when its round began. So the result depends neither on
 threads and processes nor on where an earlier build was stopped. In one process, the searches of a round run in lockstep.
+
+After each round, the library also solves rare falls (`levade.library.rarity`), and later rounds know them, too.
 """
 
 from __future__ import annotations
@@ -32,6 +34,7 @@ from levade.library.falls import Falls
 from levade.library.knowledge import Knowledge
 from levade.library.pieces import Fall, Row, Workshop
 from levade.library.pursuing import PURSUITS, Hardware
+from levade.library.rarity import RARE, rare
 from levade.library.records import FALLS, MOTIONS, Method
 from levade.library.solving import Solver
 from levade.library.spreading import Spread
@@ -52,11 +55,12 @@ class Progress:
     """Reports how far a build has come.
 
     Attributes:
-        done: Number of falls that are done.
-        starts: Total number of falls.
+        done: Number of falls that are done, without the rare ones that the build added.
+        starts: Total number of falls, without these.
         motions: Number of motions that were found.
         methods: Method -> number of falls that it solved.
         trials: Number of roll-outs so far.
+        rare: Number of rare falls that are done.
         cpus: Number of CPUs of the Ray cluster. None without one.
     """
 
@@ -65,6 +69,7 @@ class Progress:
     motions: int
     methods: Mapping[Method, int]
     trials: int
+    rare: int = 0
     cpus: int | None = None
 
 
@@ -111,6 +116,8 @@ def build(
     """
     if starts < 1:
         raise LevadeError(f"{starts} falls are too few; give 1 or more, such as 100", field="starts")
+    if starts > RARE:
+        raise LevadeError(f"{starts} falls are too many; give at most {RARE}", field="starts")
     if processes < 1:
         raise LevadeError(f"{processes} processes are too few; give 1 or more", field="jobs")
     if processes > 1 and ray is not None:
@@ -184,7 +191,7 @@ class _Builder:
         self._observe, self._stopping = observe, stopping
         self._spread: Spread | None = None
         self._solver = Solver(falls, directory, seed, hardware=hardware, stopping=stopping, observe=self._tell)
-        self._solver.load(own)
+        self._solver.load([int(path.stem) for path in (directory / FALLS).glob("[0-9]*.json") if path.stem.isdecimal()])
 
     def go(self, workers: _Workers | None) -> None:
         """Run all rounds, then try every pair of fall and motion, until done or stopped."""
@@ -192,15 +199,30 @@ class _Builder:
         if self._spread:
             self._tell()  # how many CPUs there are
         with suppress(_Ended):
+            known: tuple[int, ...] = ()
             for first, last in rounds(len(self._own)):
-                pending = [i for i in self._own[first:last] if i not in self._solver.records]
-                if workers is None:
-                    self._solver.solve(pending, after=self._own[:first])
-                else:
-                    self._round(workers, pending, self._own[:first])
-                if self._stopping():
-                    return
+                falls = self._own[first:last]
+                self._solve(workers, falls, known)
+                known += falls
+                added = self._rare(falls, known)
+                self._solve(workers, added, known)
+                known += added
             self._complete(workers)
+
+    def _rare(self, falls: tuple[int, ...], known: tuple[int, ...]) -> tuple[int, ...]:
+        """Choose rare ones of the further falls that were dropped with some falls."""
+        records = self._solver.records
+        dropped = [one for i in falls for one in records[i].further]
+        return rare(dropped, [records[i].lying for i in known], self._falls.mirror)
+
+    def _solve(self, workers: _Workers | None, falls: tuple[int, ...], after: tuple[int, ...]) -> None:
+        """Solve the falls of a round that are not done yet."""
+        pending = [i for i in falls if i not in self._solver.records]
+        if workers is None:
+            self._solver.solve(pending, after=after)
+        else:
+            self._round(workers, pending, after)
+        self._check()
 
     def _round(self, workers: _Workers, pending: Sequence[int], after: tuple[int, ...]) -> None:
         for fall, _ in workers.each([Fall(i, after) for i in pending], waiting=self._check):
@@ -216,7 +238,8 @@ class _Builder:
     def _complete(self, workers: _Workers | None) -> None:
         """Try every motion from every fall, on the model and on a perturbed model, and write which ones work."""
         records = self._solver.records
-        known = Knowledge.of([records[i] for i in self._own], self._falls.mirror)
+        falls = tuple(sorted(records))  # in a library that was merged, also the rare falls of its shards
+        known = Knowledge.of([records[i] for i in falls], self._falls.mirror)
         known = known.merged(read_success(self._directory, known))
         success, perturbed = known.success.copy(), known.perturbed.copy()
         left = np.flatnonzero(np.isnan(success + perturbed).any(axis=1))
@@ -228,7 +251,7 @@ class _Builder:
                 success[rows], perturbed[rows] = self._solver.rows(known, rows.tolist())
         else:
             index = {int(known.falls[row]): row for row in left}
-            for row, found in workers.each([Row(i, self._own) for i in index], waiting=self._check):
+            for row, found in workers.each([Row(i, falls) for i in index], waiting=self._check):
                 assert found is not None
                 success[index[row.number]], perturbed[index[row.number]] = found
                 self._check()
@@ -241,9 +264,11 @@ class _Builder:
     def _tell(self) -> None:
         if self._observe is None:
             return
-        records = self._solver.records.values()
+        own = set(self._own)
+        records = [record for record in self._solver.records.values() if record.rare or record.fall in own]
         methods = Counter(record.method for record in records)
         motions = sum(record.motion == record.fall for record in records)
         trials = sum(record.trials for record in records)
         cpus = None if self._spread is None else self._spread.cpus
-        self._observe(Progress(len(records), len(self._own), motions, methods, trials, cpus))
+        added = sum(record.rare for record in records)
+        self._observe(Progress(len(records) - added, len(self._own), motions, methods, trials, added, cpus))

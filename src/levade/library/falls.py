@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from levade.arrays import Array
-from levade.engines import Fallen, Fold, Models, State, start_state
+from levade.engines import Fallen, Fold, Models, Start, State, start_state
 from levade.engines.folding import Folding
 from levade.errors import LevadeError
 from levade.exports.asker import distances
 from levade.feedback import up_in_trunk
 from levade.hardware import Plan
 from levade.library.mirror import Mirror
+from levade.library.rarity import Lying
 from levade.robots import Robot, dimensions
 from levade.search.objective import Objective, Simulation
 from levade.tasks import Demands, StartChoice, Task
@@ -94,9 +96,22 @@ class Falls:
             index: Index of the fall in its family.
         """
         start = self.task_from(index).start
-        engine, robot = self.simulation.engine, self.simulation.robot
-        state = start_state(engine, robot, self.task.scene, start.choice)
-        return Objective(self.simulation.starting(state), replace(self.judged, start=start))
+        return Objective(self.simulation.starting(self._state(start.choice)), replace(self.judged, start=start))
+
+    def _state(self, start: Start) -> State:
+        return start_state(self.simulation.engine, self.simulation.robot, self.task.scene, start)
+
+    def lying(self, indices: Sequence[int]) -> list[Lying]:
+        """Drop the robot, and return how it lies after each fall. Robots fold up in one batch.
+
+        Args:
+            indices: Indices of the falls in their family.
+        """
+        if not indices:
+            return []
+        fallen = [self._state(replace(self._fallen, index=index, fold=None)) for index in indices]
+        states = self.folded(State.stacked(fallen))
+        return [Lying(index, *self.sensed(states[[k]])) for k, index in enumerate(indices)]
 
     def task_from(self, index: int) -> Task:
         """Return the task, as the user gave it, from one of the falls.

@@ -35,6 +35,8 @@ class Knowledge:
         perturbed: The same on a perturbed model, another one for each pair, shape (n, m).
         mirror: Mirror of the robot. None if the robot is not symmetric. With a mirror, a motion's success is also that of its
             image from the image of the fall.
+        again: On how many further perturbed models each motion was tried when the fall was solved, and on how many it worked,
+            shape (2, n, m). None for none.
     """
 
     falls: Array
@@ -44,6 +46,7 @@ class Knowledge:
     success: Array
     perturbed: Array
     mirror: Mirror | None = None
+    again: Array | None = None
 
     @classmethod
     def of(cls, records: Sequence[Record], mirror: Mirror | None = None) -> Knowledge:
@@ -58,12 +61,15 @@ class Knowledge:
         motions = np.array([*found, *(image_of(one) for one in found if mirror)], dtype=np.intp)
         column = {int(motion): j for j, motion in enumerate(motions)}
         success = np.full((len(records), len(motions)), np.nan)
+        again = np.zeros((2, *success.shape))
         for i, record in enumerate(records):
             known = {motion: motion in record.worked for motion in record.tried}
             if record.motion is not None:
                 known[record.motion] = True
             for motion in known.keys() & column.keys():  # the record of a motion may be lost
                 success[i, column[motion]] = float(known[motion])
+            for motion in record.perturbed.keys() & column.keys():
+                again[:, i, column[motion]] = record.perturbed[motion]
         joints = len(records[0].joint_position) if records else 0
         return cls(
             np.array([record.fall for record in records], dtype=int),
@@ -73,6 +79,7 @@ class Knowledge:
             success,
             np.full(success.shape, np.nan),
             mirror,
+            again,
         )
 
     def merged(self, tables: Mapping[str, Array]) -> Knowledge:
@@ -87,10 +94,22 @@ class Knowledge:
         filled = {name: np.where(np.isnan(own := getattr(self, name)), table, own) for name, table in tables.items()}
         return replace(self, **filled)
 
+    @property
+    def on_others(self) -> Array:
+        """Share of all perturbed models on which each motion works from each fall; NaN if there was none, shape (n, m)."""
+        if self.again is None:
+            return self.perturbed
+        tried, worked = self.again + np.stack([~np.isnan(self.perturbed), self.perturbed == 1.0])
+        return np.divide(worked, tried, out=np.full(worked.shape, np.nan), where=tried > 0)
+
     @cached_property
     def model(self) -> Model:
-        """The model that predicts for other states; an exported library contains it (`levade.exports.asker`)."""
-        both, none = np.stack([self.success, self.perturbed]), self.mirror is None
+        """The model that predicts for other states; an exported library contains it (`levade.exports.asker`).
+
+        From each fall, all perturbed models of a motion count as one try, like the nominal model: if more tries counted for
+        more, falls from which a motion works at all would outweigh the others.
+        """
+        both, none = np.stack([self.success, self.on_others]), self.mirror is None
         return Model(
             up=self.up,
             joint_position=self.joint_position,

@@ -108,7 +108,7 @@ def learn(library: Library) -> Learning:
 
 
 def _learned(known: Knowledge) -> Learning:
-    works = (known.success + known.perturbed) / 2
+    works = (known.success + known.on_others) / 2
     held = {kind: np.zeros(works.shape) for kind in (NEAREST, *_FITS)}
     for part in range(_PARTS):
         out = np.arange(len(known.falls)) % _PARTS == part
@@ -169,13 +169,14 @@ def arrays_of(model: Learned) -> dict[str, NDArray[Any]]:
 def _part(known: Knowledge, rows: NDArray[np.bool_]) -> Knowledge:
     """Return the knowledge about some of the falls."""
     names = ("falls", "up", "joint_position", "success", "perturbed")
-    return replace(known, **{name: getattr(known, name)[rows] for name in names})
+    again = None if known.again is None else known.again[:, rows]
+    return replace(known, again=again, **{name: getattr(known, name)[rows] for name in names})
 
 
 def _table(known: Knowledge, rows: NDArray[np.bool_]) -> tuple[Array, Array]:
     """Return features of some falls and their images, shape (k, f), and how often each motion works there, shape (k, m)."""
     up, joints = known.up[rows], known.joint_position[rows]
-    works = ((known.success + known.perturbed) / 2)[rows]
+    works = ((known.success + known.on_others) / 2)[rows]
     x = features(up, joints)
     if known.mirror is None:
         return x, works

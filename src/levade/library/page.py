@@ -99,12 +99,15 @@ def library_data(library: Library) -> dict[str, Any]:
     works, perturbed = known.success == 1.0, known.perturbed == 1.0
     pitch, place = placed(known.up)
     played = _played(library)
+    starts = len(read_shard(library.directory).of(read_starts(library.directory)))
+    drawn = [record for record in records if not record.rare]
     complete = bool(len(records)) and not np.isnan(known.success + known.perturbed).any()
     return {
         "task": task.name,
         "description": task.description,
         "robot": next((one["robot"] for one in played), task.robot.name),
-        "starts": len(read_shard(library.directory).of(read_starts(library.directory))),
+        "starts": starts + sum(record.rare for record in records),
+        "rare": sum(record.rare for record in records),
         "folds": library.fold is not None,
         "complete": complete,
         "motions": sum(record.motion == record.fall for record in records),
@@ -128,8 +131,8 @@ def library_data(library: Library) -> dict[str, Any]:
         "lying": list(FACES),
         "pitch": pitch,
         "rounds": [
-            {"first": first, "last": last - 1, "trials": float(np.mean([one.trials for one in records[first:last]]))}
-            for first, last in rounds(len(records))
+            {"first": first, "last": last - 1, "trials": float(np.mean([one.trials for one in drawn[first:last]]))}
+            for first, last in rounds(len(drawn))
         ],
         "faces": list(_faces(records, works, perturbed if complete else None)),
         "cover": [{"motion": number, "falls": falls} for number, falls in known.cover()],

@@ -7,10 +7,11 @@ write_record(directory, record)
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,7 @@ from numpy.typing import NDArray
 from levade.arrays import Array
 from levade.document import read_text
 from levade.errors import LevadeError
+from levade.library.rarity import RARE, Lying
 from levade.writing import write_text
 
 FALLS, MOTIONS, CERTIFICATES = "falls", "motions", "certificates"
@@ -50,6 +52,8 @@ class Record:
         worked: Numbers of those that work.
         failed: Demands of hardware that the motion which a search found for this fall does not meet; none if its certificate
             passes. None if it has no certificate.
+        perturbed: Number of a known motion that works -> how many perturbed models it was tried on, and on how many it worked.
+        further: How the robot lies after further falls, which were dropped with this one (`levade.library.rarity`).
     """
 
     fall: int
@@ -61,6 +65,18 @@ class Record:
     tried: tuple[int, ...]
     worked: tuple[int, ...]
     failed: tuple[str, ...] | None = None
+    perturbed: Mapping[int, tuple[int, int]] = field(default_factory=dict[int, tuple[int, int]])
+    further: tuple[Lying, ...] = ()
+
+    @property
+    def rare(self) -> bool:
+        """Whether the fall was chosen because it is rare, and not drawn as it comes."""
+        return self.fall >= RARE
+
+    @property
+    def lying(self) -> Lying:
+        """How the robot lies after this fall."""
+        return Lying(self.fall, self.up, self.joint_position)
 
     @classmethod
     def load(cls, path: Path) -> Record:
@@ -74,24 +90,25 @@ class Record:
         """
         try:
             content = json.loads(read_text(path))
-            up, joints = (np.array(content[name], dtype=float) for name in ("up", "joint_position"))
-            if up.shape != (3,) or joints.ndim != 1 or not (np.isfinite(up).all() and np.isfinite(joints).all()):
-                raise ValueError
+            lying = _lying(content)
             motion = content["motion"]
             tried, worked = (tuple(int(one) for one in content[name]) for name in ("tried", "worked"))
             failed = content.get("failed")
+            perturbed = {int(name): (int(n), int(k)) for name, (n, k) in content.get("perturbed", {}).items()}
             return cls(
-                int(content["fall"]),
-                up,
-                joints,
+                lying.fall,
+                lying.up,
+                lying.joint_position,
                 Method(content["method"]),
                 None if motion is None else int(motion),
                 int(content["trials"]),
                 tried,
                 worked,
                 None if failed is None else tuple(str(one) for one in failed),
+                perturbed,
+                tuple(_lying(one) for one in content.get("further", [])),
             )
-        except (ValueError, TypeError, LookupError, RecursionError, OverflowError):
+        except (ValueError, TypeError, LookupError, AttributeError, RecursionError, OverflowError):
             raise LevadeError(
                 f"{path}: is not the record of a fall, or is damaged; remove it, and build the library again"
             ) from None
@@ -106,17 +123,29 @@ class Record:
             OSError: If the file cannot be written.
         """
         content = {
-            "fall": self.fall,
-            "up": self.up.tolist(),
-            "joint_position": self.joint_position.tolist(),
+            **_told(self.lying),
             "method": self.method.value,
             "motion": self.motion,
             "trials": self.trials,
             "tried": list(self.tried),
             "worked": list(self.worked),
             **({} if self.failed is None else {"failed": list(self.failed)}),
+            **({"perturbed": {str(motion): list(n) for motion, n in self.perturbed.items()}} if self.perturbed else {}),
+            **({"further": [_told(one) for one in self.further]} if self.further else {}),
         }
         write_text(record_path(directory, self.fall), json.dumps(content) + "\n")
+
+
+def _lying(content: Mapping[str, Any]) -> Lying:
+    """Read how the robot lies. Raise ValueError, TypeError or LookupError if it is no such thing."""
+    up, joints = (np.array(content[name], dtype=float) for name in ("up", "joint_position"))
+    if up.shape != (3,) or joints.ndim != 1 or not (np.isfinite(up).all() and np.isfinite(joints).all()):
+        raise ValueError
+    return Lying(int(content["fall"]), up, joints)
+
+
+def _told(lying: Lying) -> dict[str, Any]:
+    return {"fall": lying.fall, "up": lying.up.tolist(), "joint_position": lying.joint_position.tolist()}
 
 
 Number = TypeVar("Number", int, NDArray[np.intp])

@@ -5,7 +5,8 @@
     success, perturbed = solver.rows(known, [0, 1])
 
 When a search finds a motion, it goes on with perturbed models until the motion works on nearly all of them. So it does for a
-known motion that works on the model but seldom on perturbed models, unless a motion was found from a nearby fall.
+known motion that works on the model but seldom on perturbed models, unless the fall is a rare one, or a motion was found from a
+nearby fall.
 
 With demands of hardware, a known motion solves a fall only if its certificate passes, and if from this fall it keeps every
 limit on the model and reaches the goal on nearly every perturbed model. Otherwise `levade.library.pursuing` searches.
@@ -17,7 +18,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -31,6 +32,7 @@ from levade.library.hardening import affords, harden
 from levade.library.knowledge import Knowledge
 from levade.library.plays import Play, Plays, posed, simulated, tried, tried_on_others
 from levade.library.pursuing import PURSUITS, Hardware, pursue_fall, write_certificate
+from levade.library.rarity import RARE, Lying, further
 from levade.library.records import Method, Record, fall_of, motion_path, record_path
 from levade.motions import Motion
 from levade.search import Generation, InitialGuess, Objective, Solution, Stopped, solve_many
@@ -124,7 +126,7 @@ class Solver:
             return
         knowledge = Knowledge.of([self.records[i] for i in after], self._falls.mirror)
         objectives = {i: self._falls.objective(i) for i in pending}
-        begun = self._try_known(knowledge, objectives)
+        begun = self._try_known(knowledge, objectives, self._dropped(pending))
         if self._hardware is not None:
             for i in [i for i in begun if i not in self.records]:
                 self._pursue(i, begun[i], objectives[i], self._hardware)
@@ -138,11 +140,24 @@ class Solver:
                 left = [i for i in left if begun[i].nearest is not None]
             self._search(left, begun, objectives, method)
 
-    def _try_known(self, knowledge: Knowledge, objectives: Mapping[int, Objective]) -> dict[int, _Begun]:
+    def _dropped(self, pending: Sequence[int]) -> dict[int, tuple[Lying, ...]]:
+        """Drop further falls with each fall, among which the build looks for rare ones.
+
+        There are none if the robot does not fold up, because then all falls end differently; and none within the limits of
+        hardware, where solving a fall takes minutes.
+        """
+        if self._falls.folding is None or self._hardware is not None:
+            return {}
+        lies = {one.fall: one for one in self._falls.lying([number for i in pending for number in further(i)])}
+        return {i: tuple(lies[number] for number in further(i)) for i in pending}
+
+    def _try_known(
+        self, knowledge: Knowledge, objectives: Mapping[int, Objective], dropped: Mapping[int, tuple[Lying, ...]]
+    ) -> dict[int, _Begun]:
         """Try the known motions. Finish the falls from which one works reliably; return where to search from the others."""
         sensed = {i: self._falls.sensed(objective.state) for i, objective in objectives.items()}
         likely = {i: [motion for motion, _ in knowledge.ranked(*sensed[i])[:_TRIED]] for i in objectives}
-        begun = {i: _Begun(sensed[i], tuple(likely[i]), (), None, len(likely[i])) for i in objectives}
+        begun = {i: _Begun(sensed[i], tuple(likely[i]), (), None, len(likely[i]), dropped.get(i, ())) for i in objectives}
         if not len(knowledge.motions):
             return begun
         own = [[self._plays[motion] for motion in likely[i]] for i in objectives]
@@ -160,7 +175,7 @@ class Solver:
             elif worked:
                 robots, enough = (_EARLY_ROBOTS, _EARLY_SURE) if i < _EARLY else (_ROBOTS, _SURE)
                 begun[i] = self._asked(begun[i], i, objective, worked[:_TOLD], robots, enough)
-                if begun[i].sure or knowledge.apart(*sensed[i]) < _ELSEWHERE:
+                if begun[i].sure or i >= RARE or knowledge.apart(*sensed[i]) < _ELSEWHERE:
                     self._keep(i, begun[i], Method.KNOWN, begun[i].works)
         self._observe()
         return begun
@@ -186,10 +201,15 @@ class Solver:
         """Find which of the motions works on most perturbed models, and whether it works on a large enough share of them."""
         plays = {len(told) * robot + k: self._plays[told[k]] for robot in range(robots) for k in range(len(told))}
         (works,) = tried_on_others([objective], [plays], Perturbation(), seeds=[(self._seed, fall, robots)])
-        share = works.reshape(robots, len(told)).mean(axis=0)
-        best = int(np.argmax(share))
-        trials = begun.trials + len(plays)
-        return replace(begun, works=told[best], sure=bool(share[best] >= enough), trials=trials)
+        worked = works.reshape(robots, len(told)).sum(axis=0)
+        best = int(np.argmax(worked))
+        return replace(
+            begun,
+            works=told[best],
+            sure=bool(worked[best] / robots >= enough),
+            trials=begun.trials + len(plays),
+            perturbed={motion: (robots, int(n)) for motion, n in zip(told, worked, strict=True)},
+        )
 
     def _pursue(self, i: int, begun: _Begun, objective: Objective, hardware: Hardware) -> None:
         """Search within the limits of hardware, and keep the motion with the best certificate, whether or not it passes."""
@@ -294,7 +314,8 @@ class Solver:
     ) -> None:
         """Write a finished fall: first the motion and its certificate, if a search found one, then the record."""
         failed = None if certificate is None else certificate.failed
-        record = Record(i, *begun.sensed, method, motion, begun.trials, begun.tried, begun.worked, failed)
+        known = (begun.trials, begun.tried, begun.worked)
+        record = Record(i, *begun.sensed, method, motion, *known, failed, begun.perturbed, begun.further)
         with storing(
             self._directory, then=Remedy("make room, then build again"), kept="all falls that are done are kept"
         ):
@@ -337,8 +358,10 @@ class _Begun:
     """Holds an unfinished fall: what is sensed, the motions that were tried and worked, what a search begins around.
 
     Attributes:
+        further: How the robot lies after further falls, which were dropped with this one.
         works: The working motion that works on most perturbed models. None if no motion works.
         sure: Whether it works on enough of them.
+        perturbed: Motion that was tried on perturbed models -> the number of models, and on how many it worked.
     """
 
     sensed: tuple[Array, Array]
@@ -346,8 +369,10 @@ class _Begun:
     worked: tuple[int, ...]
     nearest: Play | None
     trials: int
+    further: tuple[Lying, ...] = ()
     works: int | None = None
     sure: bool = False
+    perturbed: Mapping[int, tuple[int, int]] = field(default_factory=dict[int, tuple[int, int]])
 
 
 def _around(objective: Objective, begun: _Begun) -> InitialGuess:

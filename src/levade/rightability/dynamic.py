@@ -39,7 +39,7 @@ class Found:
 
 
 def found_motions(library: Library, robot: Robot | None = None) -> dict[str, Found]:
-    """Count falls, and motions that were found.
+    """Count falls as they come, without the rare ones that a build adds, and motions that were found.
 
     Args:
         library: The library.
@@ -58,7 +58,7 @@ def found_motions(library: Library, robot: Robot | None = None) -> dict[str, Fou
             " give a library of this robot",
             field="library",
         )
-    lies = [(face(record.up), record.method != Method.NONE) for record in library.records]
+    lies = [(face(record.up), record.method != Method.NONE) for record in library.records if not record.rare]
     counted = {name: Found(*_count([up for at, up in lies if at == name])) for name in FACES}
     return {**counted, "all": Found(*_count([up for _, up in lies]))}
 
