@@ -210,7 +210,7 @@ function trials(falls, { rounds, starts }) {
     x: { ...across, ticks: [...across.ticks.filter((v) => v < 0.7 * all), all], unit: "falls" }, y: logScale(Math.max(0.8, 0.5 * Math.min(...marks.map((mark) => mark.y))), 1.6 * most) });
   const legendOf = el("p", { class: "legend" }, el("span", { class: "item" }, swatch("var(--ink)"), "mean of a round"), Object.keys(LOOKS).filter((look) => falls.some((fall) => fall.look === look)).map((look) => el("span", { class: "item" }, key(look), LOOKS[look].words)));
   const rest = falls.filter((_, k) => k >= falls.length / 2).map((fall) => fall.trials);
-  const note = `Roll-outs that each fall took, in the order of the build; both scales are logarithmic. The falls of a round see the motions of the rounds before it. Mean of the last half: ${significant(rest.reduce((a, b) => a + b, 0) / rest.length)} trials a fall.`;
+  const note = `Roll-outs that each fall took, in the order of the build, rare ones last; both scales are logarithmic. The falls of a round see the motions of the rounds before it. Mean of the last half: ${significant(rest.reduce((a, b) => a + b, 0) / rest.length)} trials a fall.`;
   return el("section", { class: "panel", id: "trials" }, el("header", {}, el("h2", {}, "Trials per fall"), el("p", { class: "note" }, note)), el("figure", {}, el("figcaption", {}, el("span", { class: "title" }, "Trials", el("span", { class: "unit" }, " over falls")), legendOf), body));
 }
 
@@ -227,8 +227,8 @@ function failures(falls, { complete }, choose) {
   return el("section", { class: "panel", id: "failures" }, el("header", {}, el("h2", {}, "Failures"), el("p", { class: "note" }, note)), el("div", { class: "columns" }, blocks));
 }
 
-function provenance({ task, robot, starts, provenance: { seed, fallen, written_by: writer } }) {
-  const rows = [["Task", task], ["Robot", robot], ["Falls asked for", String(starts)], ["Seed", String(seed)], fallen ? ["Dropped from", `${fixed(fallen.height, 3)} m, any attitude, any joint angles`] : null].filter(Boolean);
+function provenance({ task, robot, starts, rare, provenance: { seed, fallen, written_by: writer } }) {
+  const rows = [["Task", task], ["Robot", robot], ["Falls asked for", `${starts - rare}${rare ? `; and ${rare} rare ones, which the build added` : ""}`], ["Seed", String(seed)], fallen ? ["Dropped from", `${fixed(fallen.height, 3)} m, any attitude, any joint angles`] : null].filter(Boolean);
   return el("footer", { class: "panel", id: "provenance" }, el("header", {}, el("h2", {}, "Provenance")),
     el("dl", {}, rows.map(([name, value]) => el("div", {}, el("dt", {}, name), el("dd", {}, value)))),
     el("p", { class: "made" }, `Made by ${writer}. Falls that the library has never seen: levade library check.`));
