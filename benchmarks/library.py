@@ -26,6 +26,7 @@ from typing import Any
 import numpy as np
 import starts
 from library_drive import drive
+from library_figure import draw
 from library_scaling import bottleneck, measured, plan_table, scaling, sent_table, tables
 
 from levade.exports.as_csv import write_player, write_script
@@ -107,6 +108,7 @@ def main() -> None:
     options = parser.parse_args()
     if options.command == "write":
         PAGE.write_text(page(), encoding="utf-8")
+        draw([row for row in rows_in(RESULTS) if row.get("folds") and "each" in row], PAGE.parent)
         return
     if options.command == "answers":
         ANSWERS.write_text(json.dumps(answers()) + "\n")
@@ -206,6 +208,7 @@ def facts(library: Library) -> dict[str, Any]:
         "methods": {str(method): sum(one.method == method for one in records) for method in Method},
         "rare": sum(one.rare for one in records),
         "trials": sum(one.trials for one in records),
+        "each": [one.trials for one in records if not one.rare],
         "trials_per_fall": trials_per_fall(records),
         "coverage": library.coverage,
         "cover": [works for _, works in library.knowledge.cover()],
