@@ -24,7 +24,7 @@ from levade.tasks import Demands, StartChoice, Task
 FACES = ("tail", "nose", "right", "left", "belly", "back")
 """What a robot lies on if up is mostly along x, -x, y, -y, z, -z of its trunk. "belly" includes standing on the feet."""
 
-_NEIGHBOURS, _NEAR = 47, 0.6
+_NEIGHBOURS, _NEARBY = 47, 0.6
 """Number of other falls from which a robust motion of a fall has to work, too, and how far they may be from it [rad]."""
 
 _DRAWN, _BEYOND = 128, 1_000_000_000
@@ -154,7 +154,7 @@ class Falls:
         up, joint_position = self.sensed(state)
         for number in range(_DRAWN if self.folding is not None else 0):
             its_up, its_joints = self.sensed(other := self._other(number))
-            if distances(its_up[None], its_joints[None], up, joint_position)[0] < _NEAR:
+            if distances(its_up[None], its_joints[None], up, joint_position)[0] < _NEARBY:
                 near.append(other)
             if len(near) == _NEIGHBOURS:
                 break

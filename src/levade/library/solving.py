@@ -44,7 +44,7 @@ from levade.tasks import Task
 _TRIED = 24
 """Number of motions that are tried from a fall, the likeliest first."""
 
-_NEAR = 240
+_NEAR_TRIALS = 240
 """Number of trials of a search around the best of them."""
 
 _ROBOTS, _SURE, _TOLD = 6, 0.8, 2
@@ -157,7 +157,9 @@ class Solver:
         """Try the known motions. Finish the falls from which one works reliably; return where to search from the others."""
         sensed = {i: self._falls.sensed(objective.state) for i, objective in objectives.items()}
         likely = {i: [motion for motion, _ in knowledge.ranked(*sensed[i])[:_TRIED]] for i in objectives}
-        begun = {i: _Begun(sensed[i], tuple(likely[i]), (), None, len(likely[i]), dropped.get(i, ())) for i in objectives}
+        begun = {
+            i: _Begun(sensed[i], tuple(likely[i]), (), None, len(likely[i]), dropped.get(i, ())) for i in objectives
+        }
         if not len(knowledge.motions):
             return begun
         own = [[self._plays[motion] for motion in likely[i]] for i in objectives]
@@ -392,5 +394,5 @@ def _robot(motion: int) -> int:
 
 def _near(task: Task) -> Task:
     """Return the task with a short search: around a motion that nearly works, a search succeeds soon or not at all."""
-    trials = min(_NEAR, task.search.trials)
+    trials = min(_NEAR_TRIALS, task.search.trials)
     return replace(task, search=replace(task.search, trials=trials, restart=None, patience=None))
