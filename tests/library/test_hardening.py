@@ -78,7 +78,7 @@ def test_motions_found_around_known_ones_are_hardened_with_the_tasks_own_budget(
         return [None] * len(objectives)
 
     monkeypatch.setattr(solving, "harden", harden)
-    monkeypatch.setattr(solving, "_NEAR", 40)
+    monkeypatch.setattr(solving, "_NEAR_TRIALS", 40)
     library = build(rolling(trials=60), starts=2, directory=tmp_path)
     assert [record.method for record in library.records] == [Method.COLD, Method.NEAR]
     assert budgets == [60, 60]
