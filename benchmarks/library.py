@@ -108,7 +108,7 @@ def main() -> None:
     options = parser.parse_args()
     if options.command == "write":
         PAGE.write_text(page(), encoding="utf-8")
-        draw([row for row in rows_in(RESULTS) if row.get("folds") and "each" in row], PAGE.parent)
+        draw([row for row in rows_in(RESULTS) if "each" in row and row["task"] == "self-righting"], PAGE.parent)
         return
     if options.command == "answers":
         ANSWERS.write_text(json.dumps(answers()) + "\n")
