@@ -68,14 +68,22 @@ def hardware() -> str:
 
 
 def library() -> str:
-    check = [row for row in rows_of("library") if row["robot"] == "go1" and row.get("folds")][-1]["check"]
-    share, perturbed = check["nominal"]["first"]["share"], check["perturbed"]["first"]["share"]
-    found = "all" if share == 1 else f"{share:.1%}"
+    rows = [row for row in rows_of("library") if row["task"] == "self-righting" and row.get("folds")]
+    checks = {row["robot"]: row["check"] for row in rows}  # the latest of each robot
+    go1, others = checks["go1"], (checks["go2"], checks["hyq2max"])
     return (
-        f"**Any fall.** The first answer of a library of motions gets Go1 up from {found} of {check['starts']} falls that it "
-        f"has never seen, and from {perturbed:.1%} if the robot differs from its model. It says which "
-        f"motion to play in {check['answer_ms']['median']:.1f} ms, without a simulator ([falls](docs/falls.md))."
+        f"**Any fall.** The first answer of a library of motions gets Go1 up from {up_from(go1)} of {go1['starts']} falls that "
+        f"it has never seen, and from {up_from(go1, 'perturbed')} if the robot differs from its model; Go2 from "
+        f"{' and '.join(up_from(others[0], kind) for kind in ('nominal', 'perturbed'))}, and HyQ2Max from "
+        f"{' and '.join(up_from(others[1], kind) for kind in ('nominal', 'perturbed'))}. It says which "
+        f"motion to play in {go1['answer_ms']['median']:.1f} ms, without a simulator ([falls](docs/falls.md))."
     )
+
+
+def up_from(check: dict, kind: str = "nominal") -> str:
+    """The share of first answers that work, in words."""
+    share = check[kind]["first"]["share"]
+    return "all" if share == 1 else f"{share:.1%}"
 
 
 def robots() -> str:
