@@ -16,7 +16,6 @@ from __future__ import annotations
 import argparse
 import json
 import os
-import tempfile
 import zlib
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -444,15 +443,10 @@ def page() -> str:
 
 def write() -> None:
     """The figure and the page."""
-    from PIL import Image
-
-    from levade.report.figures import write_figures
+    import small_figure
 
     rows = kept()
-    with tempfile.TemporaryDirectory() as directory:
-        (path,) = write_figures({"duration": lambda: drawing(rows)}, Path(directory), "png")
-        few = Image.open(path).convert("RGB").quantize(64, dither=Image.Dither.NONE)  # a third of the bytes
-        few.save(PAGE.parent / FIGURE, optimize=True)
+    small_figure.save(lambda: drawing(rows), PAGE.parent / FIGURE)
     PAGE.write_text(page(), encoding="utf-8")
     print(f"written: {PAGE}")
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import small_figure
 
 from levade.library.building import rounds
 
@@ -16,14 +16,7 @@ FIGURE = "figures/library-trials.png"
 
 def draw(rows: Sequence[dict[str, Any]], docs: Path) -> None:
     """Write the figure, of the rows that have the trials of each fall."""
-    from PIL import Image
-
-    from levade.report.figures import write_figures
-
-    with tempfile.TemporaryDirectory() as directory:
-        (path,) = write_figures({"trials": lambda: drawing(rows)}, Path(directory), "png")
-        few = Image.open(path).convert("RGB").quantize(64, dither=Image.Dither.NONE)  # a third of the bytes
-        few.save(docs / FIGURE, optimize=True)
+    small_figure.save(lambda: drawing(rows), docs / FIGURE)
 
 
 def drawing(rows: Sequence[dict[str, Any]]) -> Any:

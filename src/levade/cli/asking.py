@@ -51,7 +51,7 @@ def ask_library(
     names = first.motion.joint_names
     given = {name: text for name, text in sensed.items() if text is not None}
     typed = "joints" in given and ("attitude" in given) != ("up" in given)
-    if (state is None) != typed or (state is not None and given):
+    if given if state is not None else not typed:
         raise LevadeError("give how the robot lies: --state FILE, or else --joints and one of --attitude and --up")
     question = _typed(given, names) if state is None else _read_state(state, names)
     answer = library.ask(*question)
@@ -146,7 +146,7 @@ def _listed(text: str) -> list[Any]:
 
 
 def _number(word: str) -> float | str:
-    """Convert a word to a number if it is one; whoever expects a number complains about the others."""
+    """Convert a word to a number. A word that is none stays as it is, and `_numbers` refuses it."""
     try:
         return float(word)
     except ValueError:

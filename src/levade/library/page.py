@@ -101,13 +101,14 @@ def library_data(library: Library) -> dict[str, Any]:
     played = _played(library)
     starts = len(read_shard(library.directory).of(read_starts(library.directory)))
     drawn = [record for record in records if not record.rare]
+    rare = len(records) - len(drawn)
     complete = bool(len(records)) and not np.isnan(known.success + known.perturbed).any()
     return {
         "task": task.name,
         "description": task.description,
         "robot": next((one["robot"] for one in played), task.robot.name),
-        "starts": starts + sum(record.rare for record in records),
-        "rare": sum(record.rare for record in records),
+        "starts": starts + rare,
+        "rare": rare,
         "folds": library.fold is not None,
         "complete": complete,
         "motions": sum(record.motion == record.fall for record in records),
