@@ -101,7 +101,7 @@ def build_library(
         left = pace.left(progress.starts - progress.done) if progress.done < progress.starts else None
         console.print(
             f"  {progress.done} of {progress.starts} falls"
-            + (f", {progress.rare} rare ones" if progress.rare else "")
+            + (f", {_rare_ones(progress.rare)}" if progress.rare else "")
             + f": {progress.motions} motions, {progress.trials} trials, {spent:.0f} s"
             + ("" if left is None else f", about {left} left")
             + ("" if progress.cpus is None else f", {progress.cpus} CPUs"),
@@ -327,7 +327,7 @@ def _tell_library(console: Console, library: Library) -> None:
     images = " and their mirror images" if library.knowledge.mirror else ""
     within = " within the limits" * library.hardware
     rare = sum(record.rare for record in library.records)
-    added = f", and from {library.rare_coverage:.1%} of {rare} rare ones" if rare else ""
+    added = f", and from {library.rare_coverage:.1%} of {_rare_ones(rare)}" if rare else ""
     console.print(
         f"{motions} motions{images} get up{within} from {library.coverage:.1%} of {falls - rare} falls{added}."
     )
@@ -336,6 +336,10 @@ def _tell_library(console: Console, library: Library) -> None:
         console.print(f"The best few of them: {enough}.")
     if library.certificates:
         _tell_certificates(console, library)
+
+
+def _rare_ones(n: int) -> str:
+    return f"{n} rare one{'s' * (n != 1)}"
 
 
 def _tell_certificates(console: Console, library: Library) -> None:
