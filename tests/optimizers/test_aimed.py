@@ -7,7 +7,8 @@ import pytest
 
 from levade.errors import LevadeError
 from levade.optimizers import CMAES, AimedCMAES, SearchSpace, uses_errors
-from levade.optimizers.ending import FARTHEST, PROBE, EndingRefinement
+from levade.optimizers.ending import FARTHEST, KEPT, PROBE, EndingRefinement, lengths
+from levade.optimizers.regression import WITHIN
 
 D = 24
 ENDING = np.kron(np.eye(4), np.array([0.0, 0.0, 0.0, 0.0, 0.5, 1.0]))  # of four joints with six weights
@@ -97,6 +98,50 @@ def test_what_the_ending_can_mend_is_mended_at_the_second_look(seed: int) -> Non
         SearchSpace(np.zeros(D), step=0.01, population=12, ending=ENDING), seed=seed, aimed=0, finish=200
     )
     assert trials_until_right(finished, slope, offset) <= 12 + len(ENDING) + 1
+
+
+def rough(x: np.ndarray, slope: np.ndarray) -> np.ndarray:
+    """Three errors: two that follow the ending, but jump with the rest of the motion; and one that the ending cannot change."""
+    rest = np.where(ENDING.sum(axis=0) == 0, x, 0.0)
+    jumps = 6 * np.sin(1e6 * rest @ np.arange(D)[:, None] + np.arange(2))
+    return np.column_stack([jumps + (x - rest) @ slope, 1.2 + 100 * rest.mean(axis=1)])
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_an_ending_is_refined_that_a_small_change_should_correct_though_another_motion_is_cheaper(seed: int) -> None:
+    """The cost hardly counts the error that no ending can change, so the cheapest motion is seldom one to refine."""
+    slope = 300 * np.random.default_rng(seed).standard_normal((D, 2))
+    optimizer = AimedCMAES(SearchSpace(np.zeros(D), step=0.03, population=12, ending=ENDING), seed=seed)
+    trials, probes = 0, 0
+    while trials < 200:
+        x = optimizer.ask()
+        trials += len(x)
+        probes += len(x) == len(ENDING) and bool(np.ptp(x[:, ENDING.sum(axis=0) == 0], axis=0).max() == 0)
+        errors = rough(x, slope)
+        if (np.abs(errors) <= 1).all(axis=1).any():
+            break
+        optimizer.tell(errors**2 @ [1.0, 1.0, 1e-3], errors)
+    assert trials < 100
+    assert probes == 1
+
+
+def test_a_refinement_with_slopes_makes_no_probes_and_is_right_at_once() -> None:
+    slope = 200 * np.random.default_rng(1).standard_normal((D, 3))
+    along = ENDING @ slope
+    errors = np.array([9.0, -4.0, 0.9])
+    attempt = EndingRefinement(np.ones(D), errors, ENDING, count=1, generator=np.random.default_rng(0), slope=along)
+    missed = errors + (attempt.ask() - 1) @ slope
+    np.testing.assert_allclose(missed, [[WITHIN, -WITHIN, KEPT]], atol=1e-3)
+    attempt.tell(missed)
+    np.testing.assert_allclose(attempt.slope, along, atol=1e-6)
+
+
+def test_the_length_of_a_correction_is_that_of_the_step_that_a_refinement_makes() -> None:
+    generator = np.random.default_rng(2)
+    slope, errors = 200 * generator.standard_normal((len(ENDING), 2)), 10 * generator.standard_normal((5, 2))
+    for row, length in zip(errors, lengths(errors, slope, None), strict=True):
+        attempt = EndingRefinement(np.zeros(D), row, ENDING, count=1, generator=generator, slope=slope)
+        assert np.abs(attempt.ask()).max() == pytest.approx(length, rel=1e-6)
 
 
 def test_the_same_seed_gives_the_same_candidates_and_another_others() -> None:

@@ -9,13 +9,16 @@ from numpy.typing import NDArray
 
 from levade.arrays import Array
 from levade.errors import LevadeError
+from levade.optimizers.blas import single_threaded
 from levade.optimizers.cmaes import CMAES
-from levade.optimizers.ending import EndingRefinement
-from levade.optimizers.regression import WITHIN, ErrorRegression, sizes
+from levade.optimizers.ending import KEPT, EndingRefinement, lengths
+from levade.optimizers.regression import ErrorRegression, sizes
 from levade.optimizers.space import SearchSpace
 
 _TAG = 1_095_322_957
 """Keeps the random numbers of aimed candidates apart from those of CMA-ES."""
+NEAR = 0.1
+"""[rad], largest change of the ending that is tried with the slopes of another motion."""
 
 
 class AimedCMAES:
@@ -23,8 +26,8 @@ class AimedCMAES:
 
     Each generation, some candidates are aimed (`levade.optimizers.regression`). The best of them becomes a part of the next
     generation if it is among the best quarter of the others. If it is the best of all so far, only aimed candidates follow,
-    for as long as they go on to be. When the best trial misses by little, and by half as much as at the last attempt, its
-    ending is refined (`levade.optimizers.ending`).
+    for as long as they go on to be. When the best trial misses by little, its ending is refined (`levade.optimizers.ending`).
+    From then on the ending of any trial is refined that a small change of its ending should correct.
 
     Args:
         space: Where to search. Its population counts the candidates of CMA-ES; the aimed ones come on top.
@@ -61,6 +64,8 @@ class AimedCMAES:
         self._carried: Array | None = None
         self._refinement: EndingRefinement | None = None
         self._attempt_below = np.inf
+        self._slope: Array | None = None  # of the errors, along the ending
+        self._refined: set[bytes] = set()
         self._asked: Array | None = None
         self._own = 0
         self._none = np.empty((0, space.size))
@@ -124,6 +129,7 @@ class AimedCMAES:
             self._refinement.tell(errors)
             if self._refinement.over:
                 self._attempt_below = 0.5 * self._refinement.miss
+                self._slope = self._refinement.slope
                 self._cma.inject(self._refinement.best)
                 self._refinement = None
         else:
@@ -147,7 +153,7 @@ class AimedCMAES:
         best = self._regression.best
         self._carried = None if best is None else best[0]
         self._regression.forget_costs(changed)
-        self._refinement, self._attempt_below, self._pursuing = None, np.inf, False
+        self._refinement, self._attempt_below, self._slope, self._pursuing = None, np.inf, None, False
 
     def _pursue(self, asked: Array, errors: Array, cost: Array) -> None:
         """Tell the regression of a generation. If an aimed candidate is the best of all, the next generation is all aimed."""
@@ -159,13 +165,48 @@ class AimedCMAES:
             self._cma.inject(self._regression.best[0])
 
     def _begin_refinement(self) -> None:
-        best = self._regression.best
-        if self._ending is None or best is None:
+        """Refine the ending of the cheapest trial; or, once slopes of the errors are known, of the one next to the goal."""
+        if self._ending is None:
             return
-        base, errors = best
-        miss = np.nanmax(sizes(errors, self._one_sided))
-        if WITHIN < miss <= min(self._finish_at, self._attempt_below):
-            count = max(self._count, 1)
-            self._refinement = EndingRefinement(
-                base, errors, self._ending, count=count, generator=self._generator, one_sided=self._one_sided
-            )
+        base = self._cheapest() if self._slope is None else self._nearest(self._slope)
+        if base is None:
+            return
+        candidate, errors = base
+        self._refined.add(candidate.tobytes())
+        self._refinement = EndingRefinement(
+            candidate,
+            errors,
+            self._ending,
+            count=max(self._count, 1),
+            generator=self._generator,
+            one_sided=self._one_sided,
+            slope=self._slope,
+        )
+
+    def _cheapest(self) -> tuple[Array, Array] | None:
+        """Return the cheapest trial and its errors, if it misses by little, and by half as much as at the last attempt."""
+        best = self._regression.best
+        if best is None:
+            return None
+        miss = np.nanmax(sizes(best[1], self._one_sided))
+        return best if KEPT < miss <= min(self._finish_at, self._attempt_below) else None
+
+    def _nearest(self, slope: Array) -> tuple[Array, Array] | None:
+        """Return the trial that the smallest change of its ending would correct, and its errors.
+
+        None if that change is larger than `NEAR`, or the trial was refined before.
+        """
+        candidates, errors = self._regression.trials
+        known = np.isfinite(slope).all(axis=0)
+        alike = (np.isfinite(errors) == known).all(axis=1)
+        one_sided = None if self._one_sided is None else self._one_sided[known]
+        size = sizes(errors[np.ix_(alike, known)], one_sided).max(axis=1)
+        usable = np.flatnonzero(alike)[(size > KEPT) & (size <= self._finish_at)]
+        with single_threaded():
+            length = lengths(errors[np.ix_(usable, known)], slope[:, known], one_sided)
+        for n in np.argsort(length, kind="stable"):
+            if not length[n] <= NEAR:
+                return None
+            if candidates[usable[n]].tobytes() not in self._refined:
+                return candidates[usable[n]], errors[usable[n]]
+        return None

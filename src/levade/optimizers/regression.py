@@ -97,6 +97,11 @@ class ErrorRegression:
         return float(self._cost.min(initial=np.inf))
 
     @property
+    def trials(self) -> tuple[Array, Array]:
+        """The candidates (n, d) that are remembered, and their errors (n, k)."""
+        return self._candidates, self._errors
+
+    @property
     def best(self) -> tuple[Array, Array] | None:
         """The trial of least cost, shape (d,), and its errors (k,); None before there is one."""
         if not np.isfinite(self.least):
@@ -179,37 +184,44 @@ def sizes(errors: Array, one_sided: NDArray[np.bool_] | None) -> Array:
     return size if one_sided is None else np.where(one_sided, np.maximum(errors, 0.0), size)
 
 
-def unwanted(errors: Array, one_sided: NDArray[np.bool_] | None) -> Array:
-    """Compute the part of errors beyond `WITHIN`.
+def unwanted(errors: Array, one_sided: NDArray[np.bool_] | None, within: Array | float = WITHIN) -> Array:
+    """Compute the part of errors beyond what is wanted.
 
     Args:
         errors: Signed errors as shares of the tolerances, shape (..., k).
-        one_sided: Errors of which only the part above `WITHIN` counts, shape (k,). None if there are none.
+        one_sided: Errors of which only the part above ``within`` counts, shape (k,). None if there are none.
+        within: Share of the tolerance that each error may have, of a shape that broadcasts to that of the errors.
 
     Returns:
         Signed excesses as shares of the tolerances, shape (..., k); 0 within.
     """
-    low = -WITHIN if one_sided is None else np.where(one_sided, -np.inf, -WITHIN)
-    return errors - np.clip(errors, low, WITHIN)
+    low = np.negative(within) if one_sided is None else np.where(one_sided, -np.inf, np.negative(within))
+    return errors - np.clip(errors, low, within)
 
 
 def corrected(
-    drawn: Array, errors: Array, slope: Array, farthest: float, one_sided: NDArray[np.bool_] | None = None
+    drawn: Array,
+    errors: Array,
+    slope: Array,
+    farthest: float,
+    one_sided: NDArray[np.bool_] | None = None,
+    within: Array | float = WITHIN,
 ) -> Array:
-    """Move points by the smallest step after which no errors are predicted.
+    """Move points by the smallest step after which no unwanted errors are predicted.
 
     Args:
         drawn: Points, shape (n, m).
-        errors: Errors at the origin, shape (k,).
+        errors: Errors at the origin, shape (k,), or at an origin of each point, (n, k).
         slope: Slope of the errors, shape (m, k).
         farthest: Largest distance from the origin.
         one_sided: See `ErrorRegression`.
+        within: See `unwanted`.
 
     Returns:
         Moved points, shape (n, m), all finite. A point stays as drawn where no finite step is predicted to help: where trials
         all missed by the same, the slope is zero.
     """
-    excess = unwanted(errors + drawn @ slope, one_sided)
+    excess = unwanted(errors + drawn @ slope, one_sided, within)
     normal = slope.T @ slope
     normal[np.diag_indices_from(normal)] += 1e-9 * np.trace(normal) + np.finfo(float).tiny  # safe to solve with
     with np.errstate(over="ignore", invalid="ignore"):
@@ -231,7 +243,7 @@ def ridge(difference: Array, change: Array) -> Array:
         J, shape (m, k).
     """
     n, m = difference.shape
-    damping = RIDGE * np.vdot(difference, difference) / n
+    damping = RIDGE * np.vdot(difference, difference) / n + np.finfo(float).tiny  # safe to solve with
     if m < n:  # the same in whichever space is smaller
         normal = difference.T @ difference
         normal[np.diag_indices_from(normal)] += damping
