@@ -1,6 +1,6 @@
 """How often, and after how many trials, `levade solve` succeeds: each task as it is, over seeds. Prints a table.
 
-    python benchmarks/seeds.py rearing posture-recovery [--seeds 10]
+    python benchmarks/seeds.py rearing posture-recovery [--seeds 10] [--first 0]
 
 Trials are those spent when one first met every criterion; errors are those of the motion that the run ends with. Trial counts
 do not depend on the machine's load or number of cores.
@@ -29,9 +29,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("tasks", nargs="+")
     parser.add_argument("--seeds", type=int, default=10)
+    parser.add_argument("--first", type=int, default=0, help="the first of the seeds")
     arguments = parser.parse_args()
     with ProcessPoolExecutor(2) as pool:
-        results = list(pool.map(one, [(task, seed) for task in arguments.tasks for seed in range(arguments.seeds)]))
+        seeds = range(arguments.first, arguments.first + arguments.seeds)
+        results = list(pool.map(one, [(task, seed) for task in arguments.tasks for seed in seeds]))
     print("| task | success | trials to success, median (range) | final errors, largest of the successes |")
     print("|---|---|---|---|")
     for task in arguments.tasks:
