@@ -68,6 +68,40 @@ def test_a_search_begins_as_close_around_its_duration_as_around_its_motion(
     assert not space.factor[-1, ~space.rough].any()
 
 
+def drawn_goals(goal: str) -> tuple[Objective, np.ndarray]:
+    """Final postures that a search draws first, less the one that it begins with, shape (n, k)."""
+    changes = [*SMALL, "policy.groups=independent", "policy.settle=0.4", f"policy.goal={goal}"]
+    objective = make_objective(load_task("rearing", changes=changes), threads=1)
+    assert isinstance(objective.policy, FreePolicy)
+    space = objective.space
+    drawn = np.random.default_rng(0).standard_normal((300, space.factor.shape[1])) @ space.factor.T
+    return objective, objective.policy.goals(space.mean + space.step * drawn) - objective.policy.goals(space.mean[None])
+
+
+def test_final_postures_that_are_tried_first_hardly_push_the_feet_apart_but_raise_and_turn_the_trunk() -> None:
+    """Feet that stand do not slip, so joints as stiff as servos would push them against each other."""
+    objective, moved = drawn_goals("free")
+    robot, step = objective.robot, objective.space.step
+    alone = step * np.random.default_rng(1).standard_normal(moved.shape)
+
+    def stood(change: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        feet = np.array([robot.foot_positions(robot.posture("neutral") + one) for one in 0.1 * change])
+        i, j = np.triu_indices(4, 1)
+        return np.linalg.norm(feet[:, i] - feet[:, j], axis=-1).std(axis=0), feet[:, :, 2].mean(axis=1).std()
+
+    (apart, height), (apart_alone, height_alone) = stood(moved), stood(alone)
+    assert (apart < 0.15 * apart_alone).all()
+    assert height > 0.6 * height_alone
+
+
+def test_a_range_says_where_to_look_for_a_final_angle() -> None:
+    objective, moved = drawn_goals('{"?f_kfe": [-2.8, -0.1], "?h_kfe": [0.1, 2.8]}')
+    angles = moved[:, [name.endswith("_kfe") for name in objective.robot.joint_names]]
+    np.testing.assert_allclose(
+        np.cov(angles.T), objective.space.step**2 * np.eye(4), atol=0.2 * objective.space.step**2
+    )
+
+
 def test_trials_are_simulated_no_longer_than_they_need(free: Objective, decisions: np.ndarray) -> None:
     assert isinstance(free.policy, FreePolicy)
     before = free.engine.steps

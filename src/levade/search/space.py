@@ -12,9 +12,9 @@ from levade.arrays import Array
 from levade.engines import State
 from levade.optimizers import SearchSpace
 from levade.policies import FreePolicy, JointPolicy, Policy, smoothness_factor
-from levade.robots import Robot
+from levade.robots import Robot, dimensions
 from levade.tasks import Task
-from levade.tasks.policy import goal_posture, through_postures
+from levade.tasks.policy import goal_posture, has_ranges, through_postures
 
 ENDING = 0.25
 """Share of the horizon that an optimizer may change alone, as the ending of a motion."""
@@ -25,6 +25,10 @@ DURATION = 0.08
 DURATION_PER_STEP = 0.6
 """Upper bound of the same per step of the weights [1/rad]: a search close around a motion also stays close to its duration."""
 
+
+BRACED = 0.1
+"""Displacement of the feet relative to each other at which the first step of a final angle is smaller by a factor of 1.4
+[heights/rad]."""
 
 SKETCHED = 3
 """Random postures that a sketch goes through."""
@@ -48,7 +52,7 @@ def search_space(task: Task, robot: Robot, policy: JointPolicy, start: State) ->
     one_sided = np.array([criterion.target is None for criterion in task.success.values()], dtype=bool)
     if isinstance(policy, FreePolicy):
         space = _of_weights(task, robot, policy.policy, start)
-        return _with_more(dataclasses.replace(space, one_sided=one_sided), policy, task)
+        return _with_more(dataclasses.replace(space, one_sided=one_sided), policy, task, robot)
     if isinstance(policy, Policy):
         return dataclasses.replace(_of_weights(task, robot, policy, start), one_sided=one_sided)
     mean = policy.initial_weights(start.joint_reference[0])
@@ -106,8 +110,10 @@ def _bends_forward(robot: Robot) -> NDArray[np.bool_]:
     return np.abs(axes[:, 1]) > _TO_THE_SIDE
 
 
-def _with_more(space: SearchSpace, policy: FreePolicy, task: Task) -> SearchSpace:
+def _with_more(space: SearchSpace, policy: FreePolicy, task: Task, robot: Robot) -> SearchSpace:
     """Add the policy's further decisions: the spread of a duration is `DURATION`, and that of angles is that of weights.
+
+    Where no range says where to look for the final posture, angles that push standing feet against each other spread less.
 
     They do not belong to the ending of a motion. A duration is rough: it is rounded to time steps, and errors change by more
     than a tight tolerance from one to the next. Where a criterion asks for a duration it is not rough, since that error
@@ -117,6 +123,9 @@ def _with_more(space: SearchSpace, policy: FreePolicy, task: Task) -> SearchSpac
     more = policy.size - d
     factor = np.zeros((d + more, m + more))
     factor[:d, :m], factor[d:, m:] = space.factor, np.eye(more)
+    if policy.goal is not None and not has_ranges(task.policy):
+        first = len(factor) - len(policy.goal.joints)
+        factor[first:, factor.shape[1] - len(policy.goal.joints) :] = _unbraced(policy, robot)
     rough = None
     if policy.horizon is not None:
         factor[d, m] = min(DURATION / space.step, DURATION_PER_STEP)
@@ -130,6 +139,25 @@ def _with_more(space: SearchSpace, policy: FreePolicy, task: Task) -> SearchSpac
     spread = np.zeros((policy.size, before.spread.shape[1] + more))
     spread[:d, :-more], spread[d:, -more:] = before.spread, np.eye(more)
     return dataclasses.replace(space, span=np.concatenate([before.span, policy.span]), spread=spread)
+
+
+def _unbraced(policy: FreePolicy, robot: Robot) -> Array:
+    """Return the factor of final angles, shape (k, k): small in directions in which the feet do not move as one body.
+
+    Feet that stand do not slip. Where angles tell them to move apart, or one of them to leave the ground, stiff joints brace
+    them against each other and the ground.
+    """
+    assert policy.goal is not None
+    k, step = len(policy.goal.joints), 1e-3
+    decisions = np.tile(policy.decision(np.zeros((1, policy.policy.size))), (k + 1, 1))
+    decisions[1:, -k:] += step * np.eye(k)
+    feet = np.array([robot.foot_positions(posture) for posture in policy.goals(decisions)]) / dimensions(robot).height
+    moved = (feet[1:] - feet[0]).reshape(k, -1) / step
+    turned = np.cross(np.eye(3)[:, None], feet[0]).reshape(3, -1)
+    as_one = np.concatenate([np.tile(np.eye(3), len(feet[0])), turned])
+    braced = moved - moved @ np.linalg.pinv(as_one) @ as_one
+    values, vectors = np.linalg.eigh(braced @ braced.T)
+    return np.asarray(vectors / np.sqrt(1.0 + values / BRACED**2) @ vectors.T)
 
 
 def _ending(policy: Policy) -> Array | None:

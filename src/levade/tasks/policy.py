@@ -136,6 +136,15 @@ def _free_ranges(choice: PolicyChoice, robot: Robot) -> tuple[Array, Array]:
     return lower, upper
 
 
+def has_ranges(choice: PolicyChoice) -> bool:
+    """Tell whether ranges say where a free final posture is.
+
+    Args:
+        choice: The task's policy.
+    """
+    return isinstance(choice.goal, Mapping) and any(isinstance(value, tuple) for value in choice.goal.values())
+
+
 def _free_goal(policy: Policy, lower: Array, upper: Array, robot: Robot) -> FreeGoal:
     """Intersect the free range of each independent joint with those of the joints that follow it.
 
