@@ -177,10 +177,10 @@ def _read(
         support_servos(draft, bare, neutral, chosen)
     thin_visuals(draft, bare.model)
     lighten(draft)
-    model = survive_text(draft)
+    mjcf, model = survive_text(draft)
     return Robot(
         name=form.name,
-        mjcf=draft.spec.to_xml(),
+        mjcf=mjcf,
         assets=draft.assets,
         trunk=model.body(bare.trunk).name,
         legs=bare.legs,
