@@ -264,6 +264,7 @@ def test_with_time_left_it_searches_again_with_another_seed(tmp_path: Path, monk
         pursuit_module, "_GOOD", 1.1
     )  # no share is good enough: one more motion to begin around is looked for
     monkeypatch.setattr(pursuit_module, "MORE", pursuit_module.MORE[:1])
+    monkeypatch.setattr(pursuit_module, "write_certificate", lambda *_, **__: None)  # the page, after each search
     demands, begun = Demands(trunk_acceleration=1e-6), list[str]()
 
     def stop(name: str, generation: Generation) -> Stopped | None:
@@ -273,7 +274,7 @@ def test_with_time_left_it_searches_again_with_another_seed(tmp_path: Path, monk
         return pursue(
             standing(),
             directory=tmp_path,
-            runs=RUNS,
+            runs=4,
             minutes=minutes,
             demands=demands,
             begin=lambda name, task: begun.append(name),
