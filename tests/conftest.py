@@ -5,6 +5,7 @@ from __future__ import annotations
 import bdb
 import copy
 import math
+import os
 import random
 import shutil
 import sys
@@ -30,6 +31,7 @@ def pytest_cmdline_main(config: pytest.Config) -> None:
 
     With ``--pdb``, ``--trace``, ``-s`` or under a debugger everything runs in this process. `-p no:xdist` works, too.
     """
+    keep_bytecode(config.rootpath)
     option = config.option
     if hasattr(config, "workerinput") or not hasattr(option, "numprocesses"):
         return  # in a worker, or without xdist
@@ -37,6 +39,17 @@ def pytest_cmdline_main(config: pytest.Config) -> None:
         option.numprocesses = 0 if _debugging(option) else "auto"
     if option.numprocesses and option.dist == "no":
         option.dist = "worksteal"
+
+
+def keep_bytecode(root: Path) -> None:
+    """Let Python keep compiled modules where it may not, as in many containers: in pytest's cache, not next to the sources.
+
+    Hundreds of processes that tests start would compile levade, and each worker the tests, in every run.
+    """
+    if sys.dont_write_bytecode and sys.pycache_prefix is None and os.access(root, os.W_OK):
+        sys.dont_write_bytecode, sys.pycache_prefix = False, str(root / ".pytest_cache" / "bytecode")
+        os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+        os.environ["PYTHONPYCACHEPREFIX"] = sys.pycache_prefix
 
 
 @pytest.hookimpl(tryfirst=True)  # before -m is applied

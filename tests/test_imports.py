@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
+
+HEXAPOD = str(Path(__file__).parents[1] / "benchmarks" / "robots" / "hexapod.xml")
+"""A robot whose postures are searched."""
 
 
 def loaded(program: str) -> set[str]:
@@ -23,7 +27,7 @@ def test_help_and_version_need_neither_physics_nor_arrays() -> None:
 def test_a_solve_needs_no_figures() -> None:
     """cma imports pyplot where it is installed, which takes longer than everything else together."""
     pytest.importorskip("matplotlib")
-    needed = loaded("import levade.cli.solving, levade.optimizers")
+    needed = loaded(f"from levade.robots import load_robot; load_robot({HEXAPOD!r}); import levade.cli.solving")
     assert {"cma", "mujoco"} <= needed
     assert not needed & {"matplotlib", "matplotlib.pyplot", "scipy", "pyarrow", "PIL", "trimesh"}
 

@@ -1,4 +1,4 @@
-"""Tests run in a process per core, but in one where they are debugged."""
+"""Tests run in a process per core, but in one where they are debugged; their processes share compiled modules."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.conftest import keep_bytecode
 
 pytest.importorskip("xdist", reason="the workers are xdist's: pip install pytest-xdist")
 
@@ -43,3 +44,19 @@ def test_a_debugger_has_no_workers(tmp_path: Path, command: str, worker: str | N
         check=False,
     )
     assert f"worker: {worker}" in done.stdout, done.stdout + done.stderr
+
+
+def test_modules_are_compiled_once_where_python_may_not_keep_them(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Not next to their sources: a process that tests start finds them in pytest's cache."""
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)
+    monkeypatch.setattr(sys, "pycache_prefix", None)
+    monkeypatch.setenv("PYTHONDONTWRITEBYTECODE", "1")
+    monkeypatch.delenv("PYTHONPYCACHEPREFIX", raising=False)
+    keep_bytecode(tmp_path)
+    (tmp_path / "module.py").write_text("")
+    subprocess.run([sys.executable, "-c", "import module"], cwd=tmp_path, check=True)
+    (compiled,) = tmp_path.rglob("module.*.pyc")
+    assert compiled.is_relative_to(tmp_path / ".pytest_cache")
+    assert not (tmp_path / "__pycache__").exists()

@@ -257,6 +257,12 @@ def _adapter(kind: Any) -> Any:
     return pydantic.TypeAdapter(kind)
 
 
+@functools.cache
+def _hints(kind: Any) -> dict[str, Any]:
+    """The types of a class's fields: to evaluate their text takes as long as to validate a task."""
+    return typing.get_type_hints(kind)
+
+
 _CLASS = re.compile(r"([A-Z][a-z]+){2,}")
 """The name of a dataclass, which is no key: pydantic names the alternative of a union by it."""
 
@@ -339,7 +345,7 @@ def check_keys(kind: Any, content: Any, where: str) -> None:
             if not any(option in plain or (option is type(None) and content is None) for option in options):
                 raise LevadeError(f"{where}: should be a table of keys and values, is {kind_of(content)}")
             return
-        fields = typing.get_type_hints(kind)
+        fields = _hints(kind)
         valid = [field.name for field in dataclasses.fields(kind) if field.init]
         for key, value in content.items():
             if key not in valid:

@@ -210,7 +210,7 @@ def broken(tmp_path: Path, unmet: Path) -> Path:
     "words",
     [
         *("--no-report", "", "--json --report"),
-        pytest.param("--figures figures --no-report", marks=pytest.mark.slow),
+        pytest.param("--figures figures --format svg --no-report", marks=pytest.mark.slow),
         pytest.param("--strip strip.png --no-report", marks=pytest.mark.slow),
     ],
 )

@@ -8,6 +8,7 @@ import re
 from pathlib import Path
 
 import pytest
+from tests.hardware.short import shorten
 
 from levade import hardware
 from levade.cli import pursuing
@@ -19,6 +20,7 @@ RUNS = 12
 @pytest.mark.slow
 def test_the_certificate_decides(levade, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(pursuing, "pursue", functools.partial(hardware.pursue, runs=RUNS))
+    shorten(monkeypatch)
     short = [f"--set={one}" for one in ("horizon=2 falls", "hold=0.2", "physics={timestep: 0.004}")]
     status, out, err = levade("solve", "sit-to-stand", *short, "--hardware", "--json", "--out", "stand")
     assert (status, err.count("Traceback")) == (0, 0)

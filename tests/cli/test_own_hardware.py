@@ -10,6 +10,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
+from tests.hardware.short import shorten
 
 from levade import hardware
 from levade.cli import pursuing
@@ -25,6 +26,7 @@ def test_a_task_and_a_robot_of_one_s_own(
 ) -> None:
     """A URDF says torque and speed limits and ranges; MuJoCo alone says whether the motion keeps them."""
     monkeypatch.setattr(pursuing, "pursue", functools.partial(hardware.pursue, runs=60))
+    shorten(monkeypatch)
     text = (DOCS / "your-task.md").read_text(encoding="utf-8")
     bow = next(block for block in re.findall(r"```yaml\n(.*?)```", text, re.S) if block.startswith("# bow.yaml"))
     (tmp_path / "bow.yaml").write_text(bow)

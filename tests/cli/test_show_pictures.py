@@ -12,13 +12,17 @@ from levade.motions import Motion
 
 
 @pytest.mark.slow
-def test_figures_have_the_cost_of_the_run_beside_them(unmet: Path, tmp_path: Path, levade) -> None:
+def test_all_figures_are_written_and_nothing_else(unmet: Path, tmp_path: Path, levade) -> None:
+    """That of the cost, too, from the run beside the motion."""
     pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install 'levade[figures]'")
-    status, out, _ = levade("show", unmet / "motion.npz", "--figures", tmp_path, "--format", "svg", "--json")
+    place = tmp_path / "figures"
+    status, out, _ = levade("show", unmet / "motion.npz", "--figures", place, "--format", "svg", "--json")
     assert status == 1
-    written = json.loads(out)["written"]
-    assert str(tmp_path / "cost.svg") in written
-    assert all(Path(path).stat().st_size > 1000 for path in written)
+    written = [Path(path) for path in json.loads(out)["written"]]
+    assert sorted(written) == sorted(place.iterdir())
+    names = {"trunk", "joints", "torques", "speeds", "foot-forces", "kernels", "cost"}
+    assert {path.name for path in written} == {f"{name}.svg" for name in names}
+    assert all(path.stat().st_size > 1000 for path in written)
 
 
 @pytest.mark.slow

@@ -105,8 +105,7 @@ class Robot:
 
     def read_trunk(self) -> Any:
         up = self.motion.up[self.row()]
-        axis = np.cross(up, [0.0, 0.0, 1.0])
-        quaternion = np.array([1.0 + up[2], *axis])
+        quaternion = np.array([1.0 + up[2], up[1], -up[0], 0.0])  # about the cross product of up and z
         return self._maybe("read_trunk", (quaternion / np.linalg.norm(quaternion), np.zeros(3)))
 
     def write(self, *command: np.ndarray) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import shutil
-import sys
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -12,6 +11,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from tests.hardware.short import shorten
 
 import levade.hardware.pursuit as pursuit_module
 from levade.checks import Demands, check
@@ -30,7 +30,6 @@ from levade.hardware import (
     obstacles,
     pursue,
     read_pursuit,
-    starts,
 )
 from levade.hardware.pursuit import Observe
 from levade.hardware.state import ASKED
@@ -52,20 +51,8 @@ def standing() -> Task:
 
 @pytest.fixture(scope="module", autouse=True)
 def _short() -> Iterator[None]:
-    """Searches go on for 48 trials after a success, not 240, and rough starts are the best of 24 motions.
-
-    Certificates have 2 runs with each parameter alone. What is tried here does not depend on how good a motion is, nor on why.
-    """
-    within_limits = Plan.within_limits
-
-    def shorter(self: Plan, number: int = 0) -> Task:
-        task = within_limits(self, number)
-        return replace(task, search=replace(task.search, polish=48))
-
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(Plan, "within_limits", shorter)
-        patch.setattr(starts, "ROUGH", 24)
-        patch.setattr(sys.modules["levade.checks.perturbed"], "_CORNERS", 2)  # the package has a function of that name
+        shorten(patch)
         yield
 
 
@@ -264,6 +251,7 @@ def test_with_time_left_it_searches_again_with_another_seed(tmp_path: Path, monk
         pursuit_module, "_GOOD", 1.1
     )  # no share is good enough: one more motion to begin around is looked for
     monkeypatch.setattr(pursuit_module, "MORE", pursuit_module.MORE[:1])
+    monkeypatch.setattr(pursuit_module, "write_certificate", lambda *_, **__: None)  # the page, after each search
     demands, begun = Demands(trunk_acceleration=1e-6), list[str]()
 
     def stop(name: str, generation: Generation) -> Stopped | None:
@@ -273,7 +261,7 @@ def test_with_time_left_it_searches_again_with_another_seed(tmp_path: Path, monk
         return pursue(
             standing(),
             directory=tmp_path,
-            runs=RUNS,
+            runs=4,
             minutes=minutes,
             demands=demands,
             begin=lambda name, task: begun.append(name),

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from levade.hardware import Plan, starts
-from levade.hardware.starts import ROUGH, rough_start, through_postures
+from levade.hardware.starts import rough_start, through_postures
 from levade.policies import FreePolicy, Policy
 from levade.robots import Robot, load_robot
 from levade.search import Objective, make_objective
@@ -74,13 +74,15 @@ def test_a_seed_gives_the_same_start_and_another_one_another(
 
 
 @pytest.mark.slow
-def test_the_search_begins_around_the_best(objective: Objective) -> None:
+def test_the_search_begins_around_the_best(objective: Objective, monkeypatch: pytest.MonkeyPatch) -> None:
+    n = 40
+    monkeypatch.setattr(starts, "ROUGH", n)
     guess = rough_start(objective, seed=3)
-    assert guess.candidates.shape == (ROUGH, objective.policy.size)
+    assert guess.candidates.shape == (n, objective.policy.size)
     search = Search(objective.task, objective.space, seed=3, initial=guess)
     weights = {name: cost.weight for name, cost in objective.task.costs.items()}
     tried, costs = 0, []
-    while tried < ROUGH:  # in parts
+    while tried < n:  # in parts
         asked = search.ask()
         assert asked is not None
         np.testing.assert_array_equal(asked.weights, guess.candidates[tried : tried + asked.n])
@@ -95,7 +97,7 @@ def test_the_search_begins_around_the_best(objective: Objective) -> None:
     assert far.argmin() == cost.argmin()
     # no motion of a start from nothing is as good, though there are as many
     space = objective.space
-    drawn = space.candidates(space.step * np.random.default_rng(0).standard_normal((ROUGH, space.dimensions)))
+    drawn = space.candidates(space.step * np.random.default_rng(0).standard_normal((n, space.dimensions)))
     assert cost.min() < objective.evaluate(replace(first, weights=drawn)).cost(weights).min()
 
 

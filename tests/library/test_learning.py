@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +19,8 @@ from levade.library.knowledge import Knowledge
 from levade.library.learning import NEAREST, arrays_of, learn, save
 from levade.library.mirror import Mirror
 
-pytest.importorskip("sklearn.neural_network", reason="learning needs scikit-learn: pip install 'levade[learn]'")
+if find_spec("sklearn") is None:  # without importing it, which takes seconds
+    pytest.skip("learning needs scikit-learn: pip install 'levade[learn]'", allow_module_level=True)
 
 MIRROR = Mirror(np.array([1, 0]), np.array([1.0, 1.0]))
 

@@ -25,8 +25,10 @@ def lying(first: int, n: int, seed: int) -> list[Lying]:
     return [Lying(first + i, up[i], 0.1 * generator.standard_normal(2)) for i in range(n)]
 
 
-def apart(one: Lying, other: Lying) -> float:
-    return float(distances(one.up[None], one.joint_position[None], other.up, other.joint_position)[0])
+def apart(one: Lying, others: list[Lying]) -> float:
+    """Distance to the nearest."""
+    ups, joints = (np.array([getattr(other, name) for other in others]) for name in ("up", "joint_position"))
+    return float(distances(ups, joints, one.up, one.joint_position).min())
 
 
 def test_each_further_fall_has_its_own_number() -> None:
@@ -42,10 +44,10 @@ def test_rare_falls_are_apart_from_all_others_and_leave_none_out() -> None:
     chosen = [by_number[fall] for fall in rare(dropped, known, None)]
     assert 3 < len(chosen) < 100
     for i, one in enumerate(chosen):
-        assert min(apart(one, other) for other in [*known, *chosen[:i]]) > 0.05
+        assert apart(one, [*known, *chosen[:i]]) > 0.05
     for one in dropped:
-        assert min(apart(one, other) for other in [*known, *chosen]) <= 0.05
-    far = [min(apart(one, other) for other in known) for one in dropped]
+        assert apart(one, [*known, *chosen]) <= 0.05
+    far = [apart(one, known) for one in dropped]
     assert chosen[0] is dropped[int(np.argmax(far))]
 
 

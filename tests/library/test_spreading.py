@@ -223,15 +223,15 @@ def test_without_ray_it_says_what_to_install(
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("words", "said"),
     [
         (["--ray", "nowhere"], "--ray: nowhere: is not an address; give HOST:PORT"),
         (["--ray", "ray://h:1"], "--ray: ray://h:1: should be HOST:PORT"),
-        pytest.param(
+        (
             ["--ray", "127.0.0.1:1"],
             "--ray: 127.0.0.1:1: no Ray cluster answers there (Connection refused); give the",
-            marks=pytest.mark.slow,
         ),
         (["--ray", "--jobs", "2"], "--jobs: 2 processes are for this computer"),
     ],

@@ -1,4 +1,4 @@
-"""Figures for a paper: all of them, of the right size, the same bytes every time, and nothing left behind on errors."""
+"""Figures for a paper: of the right size, the same bytes every time, and nothing left behind on errors."""
 
 from __future__ import annotations
 
@@ -19,8 +19,6 @@ pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install '
 import levade.report.figures as module
 from levade.report.figures import COLUMN, FORMATS, PAGE, compare, figures, read_progress
 
-ALL = {"trunk", "joints", "torques", "speeds", "foot-forces", "kernels"}
-
 
 @pytest.fixture(scope="module")
 def solved(tmp_path_factory: pytest.TempPathFactory) -> tuple[Motion, Path]:
@@ -28,13 +26,6 @@ def solved(tmp_path_factory: pytest.TempPathFactory) -> tuple[Motion, Path]:
     directory = tmp_path_factory.mktemp("rearing")
     task = load_task("rearing", changes=["search.population=8", "search.trials=24", "hold=0.05"])
     return run(task, seed=0, directory=directory).motion, directory / "progress.csv"
-
-
-@pytest.mark.slow
-def test_all_figures_are_written_and_nothing_else(solved: tuple[Motion, Path], tmp_path: Path) -> None:
-    written = figures(solved[0], tmp_path, format="svg", progress_csv=solved[1])
-    assert {path.stem for path in written} == ALL | {"cost"}
-    assert sorted(tmp_path.iterdir()) == sorted(written)
 
 
 @pytest.mark.slow

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import itertools
 import json
 from collections.abc import Callable
@@ -183,7 +184,7 @@ def test_a_search_that_is_interrupted_inside_a_generation_loses_nothing_that_was
     assert of[later] > 2
     before = sum(of[:later])
     for place in range(before, before + of[later] + 1):
-        part, calls, evaluate = objective(robust), 0, made.evaluate
+        part, calls, evaluate = copy.copy(made), 0, made.evaluate
 
         def stops(trials: Trials, *, place: int = place) -> Evaluation:
             nonlocal calls

@@ -33,6 +33,8 @@ from levade.tasks.schema import task_schema
 SAID = sorted(name for name, path in builtin_tasks().items() if "variants" in yaml.safe_load(path.read_text()))
 """Tasks that say something of their variants."""
 
+THERE = available_tasks()
+
 
 def written(path: Path, text: str) -> str:
     path.write_text(text, encoding="utf-8")
@@ -54,7 +56,7 @@ def ends(task: Task) -> tuple[float, float]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [name for name, (task, _) in builtin_variants().items() if task in available_tasks()])
+@pytest.mark.parametrize("name", [name for name, (task, _) in builtin_variants().items() if task in THERE])
 def test_a_variant_asks_for_the_motion_of_its_task_on_other_robots(name: str) -> None:
     task, variant = builtin_variants()[name]
     made, nominal = load_task(name), load_task(task)

@@ -11,8 +11,8 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from levade.arrays import Array
+from levade.evolution import cma
 from levade.optimizers.blas import single_threaded
-from levade.optimizers.library import cma
 from levade.optimizers.space import SearchSpace
 
 # cma's stop rules answer a flat or noisy cost; when to stop is for the search to say

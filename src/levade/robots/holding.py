@@ -98,8 +98,8 @@ def fix_joints(draft: Draft, angles: Mapping[str, Angle], path: Path) -> dict[st
         LevadeError: If a joint cannot be held at that angle.
     """
     if not draft.urdf:  # in the saved text, frames and Euler angles are resolved and angles are in radians
-        survive_text(draft)
-        draft.spec = mujoco.MjSpec.from_string(draft.spec.to_xml(), assets=draft.assets)
+        text, _ = survive_text(draft)
+        draft.spec = mujoco.MjSpec.from_string(text, assets=draft.assets)
         draft.spec.assets = draft.assets
     spec = draft.spec
     _loosen(spec, set(angles))

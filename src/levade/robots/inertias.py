@@ -68,21 +68,22 @@ def lift_explicit(spec: mujoco.MjSpec) -> None:
             body.inertia = np.diag(better)
 
 
-def survive_text(draft: Draft) -> mujoco.MjModel:
+def survive_text(draft: Draft) -> tuple[str, mujoco.MjModel]:
     """Compile the draft's text, which is what is simulated, with inertias that stay valid when rounded to six digits.
 
     Args:
         draft: The model; its inertias may be changed.
 
     Returns:
-        The model that the text describes.
+        The text, and the model that it describes.
 
     Raises:
         LevadeError: If MuJoCo does not accept the text.
     """
     model = draft.compile()
+    text = draft.spec.to_xml()
     try:
-        return mujoco.MjModel.from_xml_string(draft.spec.to_xml(), draft.assets)
+        return text, mujoco.MjModel.from_xml_string(text, draft.assets)
     except ValueError:
         pass
     for body in draft.spec.bodies[1:]:
@@ -95,8 +96,9 @@ def survive_text(draft: Draft) -> mujoco.MjModel:
         body.ipos, body.iquat = model.body_ipos[index].copy(), model.body_iquat[index].copy()
         body.inertia, body.fullinertia = np.diag(better).copy(), np.full(6, np.nan)
     draft.compile()
+    text = draft.spec.to_xml()
     try:
-        return mujoco.MjModel.from_xml_string(draft.spec.to_xml(), draft.assets)
+        return text, mujoco.MjModel.from_xml_string(text, draft.assets)
     except ValueError as error:
         raise LevadeError(f"{draft.path}: {' '.join(str(error).split())}") from None
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 import copy
 import os
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -177,10 +178,10 @@ def _read(
         support_servos(draft, bare, neutral, chosen)
     thin_visuals(draft, bare.model)
     lighten(draft)
-    model = survive_text(draft)
+    mjcf, model = survive_text(draft)
     return Robot(
         name=form.name,
-        mjcf=draft.spec.to_xml(),
+        mjcf=mjcf,
         assets=draft.assets,
         trunk=model.body(bare.trunk).name,
         legs=bare.legs,
@@ -225,6 +226,8 @@ def _describe(path: Path) -> RobotForm:
     """Read the description at a path. For a model, use the robot.yaml next to it that describes it, or a bare description."""
     from levade.robots.description import RobotForm, read_description
 
+    if path.is_relative_to(_BUILT_IN) and path.name == "robot.yaml":
+        return _describe_built_in(path)
     if path.suffix.lower() not in _MODELS and not is_model(path):
         try:
             return read_description(path)
@@ -238,6 +241,13 @@ def _describe(path: Path) -> RobotForm:
         if Path(form.model).name == path.name:
             return form
     return RobotForm(name=path.stem, model=path.name)
+
+
+@cache
+def _describe_built_in(path: Path) -> RobotForm:
+    from levade.robots.description import read_description
+
+    return read_description(path)
 
 
 def _apply_variant(draft: Draft, path: Path, form: RobotForm, variant: str) -> None:

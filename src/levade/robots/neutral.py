@@ -219,7 +219,7 @@ class PostureSearch:
             seed: Seed of the search.
             spread: Initial step, in quarters of the joints' ranges of at most 2 rad.
         """
-        import cma
+        from levade.evolution import cma
 
         leaders, followers, signs, images = alike or self._leaders(limbs)
         lower, upper = self.lower[leaders], self.upper[leaders]

@@ -80,7 +80,8 @@ def _files(package: str) -> Iterable[tuple[str, Path]]:
         listed = files(package)
     except PackageNotFoundError:
         return
-    for file in sorted(listed or [], key=str):
+    models = [file for file in listed or [] if file.suffix in (".xml", ".urdf")]  # of thousands of files
+    for file in sorted(models, key=str):
         path = Path(str(file.locate()))
-        if path.suffix in (".xml", ".urdf") and path.is_file():
+        if path.is_file():
             yield file.as_posix(), path

@@ -9,6 +9,11 @@ import numpy as np
 
 from levade.arrays import Array
 
+_SPHERE, _CAPSULE, _CYLINDER, _ELLIPSOID, _BOX, _MESH = (  # numbers, which compare ten times faster than enums
+    int(getattr(mujoco.mjtGeom, f"mjGEOM_{name}"))
+    for name in ("SPHERE", "CAPSULE", "CYLINDER", "ELLIPSOID", "BOX", "MESH")
+)
+
 
 def support(model: mujoco.MjModel, data: mujoco.MjData, geom: int, direction: Array) -> Array:
     """Find the point of a geom that is farthest in a direction.
@@ -25,21 +30,21 @@ def support(model: mujoco.MjModel, data: mujoco.MjData, geom: int, direction: Ar
     rotation = data.geom_xmat[geom].reshape(3, 3)
     unit = np.asarray(direction, dtype=float) / np.linalg.norm(direction)
     d = rotation.T @ unit
-    size, kind = model.geom_size[geom], model.geom_type[geom]
+    size, kind = model.geom_size[geom], int(model.geom_type[geom])
     sign = np.where(d < 0, -1.0, 1.0)
-    if kind == mujoco.mjtGeom.mjGEOM_SPHERE:
+    if kind == _SPHERE:
         point = size[0] * d
-    elif kind == mujoco.mjtGeom.mjGEOM_CAPSULE:
+    elif kind == _CAPSULE:
         point = size[0] * d + [0.0, 0.0, sign[2] * size[1]]
-    elif kind == mujoco.mjtGeom.mjGEOM_CYLINDER:
+    elif kind == _CYLINDER:
         radial = float(np.hypot(d[0], d[1]))
         disc = size[0] * d[:2] / radial if radial > 1e-12 else np.zeros(2)
         point = np.array([*disc, sign[2] * size[1]])
-    elif kind == mujoco.mjtGeom.mjGEOM_ELLIPSOID:
+    elif kind == _ELLIPSOID:
         point = size**2 * d / max(float(np.linalg.norm(size * d)), 1e-12)
-    elif kind == mujoco.mjtGeom.mjGEOM_BOX:
+    elif kind == _BOX:
         point = sign * size
-    elif kind == mujoco.mjtGeom.mjGEOM_MESH:
+    elif kind == _MESH:
         mesh = int(model.geom_dataid[geom])
         first = int(model.mesh_vertadr[mesh])
         vertices = model.mesh_vert[first : first + int(model.mesh_vertnum[mesh])]
@@ -120,13 +125,13 @@ def balls(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> Array:
     Returns:
         Centres in the world and radii [m], shape (k, 4).
     """
-    size, kind, place = model.geom_size[geom], model.geom_type[geom], data.geom_xpos[geom]
-    if kind == mujoco.mjtGeom.mjGEOM_SPHERE:
+    size, kind, place = model.geom_size[geom], int(model.geom_type[geom]), data.geom_xpos[geom]
+    if kind == _SPHERE:
         return np.array([[*place, size[0]]])
-    if kind == mujoco.mjtGeom.mjGEOM_CAPSULE:
+    if kind == _CAPSULE:
         along = size[1] * data.geom_xmat[geom].reshape(3, 3)[:, 2]
         return np.array([[*(place + along), size[0]], [*(place - along), size[0]]])
-    if kind == mujoco.mjtGeom.mjGEOM_BOX:
+    if kind == _BOX:
         points = place + (_CORNERS * size) @ data.geom_xmat[geom].reshape(3, 3).T
     else:
         points = np.unique([support(model, data, geom, direction).round(9) for direction in _DIRECTIONS], axis=0)

@@ -1,4 +1,4 @@
-"""The library `cma` without what it imports for plots and fits of its own, which takes longer than all the rest."""
+"""Import the library `cma` without what it imports for its own plots and fits, which takes longer than all the rest."""
 
 from __future__ import annotations
 
