@@ -11,7 +11,7 @@ from levade.search.recording import record
 from levade.stabilisers import Stabilised, stabilise
 from levade.tasks import load_task
 
-RELAXED = ["success.pitch.tolerance=0.04", "success.height.tolerance=0.05"]
+RELAXED = ["success.pitch.tolerance=0.04", "success.height.tolerance=0.05", "search.settings={finish: 0}"]
 PUSHED = Perturbation(start_rate=(-0.6, 0.6), start_velocity=(-0.2, 0.2))
 """Three to ten times as much as a check's."""
 
@@ -19,7 +19,7 @@ PUSHED = Perturbation(start_rate=(-0.6, 0.6), start_velocity=(-0.2, 0.2))
 @pytest.fixture(scope="session")
 def rearing() -> Motion:
     objective = make_objective(load_task("rearing", changes=RELAXED), threads=1)
-    motion = record(objective, solve(objective, seed=0), seed=0)
+    motion = record(objective, solve(objective, seed=2), seed=2)
     assert motion.meta["success"], motion.meta["errors"]
     return motion
 
