@@ -125,6 +125,20 @@ def test_an_ending_is_refined_that_a_small_change_should_correct_though_another_
     assert probes == 1
 
 
+def test_no_ending_is_refined_once_the_goal_is_reached() -> None:
+    """CMA-ES then has all generations to lower the cost, but for the aimed candidates."""
+    slope = 300 * np.random.default_rng(2).standard_normal((D, 2))
+    optimizer = AimedCMAES(SearchSpace(np.zeros(D), step=0.03, population=12, ending=ENDING), seed=2)
+    reached, after = False, 0
+    while after < 20:
+        x = optimizer.ask()
+        after += reached
+        assert not reached or len(x) >= 12 or len(np.unique(x @ np.diag(ENDING.sum(axis=0) == 0), axis=0)) > 1
+        errors = rough(x, slope)
+        reached |= bool((np.abs(errors) <= 1).all(axis=1).any())
+        optimizer.tell(errors**2 @ [1.0, 1.0, 1e-3], errors)
+
+
 def test_a_refinement_with_slopes_makes_no_probes_and_is_right_at_once() -> None:
     slope = 200 * np.random.default_rng(1).standard_normal((D, 3))
     along = ENDING @ slope

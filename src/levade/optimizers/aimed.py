@@ -66,6 +66,7 @@ class AimedCMAES:
         self._attempt_below = np.inf
         self._slope: Array | None = None  # of the errors, along the ending
         self._refined: set[bytes] = set()
+        self._reached = False
         self._asked: Array | None = None
         self._own = 0
         self._none = np.empty((0, space.size))
@@ -122,12 +123,15 @@ class AimedCMAES:
                 self._cma.inject(asked[self._own + int(np.argmin(cost[self._own :]))])
         if errors is None:
             return
+        known = np.isfinite(errors)
+        within = sizes(np.where(known, errors, 0.0), self._one_sided) <= 1.0
+        self._reached |= bool((within.all(axis=1) & known.any(axis=1)).any())
         if self._refinement is not None:
             # probes differ where the regression does not look; the cheapest of them may be the best so far
             cheapest = [int(np.argmin(cost))]
             self._regression.tell(asked[cheapest], errors[cheapest], cost[cheapest])
             self._refinement.tell(errors)
-            if self._refinement.over:
+            if self._refinement.over or self._reached:
                 self._attempt_below = 0.5 * self._refinement.miss
                 self._slope = self._refinement.slope
                 self._cma.inject(self._refinement.best)
@@ -154,6 +158,7 @@ class AimedCMAES:
         self._carried = None if best is None else best[0]
         self._regression.forget_costs(changed)
         self._refinement, self._attempt_below, self._slope, self._pursuing = None, np.inf, None, False
+        self._reached = False
 
     def _pursue(self, asked: Array, errors: Array, cost: Array) -> None:
         """Tell the regression of a generation. If an aimed candidate is the best of all, the next generation is all aimed."""
@@ -165,8 +170,11 @@ class AimedCMAES:
             self._cma.inject(self._regression.best[0])
 
     def _begin_refinement(self) -> None:
-        """Refine the ending of the cheapest trial; or, once slopes of the errors are known, of the one next to the goal."""
-        if self._ending is None:
+        """Refine the ending of the cheapest trial; or, once slopes of the errors are known, of the one next to the goal.
+
+        When a trial has reached the goal, only costs count.
+        """
+        if self._ending is None or self._reached:
             return
         base = self._cheapest() if self._slope is None else self._nearest(self._slope)
         if base is None:
