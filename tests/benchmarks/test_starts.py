@@ -47,6 +47,7 @@ def test_the_nearest_motion_may_be_an_image(script: Script) -> None:
     np.testing.assert_array_equal(starts.nearest(of, *here), image(of.weights[7]))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["ridge", "gaussian process"])
 def test_a_regression_finds_a_law(script: Script, kind: str) -> None:
     if kind == "gaussian process":

@@ -46,6 +46,7 @@ def library(directory: Path, knowledge: Knowledge) -> Library:
     return Library(directory, (), knowledge)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", list(learning._FITS))
 def test_what_is_learned_is_true(kind: str) -> None:
     """On falls of another seed; and the image of a state has the image of the answer, nearly."""

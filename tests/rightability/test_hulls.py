@@ -34,6 +34,7 @@ def likelihoods(hulls: Hulls) -> dict[tuple[float, ...], float]:
     return found
 
 
+@pytest.mark.slow
 def test_a_cube_rests_on_each_face_with_one_sixth() -> None:
     found = likelihoods(Hulls.of([box(0.2, 0.2, 0.2)], np.zeros((1, 3))))
     assert len(found) == 6

@@ -596,6 +596,7 @@ def test_a_kneeling_robot_stays_on_its_knees(walker: Robot) -> None:
     assert toe[0] < data.subtree_com[walker.model.body(walker.trunk).id][0] < knee[0]
 
 
+@pytest.mark.slow
 def test_only_robots_on_two_legs_kneel(tmp_path: Path) -> None:
     robot = load(tmp_path, insect(6))
     with pytest.raises(LevadeError, match="no posture 'kneeling'"):

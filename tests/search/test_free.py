@@ -78,6 +78,7 @@ def drawn_goals(goal: str) -> tuple[Objective, np.ndarray]:
     return objective, objective.policy.goals(space.mean + space.step * drawn) - objective.policy.goals(space.mean[None])
 
 
+@pytest.mark.slow
 def test_final_postures_that_are_tried_first_hardly_push_the_feet_apart_but_raise_and_turn_the_trunk() -> None:
     """Feet that stand do not slip, so joints as stiff as servos would push them against each other."""
     objective, moved = drawn_goals("free")
