@@ -113,19 +113,18 @@ def _bends_forward(robot: Robot) -> NDArray[np.bool_]:
 def _with_more(space: SearchSpace, policy: FreePolicy, task: Task, robot: Robot) -> SearchSpace:
     """Add the policy's further decisions: the spread of a duration is `DURATION`, and that of angles is that of weights.
 
-    Where no range says where to look for the final posture, angles that push standing feet against each other spread less.
-
     They do not belong to the ending of a motion. A duration is rough: it is rounded to time steps, and errors change by more
     than a tight tolerance from one to the next. Where a criterion asks for a duration it is not rough, since that error
-    follows it closely.
+    follows it closely. Where no range says where to look for the final posture, angles that push standing feet against each
+    other spread less.
     """
     before, (d, m) = space, space.factor.shape
     more = policy.size - d
     factor = np.zeros((d + more, m + more))
     factor[:d, :m], factor[d:, m:] = space.factor, np.eye(more)
     if policy.goal is not None and not has_ranges(task.policy):
-        first = len(factor) - len(policy.goal.joints)
-        factor[first:, factor.shape[1] - len(policy.goal.joints) :] = _unbraced(policy, robot)
+        angles = len(policy.goal.joints)
+        factor[-angles:, -angles:] = _unbraced(policy, robot)
     rough = None
     if policy.horizon is not None:
         factor[d, m] = min(DURATION / space.step, DURATION_PER_STEP)
