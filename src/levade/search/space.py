@@ -22,7 +22,7 @@ ENDING = 0.25
 DURATION = 0.08
 """Initial standard deviation of ``log T`` where the duration is a decision."""
 
-DURATION_PER_STEP = 0.6
+DURATION_PER_STEP = 0.3
 """Upper bound of the same per step of the weights [1/rad]: a search close around a motion also stays close to its duration."""
 
 
