@@ -12,13 +12,15 @@ import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from hypothesis import settings
 
 from levade.errors import LevadeError
-from levade.robots import Robot, load_robot
+
+if TYPE_CHECKING:
+    from levade.robots import Robot
 
 # The same examples in every run, and no time limit for one: CI machines differ in speed by a factor.
 settings.register_profile("levade", derandomize=True, deadline=None)
@@ -70,6 +72,7 @@ def _debugging(option: Any) -> bool:
 @pytest.fixture(scope="session")
 def packaged() -> Callable[[str], Robot]:
     """Load a robot whose files a package has. Without that package, which the tests do not need, the test is skipped."""
+    from levade.robots import load_robot
 
     def packaged(name: str) -> Robot:
         try:
@@ -99,6 +102,7 @@ actuations:
 @pytest.fixture
 def wound(tmp_path: Path) -> Callable[[str], Path]:
     """Write the description of HyQ2Max with motors whose windings are the text: `robot.yaml` in the test's folder."""
+    from levade.robots import load_robot
 
     def wound(winding: str) -> Path:
         model = Path(load_robot("hyq2max").source).with_name("hyq2max.xml")
