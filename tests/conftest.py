@@ -54,12 +54,20 @@ def keep_bytecode(root: Path) -> None:
         os.environ["PYTHONPYCACHEPREFIX"] = sys.pycache_prefix
 
 
+LONGEST = ("test_paper_tasks.py", "test_docs.py", "test_watch_page.py")
+"""Files with tests of half a minute."""
+
+
 @pytest.hookimpl(tryfirst=True)  # before -m is applied
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark every test in a browser as slow: a page takes seconds to draw."""
+    """Mark every test in a browser as slow: a page takes seconds to draw. Begin with the longest, so that none is left alone.
+
+    A worker that has no more tests takes from those that another has not begun.
+    """
     for item in items:
         if "browser" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.slow)
+    items.sort(key=lambda item: not (item.path.name in LONGEST and item.get_closest_marker("slow")))
 
 
 def _debugging(option: Any) -> bool:
