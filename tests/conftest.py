@@ -12,13 +12,15 @@ import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from hypothesis import settings
 
 from levade.errors import LevadeError
-from levade.robots import Robot, load_robot
+
+if TYPE_CHECKING:
+    from levade.robots import Robot
 
 # The same examples in every run, and no time limit for one: CI machines differ in speed by a factor.
 settings.register_profile("levade", derandomize=True, deadline=None)
@@ -52,12 +54,20 @@ def keep_bytecode(root: Path) -> None:
         os.environ["PYTHONPYCACHEPREFIX"] = sys.pycache_prefix
 
 
+LONGEST = ("test_paper_tasks.py", "test_docs.py", "test_watch_page.py")
+"""Files with tests of half a minute."""
+
+
 @pytest.hookimpl(tryfirst=True)  # before -m is applied
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark every test in a browser as slow: a page takes seconds to draw."""
+    """Mark every test in a browser as slow: a page takes seconds to draw. Begin with the longest, so that none is left alone.
+
+    A worker that has no more tests takes from those that another has not begun.
+    """
     for item in items:
         if "browser" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.slow)
+    items.sort(key=lambda item: not (item.path.name in LONGEST and item.get_closest_marker("slow")))
 
 
 def _debugging(option: Any) -> bool:
@@ -70,6 +80,7 @@ def _debugging(option: Any) -> bool:
 @pytest.fixture(scope="session")
 def packaged() -> Callable[[str], Robot]:
     """Load a robot whose files a package has. Without that package, which the tests do not need, the test is skipped."""
+    from levade.robots import load_robot
 
     def packaged(name: str) -> Robot:
         try:
@@ -99,6 +110,7 @@ actuations:
 @pytest.fixture
 def wound(tmp_path: Path) -> Callable[[str], Path]:
     """Write the description of HyQ2Max with motors whose windings are the text: `robot.yaml` in the test's folder."""
+    from levade.robots import load_robot
 
     def wound(winding: str) -> Path:
         model = Path(load_robot("hyq2max").source).with_name("hyq2max.xml")

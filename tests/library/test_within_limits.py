@@ -133,8 +133,13 @@ def test_a_motion_that_works_on_the_model_is_not_known_beyond_a_limit(library: L
     assert {fall_of(number) for number in again.knowledge.motions} <= {0, 1}
 
 
-def built_in_parts(directory: Path, cuts: tuple[int, ...], *, starts: int, hardware: Hardware, threads: int) -> Library:
-    """Build, and stop at each of these calls of ``stopping``: between generations, and between parts of certificates."""
+def built_in_parts(
+    directory: Path, cuts: tuple[int, ...], *, starts: int, hardware: Hardware, threads: int, processes: int = 1
+) -> Library:
+    """Build, and stop at each of these calls of ``stopping``: between generations, and between parts of certificates.
+
+    The processes do what is left after the last stop.
+    """
     for cut in (*cuts, 10**9):
         calls: list[int] = []
 
@@ -148,6 +153,7 @@ def built_in_parts(directory: Path, cuts: tuple[int, ...], *, starts: int, hardw
             directory=directory,
             hardware=hardware,
             threads=threads,
+            processes=1 if cut in cuts else processes,
             stopping=partial(stopping, calls, cut),
         )
         assert (len(calls) > cut) == (cut in cuts)
@@ -163,14 +169,8 @@ def test_stopped_in_a_search_and_gone_on_with_it_has_the_same_bytes(tmp_path: Pa
 
 
 @pytest.mark.slow
-def test_stopped_anywhere_it_has_the_same_bytes(library: Library, tmp_path: Path) -> None:
-    built_in_parts(tmp_path, (3, 30, 15), starts=STARTS, hardware=HARDWARE, threads=2)
-    assert contents(tmp_path) == contents(library.directory)
-
-
-@pytest.mark.slow
-def test_processes_do_not_change_a_byte(library: Library, tmp_path: Path) -> None:
-    build(rolling(), starts=STARTS, directory=tmp_path, hardware=HARDWARE, processes=2)
+def test_stopped_anywhere_and_gone_on_with_in_processes_it_has_the_same_bytes(library: Library, tmp_path: Path) -> None:
+    built_in_parts(tmp_path, (3, 30, 15), starts=STARTS, hardware=HARDWARE, threads=2, processes=2)
     assert contents(tmp_path) == contents(library.directory)
 
 

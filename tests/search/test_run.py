@@ -572,7 +572,9 @@ def wait_for_generations(directory: Path, process: subprocess.Popen[str], count:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
-def test_a_process_that_is_stopped_can_be_gone_on_with(tmp_path: Path, number: signal.Signals) -> None:
+def test_a_process_that_is_stopped_can_be_gone_on_with(
+    tmp_path: Path, number: signal.Signals, capsys: pytest.CaptureFixture[str]
+) -> None:
     """The real thing: a signal in the middle, then as far as a run that was cut at the same place in its budget."""
     directory = tmp_path / "stopped"
     process = solve_in_a_process(directory)
@@ -589,14 +591,11 @@ def test_a_process_that_is_stopped_can_be_gone_on_with(tmp_path: Path, number: s
         assert Motion.load(directory / MOTION).meta["stopped"] == "interrupted"
     task, done = read_run(directory)[0], records(directory)
     assert 12 <= done < 500
-    refused = subprocess.run(
-        [sys.executable, "-m", "levade", "solve", "rearing", f"--out={directory}"],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert (refused.returncode, refused.stdout) == (2, "")
-    assert "holds an interrupted run (seed 3)" in refused.stderr
+    with pytest.raises(SystemExit, match="2"):
+        main(["solve", "rearing", f"--out={directory}"])
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert "holds an interrupted run (seed 3)" in said.err
 
     # both for twenty generations more, one of them from the start
     objective = make_objective(task)

@@ -76,14 +76,13 @@ def poses(simulation: RecordedSimulation) -> tuple[Array, list[Collision], Array
             if distance < 0:
                 bodies = sorted((model.body(one).name, model.body(other).name))
                 found.setdefault((bodies[0], bodies[1]), []).append((-distance, row))
-        for contact in data.contact:
-            pair = [int(geom) for geom in contact.geom]
-            one, other = (int(model.geom_bodyid[geom]) for geom in pair)
+        pairs, frames = data.contact.geom, data.contact.frame
+        for pair, (one, other), frame in zip(pairs.tolist(), model.geom_bodyid[pairs].tolist(), frames, strict=True):
             if one and other:
                 continue
             part = pair[1] if one == 0 else pair[0]
             if part in soles:
-                normals[row, soles[part]] = contact.frame[:3] if one == 0 else -contact.frame[:3]
+                normals[row, soles[part]] = frame[:3] if one == 0 else -frame[:3]
     collisions = [
         Collision(bodies, *_deepest(depths, motion["time"]), share=len({row for _, row in depths}) / steps)
         for bodies, depths in found.items()

@@ -82,7 +82,7 @@ def replay_contacts(simulation: RecordedSimulation) -> Contacts:
         velocity = data.qvel.copy()
         with quiet():
             mujoco.mj_step(model, data)
-        if any(warning.number for warning in data.warning):
+        if data.warning.number.any():
             break
         net, found = _pressing(model, data)
         for pair, force in net.items():
@@ -104,12 +104,14 @@ def _pressing(
     net: dict[tuple[int, int], Array] = {}
     found: dict[tuple[int, int], list[int]] = {}
     wrench = np.empty(6)
-    for i in np.flatnonzero(data.contact.efc_address >= 0).tolist():
-        one, other = (int(body) for body in model.geom_bodyid[data.contact.geom[i]])
+    contacts = data.contact
+    bodies, frames = model.geom_bodyid[contacts.geom].tolist(), contacts.frame
+    for i in np.flatnonzero(contacts.efc_address >= 0).tolist():
+        one, other = bodies[i]
         mujoco.mj_contactForce(model, data, i, wrench)
         if one == other or not np.linalg.norm(wrench[:3]) > _FORCE:
             continue
-        force = data.contact.frame[i].reshape(3, 3).T @ wrench[:3]
+        force = frames[i].reshape(3, 3).T @ wrench[:3]
         pair = (min(one, other), max(one, other))
         net[pair] = net.get(pair, 0.0) + (force if one < other else -force)
         found.setdefault(pair, []).append(i)

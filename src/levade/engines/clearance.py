@@ -176,10 +176,11 @@ def self_contacts(model: mujoco.MjModel, data: mujoco.MjData) -> Iterator[tuple[
         model: Robot and scene.
         data: Data after ``mj_collision``.
     """
-    for contact in data.contact:
-        one, other = sorted(int(model.geom_bodyid[geom]) for geom in contact.geom)
+    contacts = data.contact  # its arrays at once: one contact after the other takes ten times as long
+    bodies, distances = np.sort(model.geom_bodyid[contacts.geom], axis=-1), contacts.dist
+    for (one, other), distance in zip(bodies.tolist(), distances.tolist(), strict=True):
         if one and one != other:
-            yield one, other, float(contact.dist)
+            yield one, other, distance
 
 
 def distances_at(model: mujoco.MjModel, configurations: Array) -> Array:

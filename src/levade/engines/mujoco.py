@@ -93,7 +93,7 @@ class MujocoEngine(Engine):
         if steps:
             with quiet():
                 mujoco.mj_step(model, data, nstep=steps)
-        if any(warning.number for warning in data.warning):
+        if data.warning.number.any():
             raise broke_down(time)
         return self.layout.state(data.qpos, data.qvel, data.act, joint_reference=posture)
 

@@ -18,6 +18,7 @@ from levade.robots.loops import Coupling, follower_angles, open_loops, open_tend
 from levade.robots.reading import Draft, Keyframe
 from levade.robots.standing import Bare
 from levade.robots.understanding import FrameError, Leg, NoFootError, find_legs, find_trunk, level, roles
+from levade.robots.visuals import thin_visuals
 
 if TYPE_CHECKING:
     from levade.robots.description import RobotForm
@@ -70,6 +71,8 @@ def understand(draft: Draft, path: Path, form: RobotForm) -> tuple[Bare, Followe
     from levade.robots.description import per_joint
 
     model = draft.compile()
+    if not draft.urdf:  # of which the text is read again, with all meshes
+        thin_visuals(draft, model)
     where = str(path)
     trunk = find_trunk(model, where)
     if form.trunk is not None and model.body(trunk).name != form.trunk:

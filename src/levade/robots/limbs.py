@@ -16,7 +16,7 @@ import numpy as np
 
 from levade.arrays import Array
 from levade.errors import LevadeError
-from levade.robots.shapes import reach, support, thickness
+from levade.robots.shapes import lowest, reach, thickness
 from levade.robots.understanding import Leg, NoFootError, Tree, find_foot, level
 
 _HAND = 0.8
@@ -36,7 +36,6 @@ _SAME_PLACE = 0.05
 """Largest deviation of two limbs from mirror images, as a share of the distance between them; at least 2 cm."""
 _ENDS = {1: ("middle",), 2: ("front", "hind"), 3: ("front", "middle", "hind")}
 _SHORT = {"front": "f", "middle": "m", "hind": "h"}
-_DOWN = np.array([0.0, 0.0, -1.0])
 
 
 @dataclass
@@ -108,7 +107,7 @@ def read_limbs(model: mujoco.MjModel, trunk: int, where: str, wanted: Mapping[st
     pairs = _pairs(model, data, branches)
     standing = _standing(model, data, branches, pairs)
     body = _colliding(model, {b for b in range(model.nbody) if model.body_weldid[b] == model.body_weldid[trunk]})
-    floor = min((float(support(model, data, g, _DOWN)[2]) for g in body), default=0.0)
+    floor = min((lowest(model, data, g) for g in body), default=0.0)
     middle = float(data.subtree_com[trunk, 2])
     solid = all(_solid(model, tree, branch) for branch in standing)
     if (
@@ -222,7 +221,7 @@ def _solid(model: mujoco.MjModel, tree: Tree, branch: Branch) -> bool:
 def _lowest(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, body: int) -> float:
     """Return z of the lowest point of what a body carries [m]."""
     geoms = _colliding(model, tree.below(body))
-    return min((float(support(model, data, g, _DOWN)[2]) for g in geoms), default=np.inf)
+    return min((lowest(model, data, g) for g in geoms), default=np.inf)
 
 
 def _alike(model: mujoco.MjModel, data: mujoco.MjData, branch: Branch, standing: Sequence[Branch]) -> bool:
@@ -260,7 +259,7 @@ def _measure(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, branches: S
         points = [*data.xanchor[branch.joints], branch.tip]
         branch.start = float(points[0][2])
         branch.length = float(sum(np.linalg.norm(b - a) for a, b in itertools.pairwise(points)))
-        branch.low = min((float(support(model, data, g, _DOWN)[2]) for g in own), default=float(anchor[2]))
+        branch.low = min((lowest(model, data, g) for g in own), default=float(anchor[2]))
     moved = mujoco.MjData(model)
     hinges = [j for branch in branches for j in branch.joints if model.jnt_type[j] == mujoco.mjtJoint.mjJNT_HINGE]
     lower, upper = _ranges(model, hinges)
@@ -270,7 +269,7 @@ def _measure(model: mujoco.MjModel, data: mujoco.MjData, tree: Tree, branches: S
         mujoco.mj_kinematics(model, moved)
         for branch, own in zip(branches, geoms, strict=True):
             for g in own:
-                branch.low = min(branch.low, float(support(model, moved, g, _DOWN)[2]))
+                branch.low = min(branch.low, lowest(model, moved, g))
 
 
 def _ranges(model: mujoco.MjModel, joints: Sequence[int]) -> tuple[Array, Array]:
@@ -404,7 +403,7 @@ def _pads(model: mujoco.MjModel, data: mujoco.MjData, foot: str) -> tuple[str, .
     """
     geom = model.geom(foot).id
     own = _colliding(model, {int(model.geom_bodyid[geom])})
-    low = {g: float(support(model, data, g, _DOWN)[2]) for g in own}
+    low = {g: lowest(model, data, g) for g in own}
     pads = [g for g in own if low[g] <= min(low.values()) + _PAD * thickness(model, geom)]
     return tuple(model.geom(g).name for g in pads) if len(pads) > 1 and geom in pads else ()
 

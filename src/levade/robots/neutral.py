@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from levade.arrays import Array
-from levade.robots.shapes import support
+from levade.robots.shapes import lowest
 from levade.robots.standing import Bare
 from levade.robots.understanding import Leg
 
@@ -36,7 +36,6 @@ _ATTEMPTS = 4
 """Most searches, each from the best result so far, until the robot is balanced."""
 _STOP = 0.06
 """Margin between a posture and the ends of a joint's range, as a share of the range; at most 0.1 rad."""
-_DOWN = np.array([0.0, 0.0, -1.0])
 DIGITS = 4
 """Digits of a posture's angles [rad]."""
 
@@ -85,11 +84,15 @@ class PostureSearch:
         self.torque = np.where(np.isfinite(torque) & (torque > 0), torque, np.inf)
         spans = np.clip(np.array([bare.ranges[name] for name in bare.joints], dtype=float), -np.pi, np.pi)
         self.lower, self.upper = spans[:, 0], spans[:, 1]
+        width = np.maximum(self.upper - self.lower, 1e-6)
+        self._ease = np.clip(0.0, self.lower + width / 6, self.upper - width / 6)
+        self._width, self._room = np.minimum(width, 3.0), np.minimum(_STOP * width, 0.1)
         self.zero = np.clip(np.zeros(len(bare.joints)), self.lower, self.upper)
         geoms = [g for g in range(model.ngeom) if model.geom_contype[g] or model.geom_conaffinity[g]]
         self.soles = tuple(self._sole(leg) for leg in bare.standing)
         feet = {int(model.geom_bodyid[g]) for sole in self.soles for g in sole.geoms}
         self._shapes = np.array([g for g in geoms if int(model.geom_bodyid[g]) not in feet], dtype=int)
+        self._bounds = model.geom_rbound[self._shapes]
         self._free = int(model.jnt_dofadr[model.body_jntadr[bare.trunk]])
         self._near = _near(model)
         self._put(self.zero)
@@ -224,17 +227,18 @@ class PostureSearch:
         leaders, followers, signs, images = alike or self._leaders(limbs)
         lower, upper = self.lower[leaders], self.upper[leaders]
         scale = np.maximum(np.minimum(upper - lower, 2.0) * 0.25, 1e-3)
+        least, most = self.lower[followers], self.upper[followers]
         centre = angles[leaders]
 
         def posture(u: Array) -> Array:
             made = angles.copy()
-            made[leaders] = np.clip(centre + u * scale, lower, upper)
-            made[followers] = np.clip(signs * made[images], self.lower[followers], self.upper[followers])
+            made[leaders] = np.minimum(np.maximum(centre + u * scale, lower), upper)
+            made[followers] = np.minimum(np.maximum(signs * made[images], least), most)
             return made
 
         def total(u: Array) -> float:
             x = centre + u * scale
-            over = (x - np.clip(x, lower, upper)) / scale
+            over = (x - np.minimum(np.maximum(x, lower), upper)) / scale
             return cost(posture(u)) + 10.0 * float(over @ over)
 
         options = {
@@ -349,17 +353,15 @@ class PostureSearch:
 
     def _comfort(self, angles: Array) -> float:
         """Cost of angles far from zero and outside the middle two thirds of the range, and of those near its ends."""
-        width = np.maximum(self.upper - self.lower, 1e-6)
-        ease = np.clip(0.0, self.lower + width / 6, self.upper - width / 6)
-        off = (angles - ease) / np.minimum(width, 3.0)
-        room = np.minimum(_STOP * width, 0.1)
+        off = (angles - self._ease) / self._width
+        room = self._room
         short = np.maximum(0.0, room - np.minimum(angles - self.lower, self.upper - angles)) / room
         return 0.2 * float(off @ off) + 0.5 * float(short @ short)
 
     def _load(self, centres: Array) -> float:
         """Cost of the torque that carries the robot on vertical foot forces, as shares of the limits."""
         model, data, nv = self.model, self.data, self.model.nv
-        bias, jacobian = np.zeros(nv), np.zeros((3, nv))
+        bias, jacobian = np.empty(nv), np.empty((3, nv))
         mujoco.mj_comVel(model, data)
         mujoco.mj_rne(model, data, 0, bias)
         rows = np.empty((len(self.soles), nv))
@@ -373,15 +375,17 @@ class PostureSearch:
 
     def _clearance_cost(self, low: float) -> float:
         """Cost of parts other than soles near the ground, and of parts inside another."""
-        reach = self.data.geom_xpos[self._shapes, 2] - np.asarray(self.model.geom_rbound)[self._shapes] - low
+        reach = self.data.geom_xpos[self._shapes, 2] - self._bounds - low
         cost = 0.0
         for geom in self._shapes[reach < 0.05 * self.scale]:
-            above = float(support(self.model, self.data, int(geom), _DOWN)[2]) - low
+            above = lowest(self.model, self.data, int(geom)) - low
             cost += 20.0 * min(0.0, above / self.scale - 0.05) ** 2
         return cost + self._overlap_cost()
 
     def _overlap_cost(self) -> float:
         mujoco.mj_collision(self.model, self.data)
+        if not self.data.ncon:
+            return 0.0
         contact = self.data.contact
         bodies = np.asarray(self.model.geom_bodyid)[contact.geom]
         deep = np.minimum(contact.dist[~self._near[bodies[:, 0], bodies[:, 1]]], 0.0) / self.scale
@@ -417,12 +421,12 @@ class PostureSearch:
 
     def _centre(self, sole: Sole) -> Array:
         """Return the middle of the sole's shapes [m], shape (3,)."""
-        places = [self.data.geom_xpos[g] + self.data.geom_xmat[g].reshape(3, 3) @ self.model.geom_aabb[g, :3]
-                  for g in sole.geoms]  # fmt: skip
+        place, turn, box = self.data.geom_xpos, self.data.geom_xmat, self.model.geom_aabb
+        places = [place[g] + turn[g].reshape(3, 3) @ box[g, :3] for g in sole.geoms]
         return np.sum(places, axis=0) / len(places)
 
     def _lowest(self, sole: Sole) -> float:
-        return min(float(support(self.model, self.data, g, _DOWN)[2]) for g in sole.geoms)
+        return min(lowest(self.model, self.data, g) for g in sole.geoms)
 
     def _normal(self, sole: Sole) -> Array:
         """Return the upward normal of the sole, shape (3,), judged by the direction in which its shapes are thinnest."""

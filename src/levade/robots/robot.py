@@ -260,6 +260,11 @@ class Robot:
         mujoco.mj_comPos(self.model, data)
         return data
 
+    @cached_property
+    def zero_data(self) -> mujoco.MjData:
+        """`data_at` zero angles. Do not change it."""
+        return self.data_at(np.zeros(len(self.joint_names)))
+
     def foot_positions(self, joint_position: Array) -> Array:
         """Compute the centres of the feet in the trunk frame.
 
@@ -305,7 +310,7 @@ class Robot:
     @cached_property
     def leg_geometry(self) -> tuple[LegGeometry, ...]:
         """The legs as costs and criteria see them, in leg order."""
-        stood, data = self.data_at(self.postures["neutral"]), self.data_at(np.zeros(len(self.joint_names)))
+        stood, data = self.data_at(self.postures["neutral"]), self.zero_data
         geometry = []
         for leg in self.legs:
             joints, indices = [data.joint(name) for name in leg.joints], self.joint_indices(leg)
@@ -361,7 +366,7 @@ class Robot:
     @cached_property
     def trunk_balls(self) -> Array:
         """Balls around the parts of the trunk that can touch [m], shape (k, 4); see `levade.embodiment.Embodiment`."""
-        model, data = self.model, self.data_at(np.zeros(len(self.joint_names)))
+        model, data = self.model, self.zero_data
         touching = (model.geom_contype | model.geom_conaffinity) != 0
         geoms = np.flatnonzero(touching & np.isin(model.geom_bodyid, self.trunk_parts))
         return np.concatenate([np.zeros((0, 4)), *(balls(model, data, int(geom)) for geom in geoms)])

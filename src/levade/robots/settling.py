@@ -89,7 +89,7 @@ def settle(robot: Robot, *, stiff: bool = False, time: float = TIME, push: tuple
     up = data.xmat[trunk].reshape(3, 3)[2, 2]
     com = float(robot.trunk_com_offset @ data.xmat[trunk].reshape(3, 3)[2]) + float(data.xpos[trunk, 2])
     sag = height + float(robot.trunk_com_offset[2]) - com
-    broken = any(said.number for said in data.warning) or not np.isfinite(data.qpos).all()
+    broken = bool(data.warning.number.any()) or not np.isfinite(data.qpos).all()
     return Settled(sag, math.acos(float(np.clip(up, -1.0, 1.0))) if not broken else math.pi, depth, broken)
 
 

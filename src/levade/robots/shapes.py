@@ -29,7 +29,23 @@ def support(model: mujoco.MjModel, data: mujoco.MjData, geom: int, direction: Ar
     """
     rotation = data.geom_xmat[geom].reshape(3, 3)
     unit = np.asarray(direction, dtype=float) / np.linalg.norm(direction)
-    d = rotation.T @ unit
+    return data.geom_xpos[geom] + rotation @ _farthest(model, geom, rotation.T @ unit)
+
+
+def lowest(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> float:
+    """Compute the height of a geom's lowest point in the world [m]: that of `support` downward, in less time.
+
+    Args:
+        model: The model.
+        data: Its kinematics.
+        geom: Id of the geom.
+    """
+    rotation = data.geom_xmat[geom].reshape(3, 3)
+    return float(data.geom_xpos[geom][2] + (rotation @ _farthest(model, geom, -rotation[2]))[2])
+
+
+def _farthest(model: mujoco.MjModel, geom: int, d: Array) -> Array:
+    """Return the point that is farthest in a direction of unit length, both in the geom's frame, shape (3,)."""
     size, kind = model.geom_size[geom], int(model.geom_type[geom])
     sign = np.where(d < 0, -1.0, 1.0)
     if kind == _SPHERE:
@@ -51,7 +67,7 @@ def support(model: mujoco.MjModel, data: mujoco.MjData, geom: int, direction: Ar
         point = vertices[int(np.argmax(vertices @ d))].astype(float)
     else:  # the box around it
         point = model.geom_aabb[geom, :3] + sign * model.geom_aabb[geom, 3:]
-    return data.geom_xpos[geom] + rotation @ point
+    return point
 
 
 def reach(model: mujoco.MjModel, data: mujoco.MjData, geom: int, origin: Array) -> float:

@@ -69,7 +69,7 @@ def _turned_signs(robot: Robot, leader: Leg, follower: Leg) -> Array | None:
 
     Each leg is described in its own frame: outward, across and up; across is reversed for legs on different sides.
     """
-    data = robot.data_at(np.zeros(len(robot.joint_names)))
+    data = robot.zero_data
     shapes = []
     for leg in (leader, follower):
         joints = [data.joint(joint) for joint in leg.joints]
@@ -93,7 +93,7 @@ def _turned_signs(robot: Robot, leader: Leg, follower: Leg) -> Array | None:
 
 def _signs(robot: Robot, leader: Leg, follower: Leg, mirror: Array) -> Array:
     """Find the signs for one mirror of +-1, shape (3,). A LevadeError says how far the legs are from mirror images."""
-    data = robot.data_at(np.zeros(len(robot.joint_names)))
+    data = robot.zero_data
     both = [[data.joint(joint) for joint in leg.joints] for leg in (leader, follower)]
     axes = np.array([[joint.xaxis for joint in leg] for leg in both])  # (2, joints, 3)
     anchors = np.array([[joint.xanchor for joint in leg] for leg in both])

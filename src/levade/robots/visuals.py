@@ -11,10 +11,12 @@ from levade.robots.reading import Draft
 
 _SMALL = 150_000
 """Smaller meshes are kept unchanged [bytes]."""
+_COARSE = ".coarse.stl"
+"""What the names of coarse meshes end with."""
 
 
 def thin_visuals(draft: Draft, model: mujoco.MjModel) -> None:
-    """Replace large visual meshes by coarse ones, and drop textures, which no longer fit.
+    """Replace large visual meshes by coarse ones, and drop textures, which no longer fit. Coarse ones stay as they are.
 
     Args:
         draft: The model; its spec and assets are changed.
@@ -25,10 +27,10 @@ def thin_visuals(draft: Draft, model: mujoco.MjModel) -> None:
     weighing = {geom.meshname for geom in spec.geoms if geom.meshname and not geom.parent.explicitinertial}
     for mesh in spec.meshes:
         content = draft.assets.get(mesh.file, b"")
-        if mesh.name in colliding or mesh.name in weighing or len(content) <= _SMALL:
+        if mesh.name in colliding or mesh.name in weighing or len(content) <= _SMALL or mesh.file.endswith(_COARSE):
             continue
         triangles = _triangles(model, mesh.name)
-        name = f"{mesh.name.replace('/', '-')}.coarse.stl"
+        name = f"{mesh.name.replace('/', '-')}{_COARSE}"
         draft.assets[name] = stl(cluster(triangles))
         mesh.file, mesh.scale = name, [1.0, 1.0, 1.0]
         mesh.refpos, mesh.refquat = [0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]
