@@ -160,6 +160,20 @@ def test_a_family_of_falls_has_every_attitude_and_posture_alike(robot: Robot, en
     np.testing.assert_array_equal(np.concatenate([state.joint_reference for state in released]), qpos[:, 7:])
 
 
+def test_a_joint_that_turns_more_than_once_falls_within_a_turn(robot: Robot, engine: Engine) -> None:
+    """An angle and the same one a turn further are one posture: such a joint would have turns to wind back first."""
+    lower, upper = robot.limits.lower.copy(), robot.limits.upper.copy()
+    knees = [i for i, name in enumerate(robot.joint_names) if name.endswith("_kfe")]
+    lower[knees], upper[knees] = [-9.0, 0.0, -np.inf, -np.inf], [9.0, 9.0, np.inf, -1.0]
+    turning = replace(robot, limits=replace(robot.limits, lower=lower, upper=upper))
+    released = [start_state(engine, turning, Scene(), Fallen(1.0, time=0.0, index=i)) for i in range(60)]
+    angles = np.concatenate([state.joint_reference for state in released])[:, knees]
+    first = np.array([-np.pi, 0.0, -np.pi, -1.0 - 2 * np.pi])
+    assert (angles >= first).all()
+    assert (angles <= first + 2 * np.pi).all()
+    assert (np.ptp(angles, axis=0) > np.pi).all()
+
+
 def test_nothing_of_a_fall_overlaps_when_it_begins(robot: Robot) -> None:
     """Beside a wall that many attitudes would reach into, on a slope: by MuJoCo's own contacts."""
     wall = Box((0.9, 0.0, 1.0), (0.1, 4.0, 3.0))

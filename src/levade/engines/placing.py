@@ -157,10 +157,7 @@ def _fallen(engine: Engine, robot: Robot, scene: Scene, start: Fallen) -> State:
     generator = np.random.default_rng((start.seed, start.index, _FAMILY))
     attitude = generator.standard_normal(4)
     attitude /= np.linalg.norm(attitude)
-    lower, upper = (
-        np.where(np.isfinite(one), one, turn)
-        for one, turn in ((robot.limits.lower, -np.pi), (robot.limits.upper, np.pi))
-    )
+    lower, upper = _within_a_turn(robot.limits.lower, robot.limits.upper)
     height = start.height + float(scene.ground_height(np.array([start.x]), np.array([start.y]))[0])
     overlap = ""
     for _ in range(_DRAWS):
@@ -174,6 +171,13 @@ def _fallen(engine: Engine, robot: Robot, scene: Scene, start: Fallen) -> State:
         f"start.fallen: {overlap} in the last of {_DRAWS} postures that were drawn; move the robot (start) or the obstacle"
         " (scene)"
     )
+
+
+def _within_a_turn(lower: Array, upper: Array) -> tuple[Array, Array]:
+    """Return the ranges of joints [rad], and of those wider than a turn the turn around zero, as far as they reach."""
+    begin = np.clip(-np.pi, lower, upper - 2 * np.pi)
+    wide = upper - lower > 2 * np.pi
+    return np.where(wide, begin, lower), np.where(wide, begin + 2 * np.pi, upper)
 
 
 def _given(engine: Engine, start: GivenState) -> State:

@@ -107,8 +107,8 @@ class Fold:
 class Fallen:
     """Lying after one of a family of falls, from any attitude and with any posture.
 
-    The attitude is uniform over all rotations. Each joint's angle is uniform over its range, or a whole turn if it has none.
-    All angles are drawn again if parts of the robot overlap each other or an obstacle.
+    The attitude is uniform over all rotations. Each joint's angle is uniform over its range, or over a turn if that is
+    less. All angles are drawn again if parts of the robot overlap each other or an obstacle.
 
     Attributes:
         height: Height of the trunk's origin over the ground below it at release [m]. It is higher if a part of the robot would
