@@ -15,7 +15,7 @@ from mujoco.batch import Batch
 from numpy.typing import NDArray
 
 from levade.arrays import Array
-from levade.engines.batches import RESET_OFF, SENSORS_OFF, STATE, quiet, simulate
+from levade.engines.batches import ISLANDS_OFF, RESET_OFF, SENSORS_OFF, STATE, quiet, simulate
 from levade.engines.clearance import SELF_DISTANCE, distances, distances_at
 from levade.engines.engine import Engine, Trials, broke_down
 from levade.engines.lean import Lean
@@ -162,6 +162,7 @@ class MujocoEngine(Engine):
         if batch is None or batch.nsim < n:
             model = copy.deepcopy(self._free if versions else self._lean.model)
             model.opt.disableflags |= RESET_OFF | (0 if sensors is None or sensors else SENSORS_OFF)
+            model.opt.disableflags |= ISLANDS_OFF if model.ntree == 1 else 0
             if sensors:  # all of them together take as long as a fifth of the physics
                 model.sensor_needstage[~np.isin(model.sensor_adr, sensors)] = mujoco.mjtStage.mjSTAGE_NONE
             batch = self._batches[sensors, versions] = Batch(model, n, self.threads)
