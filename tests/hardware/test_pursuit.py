@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -31,6 +31,7 @@ from levade.hardware import (
     pursue,
     read_pursuit,
 )
+from levade.hardware.part import Rank
 from levade.hardware.pursuit import Observe
 from levade.hardware.state import ASKED
 from levade.motions import Motion
@@ -113,6 +114,33 @@ def test_what_barely_passes_is_not_sure(found: Pursued, successes: int, runs: in
     part = replace(found.best, certificate=replace(found.certificate, perturbed=seen))
     assert part.sure is sure
     assert not replace(part, certificate=None).sure
+
+
+def ranked(found: Pursued, share: float, *, fails: Sequence[str] = (), limit: bool = False) -> Rank:
+    """The rank of a certificate with another share, which fails in some variants, and keeps a limit or not."""
+    known = found.certificate
+    numerics = {name: replace(one, success=name not in fails) for name, one in known.numerics.items()}
+    margins = {**known.margins, "speed": replace(known.margins["speed"], passed=not limit)}
+    runs = replace(known.perturbed, successes=round(100 * share), runs=100)
+    return replace(found.best, certificate=replace(known, perturbed=runs, numerics=numerics, margins=margins)).rank
+
+
+def test_of_motions_that_fail_the_nearest_to_passing_is_best(found: Pursued) -> None:
+    contacts = ["softer contact", "stiffer contact"]
+    order = [
+        ranked(found, 0.97),
+        ranked(found, 0.96),
+        ranked(found, 0.99, fails=contacts[:1]),
+        ranked(found, 0.96, fails=contacts),
+        ranked(found, 0.84, fails=contacts),
+        ranked(found, 0.43, fails=contacts[:1]),
+        ranked(found, 0.43, fails=contacts),
+        ranked(found, 1.0, limit=True),
+        replace(found.best, certificate=replace(found.certificate, interrupted=True)).rank,
+        replace(found.best, certificate=None).rank,
+    ]
+    assert order == sorted(order)
+    assert len(set(order)) == len(order)
 
 
 def test_called_again_it_searches_no_more(found: Pursued) -> None:

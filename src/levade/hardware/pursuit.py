@@ -40,7 +40,7 @@ from levade.document import read_yaml
 from levade.errors import LevadeError, Remedy
 from levade.hardware.budget import FEW, Budget
 from levade.hardware.page import write_certificate
-from levade.hardware.part import Part, Pursued
+from levade.hardware.part import Part, Pursued, rank
 from levade.hardware.starts import rough_start
 from levade.hardware.state import (
     ASKED,
@@ -488,9 +488,8 @@ class _Pursuit:
             return False
         try:
             there = read_yaml(place)
-            rank = (bool(there["interrupted"]), len(there["failed"]), -float(there["perturbed"]["share"]))
             demands = None if part.certificate is None else part.certificate.to_json()["demands"]
-            return there["demands"] == demands and rank < part.rank
+            return there["demands"] == demands and rank(there) < part.rank
         except (LevadeError, LookupError, TypeError, ValueError):
             return False
 
