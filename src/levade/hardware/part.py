@@ -32,10 +32,10 @@ def rank(certificate: Mapping[str, Any]) -> Rank:
         LookupError: If something is missing. TypeError and ValueError mean that something is of another kind.
     """
     failed, demanded = certificate["failed"], certificate["demands"]["share"]
-    limits = {name.replace("_", " ") for name in certificate["margins"]}
+    beyond = sum(margin["passed"] is False for margin in certificate["margins"].values())
     share = float(certificate["perturbed"]["share"])
     enough = 0.0 if demanded is None else min(share, demanded)
-    return bool(certificate["interrupted"]), sum(name in limits for name in failed), -enough, len(failed), -share
+    return bool(certificate["interrupted"]), beyond, -enough, len(failed), -share
 
 
 @dataclass(frozen=True, eq=False)

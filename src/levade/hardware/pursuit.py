@@ -484,12 +484,11 @@ class _Pursuit:
     def _better_there(self, part: Part) -> bool:
         """Whether an earlier call left a motion with a better certificate for the same demands."""
         place = self._directory / CERTIFICATE
-        if not place.is_file() or not (self._directory / MOTION).is_file():
+        if part.certificate is None or not place.is_file() or not (self._directory / MOTION).is_file():
             return False
         try:
-            there = read_yaml(place)
-            demands = None if part.certificate is None else part.certificate.to_json()["demands"]
-            return there["demands"] == demands and rank(there) < part.rank
+            there, found = read_yaml(place), part.certificate.to_json()
+            return there["demands"] == found["demands"] and rank(there) < rank(found)
         except (LevadeError, LookupError, TypeError, ValueError):
             return False
 
