@@ -132,6 +132,7 @@ def test_a_peer_that_breaks_down_says_where_to_look(case: ModuleType, job, tmp_p
 @pytest.mark.parametrize(
     ("task", "changes"),
     [
+        ("rearing", ()),
         ("posture-recovery", ("hold=0.04",)),
         ("squat-jump", ("hold=0.04",)),
         ("rearing", ("costs.effort={term: ground_contact, bodies: [trunk, lf_foot], weight: 3}",)),
