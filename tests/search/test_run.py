@@ -119,6 +119,17 @@ def test_an_interrupted_run_goes_on_to_the_same_end(
     assert_same_end(tmp_path, whole)
 
 
+def test_a_task_with_integers_from_python_goes_on(objective: Objective, tmp_path: Path) -> None:
+    """A file reads 0 as 0.0 where a number belongs: the same task, and the second search of a pursuit has such a setting."""
+    task = objective.task
+    search = dataclasses.replace(task.search, optimizer="cma-aimed", settings={"aimed": 0})
+    counted = dataclasses.replace(task, hold=0, search=search)
+    run(counted, seed=3, threads=1, directory=tmp_path, observe=stop_after(2))
+    outcome = resume(tmp_path, threads=1, observe=lambda g: Stopped.INTERRUPTED if g.generation == 4 else None)
+    assert outcome.solution.generations == 4
+    assert records(tmp_path) == 4
+
+
 @pytest.mark.slow
 def test_an_observer_ends_a_run_as_ctrl_c_does(
     objective: Objective, whole: Outcome, tmp_path: Path, assert_same_end: SameEnd

@@ -37,7 +37,7 @@ from levade.search.progress import PROGRESS, Progress
 from levade.search.recording import record
 from levade.search.search import Steer
 from levade.search.storage import closing, storing
-from levade.tasks import Change, Task, task_checksum, task_from_dict, task_to_yaml
+from levade.tasks import Change, Task, task_checksum, task_from_dict, task_to_dict, task_to_yaml
 from levade.writing import write_text
 
 TASK, MOTION = "task.yaml", "motion.npz"
@@ -103,7 +103,7 @@ def run(
     objective = task if isinstance(task, Objective) else make_objective(task, threads=threads)
     task = objective.task
     made = versions(task.physics.engine)
-    header = Header(task.name, seed, made, _checksum(task), None if initial is None else initial.to_json())
+    header = Header(task.name, seed, made, _checksum(_as_read(task)), None if initial is None else initial.to_json())
     new = not directory.exists()
     with ExitStack() as stack:
         try:
@@ -345,6 +345,11 @@ class _Run:
             return factors
 
         return steering
+
+
+def _as_read(task: Task) -> Task:
+    """Return a task as its file reads when the run goes on: numbers that Python code gave as integers are floats there."""
+    return task_from_dict(task_to_dict(task, code=True), where=TASK, code=True)
 
 
 def _checksum(task: Task) -> int:
