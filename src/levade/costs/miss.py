@@ -10,8 +10,9 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from levade.arrays import Array
+from levade.costs.quantities import Legs, Quantity
 from levade.costs.rows import mean_in, mean_over_rows
-from levade.costs.success import Criterion, Legs, Quantity
+from levade.costs.success import Criterion
 from levade.errors import LevadeError
 from levade.trajectory import Trajectories
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, get_args
 
 import numpy as np
 
@@ -17,12 +17,14 @@ from levade.costs.rows import (
     rows_at,
     squared_distance,
 )
-from levade.errors import LevadeError
+from levade.errors import LevadeError, did_you_mean
 from levade.rotations import conjugate, roll_pitch_yaw, rotate
 from levade.trajectory import Trajectories
 
 Frame = Literal["world", "trunk", "heading"]
 """Axes of a velocity: the world's; the trunk's; or the world's turned about z until x is the trunk's heading (yaw)."""
+
+_FRAMES: tuple[str, ...] = get_args(Frame)
 
 
 @dataclass(frozen=True)
@@ -57,7 +59,7 @@ class LinearVelocity:
         rows = rows_at(trajectories, self.at)
         velocity = trajectories.trunk_com_velocity(rows)
         if self.frame != "world":
-            velocity = _from_world(velocity, trajectories.trunk_quaternion[:, rows], self.frame)
+            velocity = from_world(velocity, trajectories.trunk_quaternion[:, rows], self.frame)
         return squared_distance(velocity, (self.x, self.y, self.z), self.tolerance)
 
 
@@ -94,7 +96,7 @@ class AngularVelocity:
         velocity = trajectories.trunk_angular_velocity[:, rows]
         if self.frame != "trunk":
             quaternion = trajectories.trunk_quaternion[:, rows]
-            velocity = _from_world(rotate(quaternion, velocity), quaternion, self.frame)
+            velocity = from_world(rotate(quaternion, velocity), quaternion, self.frame)
         return squared_distance(velocity, (self.x, self.y, self.z), self.tolerance)
 
 
@@ -136,8 +138,17 @@ class JointVelocity:
         return mean_over_rows(beyond(np.square(velocity), self.tolerance).sum(axis=2))
 
 
-def _from_world(velocity: Array, quaternion: Array, frame: Frame) -> Array:
-    """Turn a velocity in world axes, shape (n, rows, 3), into the axes of another frame."""
+def from_world(velocity: Array, quaternion: Array, frame: Frame) -> Array:
+    """Turn a velocity in world axes into the axes of another frame.
+
+    Args:
+        velocity: Velocity, shape (n, rows, 3).
+        quaternion: The trunk's attitude, shape (n, rows, 4).
+        frame: The frame.
+
+    Returns:
+        The same velocity in its axes, shape (n, rows, 3).
+    """
     if frame == "world":
         return velocity
     if frame == "trunk":
@@ -149,5 +160,5 @@ def _from_world(velocity: Array, quaternion: Array, frame: Frame) -> Array:
 
 
 def _check_frame(term: str, frame: str) -> None:
-    if frame not in ("world", "trunk", "heading"):
-        raise LevadeError(f"{term}.frame: {frame!r} is unknown; world, trunk or heading")
+    if frame not in _FRAMES:
+        raise LevadeError(f"{term}.frame: {frame!r} is unknown; {did_you_mean(frame, _FRAMES)}")

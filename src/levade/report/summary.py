@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from levade.costs import Criterion
-from levade.costs.success import CIRCULAR, unit_of
+from levade.costs.quantities import CIRCULAR, unit_of
 from levade.motions import Motion
 from levade.tasks import is_unchanged, task_to_yaml
 

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from levade.costs.success import QUANTITIES
+from levade.costs.quantities import QUANTITIES
 from levade.document import CONTROL, build, check_keys, kind_of, parse_yaml, read_text
 from levade.errors import LevadeError, did_you_mean
 from levade.optimizers import canonical

@@ -17,7 +17,7 @@ from collections.abc import Mapping
 from typing import Any, Literal
 
 from levade.costs import Criterion
-from levade.costs.success import QUANTITIES
+from levade.costs.quantities import QUANTITIES
 from levade.engines import ENGINES
 from levade.tasks.families import FAMILIES
 from levade.tasks.files import BY_STANCE, BY_VARIANT, EXTENDS, VARIANT, VARIANTS

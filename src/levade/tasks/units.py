@@ -11,7 +11,7 @@ import re
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from levade.costs.success import QUANTITIES
+from levade.costs.quantities import QUANTITIES
 from levade.errors import LevadeError, did_you_mean
 from levade.robots import Dimensions
 

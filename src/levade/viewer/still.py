@@ -21,7 +21,7 @@ import numpy as np
 
 from levade.arrays import Array
 from levade.costs import Posture
-from levade.costs.success import unit_of
+from levade.costs.quantities import unit_of
 from levade.errors import LevadeError
 from levade.report.packing import pack, pack_unit
 from levade.report.scene import body_poses, goal_box, goal_text, put_together

@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 
 from levade.arrays import Array
-from levade.costs.success import unit_of
+from levade.costs.quantities import unit_of
 from levade.errors import LevadeError, did_you_mean
 from levade.motions import Motion
 from levade.search import Generation, Objective, Stopped
