@@ -16,6 +16,7 @@ from levade.costs import (
     JointVelocity,
     LinearVelocity,
     Margins,
+    Measure,
     Miss,
     Orientation,
     Position,
@@ -23,6 +24,7 @@ from levade.costs import (
     ReferenceLimitExcess,
     SpeedLimitExcess,
     TorqueLimitExcess,
+    evaluate,
 )
 from levade.trajectory import Trajectories
 
@@ -104,6 +106,28 @@ def test_a_criterion_of_each_trial_is_that_of_the_trial_alone(
     judged = [CRITERIA[name].judge(cut(together, trial)) for trial in range(4)]
     for i, values in enumerate(CRITERIA[name].judge(aligned)):
         np.testing.assert_array_equal(values, [one[i][0] for one in judged])
+
+
+OWN = {
+    "sum": lambda t: np.square(t.joint_torque).sum(axis=(1, 2)) * t.timestep,
+    "rows": lambda t: np.full(t.n, float(t.steps)),
+    "horizon": lambda t: t.trunk_position[:, t.horizon_steps - 1, 2],
+    "moved": lambda t: t.trunk_position[:, -1, 0] - t.trunk_position[:, 0, 0],
+}
+RISEN = Measure("risen", "m", lambda t, rows: np.cumsum(np.abs(t.trunk_position[..., 2]), axis=1)[:, rows])
+
+
+@pytest.mark.parametrize("name", OWN)
+def test_a_function_of_ones_own_sees_each_trial_alone(together: Trajectories, aligned: Trajectories, name: str) -> None:
+    alone = [OWN[name](cut(together, trial))[0] for trial in range(4)]
+    np.testing.assert_array_equal(evaluate({"own": OWN[name]}, aligned)["own"], alone)
+
+
+@pytest.mark.parametrize("at", ["horizon", "end", "max", "min", "hold"])
+def test_a_measure_of_ones_own_sees_each_trial_alone(together: Trajectories, aligned: Trajectories, at: str) -> None:
+    criterion = Criterion(RISEN, target=0.1, tolerance=0.1, at=at)  # type: ignore[arg-type]
+    alone = [criterion.error(cut(together, trial))[0] for trial in range(4)]
+    np.testing.assert_array_equal(criterion.error(aligned), alone)
 
 
 def test_one_of_them_alone_has_its_own_rows(together: Trajectories, aligned: Trajectories) -> None:

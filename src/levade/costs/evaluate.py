@@ -11,13 +11,18 @@ from levade.errors import LevadeError, did_you_mean
 from levade.trajectory import Trajectories
 
 Term = Callable[[Trajectories], Array]
-"""A function from Trajectories to unweighted values, shape (n,): a dataclass of this package, or any other."""
+"""A function from Trajectories to unweighted values, shape (n,): a dataclass of this package, or any other. Where trials have
+different horizons, another function gets them one by one, each without rows that are not its own."""
 
 DIVERGED = 1e12
 """Cost, and value of every term, of a trial that diverged. It is above that of any other trial, so the trial ranks last."""
 
 HIGHEST = 1e11
 """Largest cost, and largest value of a term, of a trial that did not diverge."""
+
+
+_OWN = "levade.costs."
+"""Where terms are defined that leave out rows before a trial begins (`Trajectories.begin`) themselves."""
 
 
 def within(values: Array, bound: float) -> Array:
@@ -54,12 +59,21 @@ def evaluate(terms: Mapping[str, Term], trajectories: Trajectories) -> dict[str,
     values: dict[str, Array] = {}
     with np.errstate(all="ignore"):  # broken trials overflow; they are dealt with below
         for name, term in terms.items():
-            value = np.asarray(term(trajectories), dtype=np.float64)
-            if value.shape != (trajectories.n,):
-                raise LevadeError(f"{name}: the term returned {value.shape}; one number per trial, ({trajectories.n},)")
+            if trajectories.begin is None or type(term).__module__.startswith(_OWN):
+                value = _values(name, term, trajectories)
+            else:
+                value = np.concatenate([_values(name, term, trajectories.alone(i)) for i in range(trajectories.n)])
             bad = trajectories.diverged | ~np.isfinite(value)
             values[name] = np.where(bad, DIVERGED, within(value, HIGHEST))
     return values
+
+
+def _values(name: str, term: Term, trajectories: Trajectories) -> Array:
+    """Evaluate one term, and check that it returns one number per trial."""
+    value = np.asarray(term(trajectories), dtype=np.float64)
+    if value.shape != (trajectories.n,):
+        raise LevadeError(f"{name}: the term returned {value.shape}; one number per trial, ({trajectories.n},)")
+    return value
 
 
 def total(values: Mapping[str, Array], weights: Mapping[str, float]) -> Array:

@@ -177,6 +177,12 @@ def _angle(quantity: str, trajectories: Trajectories, rows: slice) -> Array:
 
 def _measured(measure: Measure, trajectories: Trajectories, rows: slice) -> Array:
     """Compute a `Measure`, shape (n, rows). Raises LevadeError if it returns another shape."""
+    if trajectories.begin is not None:  # each trial alone: a function may sum over rows, or look at the first one
+        values = np.empty((trajectories.n, trajectories.steps))
+        for i, first in enumerate(trajectories.begin.tolist()):
+            values[i, first:] = _measured(measure, trajectories.alone(i), slice(None))[0]
+            values[i, :first] = values[i, first]
+        return values[:, rows]
     values = np.asarray(measure.function(trajectories, rows), dtype=np.float64)
     expected = (trajectories.n, len(range(*rows.indices(trajectories.steps))))
     if values.shape != expected:
