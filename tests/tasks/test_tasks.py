@@ -34,6 +34,7 @@ from levade.tasks import (
 from levade.tasks.units import UNITS, to_si
 
 BUILT_IN = list(available_tasks())
+RANGE = {"minimum": 0.2, "maximum": 1.0}
 HORIZON = "horizon: should be a number of seconds, or bounds for the search such as {minimum: 0.3 s, maximum: 1.5 s}"
 
 
@@ -305,6 +306,14 @@ def test_every_unit_has_its_size(unit: str) -> None:
         ({"start": {"settled": {"posture": 3}}}, "start.settled.posture: should be a valid string, is 3"),
         ({"horizon": 0}, "horizon: 0.0 s should be at least one time step (0.002 s); 0.3 to 3 s is usual"),
         ({"horizon": -1}, "horizon: -1.0 s should be at least one time step"),
+        (
+            {"success": {"duration": {"maximum": 0.1}}, "horizon": 0.3},
+            "success.duration: asks for a duration of at most 0.1 s, but horizon is 0.3 s; change one of them",
+        ),
+        (
+            {"success": {"short": {"quantity": "duration", "target": 2, "tolerance": 0.5}}, "horizon": RANGE},
+            "success.short: asks for a duration of at least 1.5 s and at most 2.5 s, but horizon is 0.2 to 1 s; change",
+        ),
         ({"horizon": math.inf}, "horizon: inf s should be"),
         ({"horizon": True}, f"{HORIZON}, is true or false"),
         ({"horizon": 100, "hold": 100}, "horizon: 100.0 s and hold 100.0 s are together more than 120 s"),
@@ -447,6 +456,14 @@ def test_tasks_that_are_not_there(name: str, message: str) -> None:
         (
             ["policy.initial=interpolate", "policy.through=[{'?h_kfe': 170 deg}]"],
             r"^policy.through.0: .*lh_kfe.* 2.967",
+        ),
+        (
+            ["policy.settle=0.3", "policy.goal={lik: squat-jump}"],
+            r"^policy.goal: no leg or joint 'lik' in hyq2max; did you mean like\?",
+        ),
+        (
+            ["policy.settle=0.3", "policy.goal={'*_hfe': [-1, -2]}"],
+            r"^policy.goal.\*_hfe: \[-1.0, -2.0\] should be \[lowest, highest\]",
         ),
         (["policy.variance=-1"], r"^policy.variance: -1.0 should be between"),
         (["policy.groups=[[lf, rf], [lh, xx]]"], r"^policy.groups: .*no leg 'xx'; valid names: lf, lh, rf, rh"),

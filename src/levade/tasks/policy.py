@@ -76,6 +76,8 @@ def goal_posture(choice: PolicyChoice, robot: Robot) -> Array:
         goal = {
             key: sum(value) / 2 if isinstance(value, tuple) else value for key, value in goal.items() if value != FREE
         }
+        for key in goal:
+            _joints_named(key, robot)
     for value in [goal] if isinstance(goal, str) else goal.values():
         if isinstance(value, str) and value not in robot.posture_names:
             raise LevadeError(f"policy.goal: no posture {value!r}; {did_you_mean(value, [*robot.posture_names, FREE])}")
@@ -122,6 +124,8 @@ def _free_ranges(choice: PolicyChoice, robot: Robot) -> tuple[Array, Array]:
             if not isinstance(value, tuple):
                 lower[joint], upper[joint] = least, largest
                 continue
+            if value[0] > value[1]:
+                raise LevadeError(f"policy.goal.{key}: {list(value)} should be [lowest, highest]")
             low, high = value if sign > 0 else (-value[1], -value[0])
             if not least <= low <= high <= largest:
                 raise LevadeError(
@@ -176,7 +180,7 @@ def _joints_named(key: str, robot: Robot) -> dict[int, float]:
     found = require_joints(robot, key, "policy.goal")
     found = found or {i: 1.0 for i, name in enumerate(robot.joint_names) if fnmatch.fnmatchcase(name, key)}
     if not found:
-        valid = {*robot.joint_names, *limb_words(robot)}
+        valid = {*robot.joint_names, *limb_words(robot), "like"}
         raise LevadeError(f"policy.goal: no leg or joint {key!r} in {robot.name}; {did_you_mean(key, valid)}")
     return found
 

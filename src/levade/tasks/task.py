@@ -13,6 +13,7 @@ from levade.tasks.parts import Change, Cost, HorizonRange, PolicyChoice, RobotCh
 from levade.tasks.regulation import Regulation
 from levade.tasks.robust import Robust
 from levade.tasks.validation import (
+    check_asked_duration,
     check_costs,
     check_durations,
     check_feedback,
@@ -73,6 +74,7 @@ class Task:
     def __post_init__(self) -> None:
         check_name(self.name)
         check_durations(self.horizon, self.hold, self.physics.timestep)
+        check_asked_duration(self.success, self.horizon, self.physics.timestep)
         check_policy(self.policy)
         check_costs(self.costs, self.success, self.hold)
         check_search(self.search, self.costs)

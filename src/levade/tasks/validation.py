@@ -68,6 +68,35 @@ def check_durations(horizon: float | HorizonRange, hold: float, timestep: float)
         raise LevadeError(f"horizon: {horizon} s and hold {hold} s are together more than {LONGEST:g} s")
 
 
+def check_asked_duration(success: Mapping[str, Criterion], horizon: float | HorizonRange, timestep: float) -> None:
+    """Check that a duration that criteria ask for is possible.
+
+    Args:
+        success: Name -> criterion.
+        horizon: T [s], or bounds of it.
+        timestep: Time step of the physics, to which T is rounded [s].
+
+    Raises:
+        LevadeError: If no T meets a criterion.
+    """
+    free = isinstance(horizon, HorizonRange)
+    least, most = (horizon.minimum, horizon.maximum) if isinstance(horizon, HorizonRange) else (horizon, horizon)
+    for name, one in success.items():
+        if one.quantity != "duration":
+            continue
+        low, high = one.minimum, one.maximum
+        if one.target is not None:
+            low, high = one.target - (one.tolerance or 0.0), one.target + (one.tolerance or 0.0)
+        if (low is not None and low > most + timestep) or (high is not None and high < least - timestep):
+            asked = " and ".join(
+                f"{what} {value:g} s" for what, value in (("at least", low), ("at most", high)) if value is not None
+            )
+            there = f"{least:g} to {most:g} s" if free else f"{least:g} s"
+            raise LevadeError(
+                f"success.{name}: asks for a duration of {asked}, but horizon is {there}; change one of them"
+            )
+
+
 def check_policy(policy: PolicyChoice) -> None:
     """Check the parts of a policy that do not depend on the robot.
 
