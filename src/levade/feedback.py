@@ -13,6 +13,7 @@ in trunk axes (3) [rad/s], joint positions [rad] and velocities [rad/s]. Neither
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -196,6 +197,9 @@ class SensorErrors:
         joint: Offset of each encoder [rad], constant through a run.
         rate_noise: Noise of the angular velocity [rad/s], drawn for each tick.
         joint_noise: Noise of the joint velocities [rad/s], drawn for each tick.
+
+    Raises:
+        LevadeError: If one is negative or not finite.
     """
 
     attitude: float = 0.01
@@ -203,6 +207,12 @@ class SensorErrors:
     joint: float = 0.005
     rate_noise: float = 0.05
     joint_noise: float = 0.1
+
+    def __post_init__(self) -> None:
+        for name in ("attitude", "rate", "joint", "rate_noise", "joint_noise"):
+            value: float = getattr(self, name)
+            if not (math.isfinite(value) and value >= 0.0):
+                raise LevadeError(f"feedback.sensors.{name}: {value} should be 0 or more")
 
     def draw(self, runs: int, ticks: int, joints: int, *, seed: int | Sequence[int]) -> Array:
         """Draw errors that are added to sensed values.

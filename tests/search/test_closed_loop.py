@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 from levade.arrays import Array
-from levade.engines import MujocoEngine, State, perturbed_models
+from levade.engines import MujocoEngine, Perturbation, State, perturbed_models
 from levade.engines.ode.library import load
 from levade.errors import LevadeError
 from levade.feedback import SensorErrors, sensed
 from levade.motions import Motion, RecordedSimulation
+from levade.motions.trials import run_trials
 from levade.search import Evaluation, Generation, Objective, Stopped, Trials, make_objective, solve
 from levade.search.closed_loop import _SENSING as SENSING
 from levade.search.objective import _TAG as TAG
@@ -47,7 +48,7 @@ def found(objective: Objective) -> tuple[list[Generation], Motion]:
     return seen, record(objective, solution, seed=2)
 
 
-def by_hand(objective: Objective, trials: Trials) -> Evaluation:
+def by_hand(objective: Objective, trials: Trials, sensors: SensorErrors) -> Evaluation:
     """Each roll-out on its own: the candidate on the nominal model, and the perturbed model held to what it senses there."""
     engine, policy, start, robust = objective.engine, objective.policy, objective.state, objective.task.robust
     assert isinstance(engine, MujocoEngine)
@@ -62,7 +63,7 @@ def by_hand(objective: Objective, trials: Trials) -> Evaluation:
     gains = objective.regulator(trials.along, seed=trials.seed)
     period = gains.steps(engine.physics.timestep)
     ticks = -(-(objective.task.horizon_steps + objective.task.hold_steps) // period)
-    errors = SensorErrors().draw(n, ticks, joints, seed=(trials.seed, trials.draw, SENSING))
+    errors = sensors.draw(n, ticks, joints, seed=(trials.seed, trials.draw, SENSING))
     parts = []
     for candidate, model in zip(*trials.pairs, strict=True):
         reference = policy.reference(trials.weights[candidate : candidate + 1], hold_steps=trials.hold_steps)
@@ -99,11 +100,13 @@ def on_the_way(engine: MujocoEngine, start: State, arrays: dict[str, Array], per
 
 
 @pytest.mark.slow
-def test_a_batch_is_its_roll_outs_one_by_one(objective: Objective) -> None:
+@pytest.mark.parametrize("sensors", [SensorErrors(), SensorErrors(0.1, 0.0, 0.02, 0.3, 0.0)], ids=["usual", "other"])
+def test_a_batch_is_its_roll_outs_one_by_one(sensors: SensorErrors) -> None:
+    objective = make_objective(replace(task(), feedback=replace(FEEDBACK, sensors=sensors)), threads=1)
     weights = objective.space.mean + 0.05 * np.random.default_rng(3).standard_normal((3, objective.space.size))
     pairs = (np.array([0, 0, 1, 2, 2]), np.array([0, 1, 1, 0, 1]))
     trials = Trials(weights, 5, seed=7, draw=4, pairs=pairs, along=weights[1])
-    found, expected = objective.evaluate(trials), by_hand(objective, trials)
+    found, expected = objective.evaluate(trials), by_hand(objective, trials, sensors)
     for name, values in found.terms.items():
         np.testing.assert_array_equal(values, expected.terms[name])
     np.testing.assert_array_equal(found.success, expected.success)
@@ -142,6 +145,20 @@ def test_the_motion_has_the_regulator_that_it_was_found_with(found: tuple[list[G
 
 
 @pytest.mark.slow
+def test_runs_of_the_motion_have_the_sensors_of_its_task(found: tuple[list[Generation], Motion]) -> None:
+    motion = found[1]
+    perfect = replace(motion.task, feedback=replace(FEEDBACK, sensors=SensorErrors(0.0, 0.0, 0.0, 0.0, 0.0)))
+    simulation = RecordedSimulation(motion.with_task(perfect), threads=1)
+    sample = Perturbation().draw(simulation.model, simulation.joints, n=2, seed=1)
+    runs = run_trials(simulation, sample, feedback=motion.feedback)
+    without_errors = simulation.rollout(sample, feedback=motion.feedback)
+    for name, criterion in motion.task.success.items():
+        np.testing.assert_array_equal(runs.errors[name], criterion.error(without_errors))
+    usual = run_trials(RecordedSimulation(motion, threads=1), sample, feedback=motion.feedback)
+    assert not np.array_equal(usual.errors["pitch"], runs.errors["pitch"])
+
+
+@pytest.mark.slow
 def test_a_run_resumes_to_the_same_motion(tmp_path: Path, found: tuple[list[Generation], Motion]) -> None:
     generations, whole = found
 
@@ -163,6 +180,8 @@ def test_what_makes_no_sense_is_one_line() -> None:
         LevadeError, match=r"^feedback: needs one horizon for its gains, but the task has 0.05 to 0.1 s"
     ):
         replace(task(), horizon=HorizonRange(0.05, 0.1))
+    with pytest.raises(LevadeError, match=r"^feedback.sensors.joint: -0.1 should be 0 or more"):
+        SensorErrors(joint=-0.1)
     with pytest.raises(LevadeError, match=r"^feedback.rate: 0.0 should be 1 to 10000 Hz"):
         Regulation(rate=0.0)
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from levade.arrays import Array
 from levade.costs import DIVERGED, errors, success
 from levade.engines import Sample
-from levade.feedback import Feedback, SensorErrors
+from levade.feedback import Feedback
 from levade.motions.simulation import RecordedSimulation
 from levade.trajectory import Trajectories
 
@@ -159,4 +159,4 @@ def _sensor_errors(simulation: RecordedSimulation, first: int, feedback: Feedbac
     """Draw the sensor errors of the runs that are simulated together, from a run on."""
     reference = simulation.reference
     ticks = -(-reference.steps // feedback.steps(reference.timestep))
-    return SensorErrors().draw(_AT_ONCE, ticks, simulation.joints, seed=(seed, first, _SENSING))
+    return simulation.task.sensors.draw(_AT_ONCE, ticks, simulation.joints, seed=(seed, first, _SENSING))

@@ -97,6 +97,7 @@ def linearised(
     *,
     perturbed: tuple[State, Models],
     rate: float,
+    errors: SensorErrors | None = None,
     threads: int = 0,
 ) -> Along:
     """Linearise a motion, and learn estimates of unsensed values from perturbed runs of it.
@@ -107,6 +108,7 @@ def linearised(
         reference: Joint references of one trial.
         perturbed: Starts and models of the perturbed runs.
         rate: Measurements per second [Hz]; the nearest rate that steps allow.
+        errors: Errors of the sensors. None for usual ones.
         threads: Number of threads (0: one per core). Results do not depend on it.
 
     Returns:
@@ -115,7 +117,7 @@ def linearised(
     timestep, size = reference.timestep, size_of(engine.embodiment)
     period = period_steps(rate, timestep)
     linear = linearise(engine.model, engine.layout, start, reference, period=period, size=size, threads=threads)
-    expected = _expectations(engine, reference, linear, perturbed, period)
+    expected = _expectations(engine, reference, linear, perturbed, period, errors or SensorErrors())
     holds = reference.steps > reference.horizon_steps
     return Along(linear, expected, period * timestep, holds, size)
 
@@ -137,7 +139,12 @@ def size_of(embodiment: Embodiment) -> float:
 
 
 def _expectations(
-    engine: MujocoEngine, reference: JointReference, linear: Linear, perturbed: tuple[State, Models], period: int
+    engine: MujocoEngine,
+    reference: JointReference,
+    linear: Linear,
+    perturbed: tuple[State, Models],
+    period: int,
+    errors: SensorErrors,
 ) -> Array:
     """Learn the estimates from perturbed runs without feedback, shape (ticks of the linear model, states - sensed, sensed)."""
     joints = engine.embodiment.joints
@@ -147,7 +154,6 @@ def _expectations(
     found = engine.states(starts, reference, fields, models=models)[0]
     every = slice(period - 1, None, period)  # the end of the last step before each tick but the first
     state = state_of(engine.layout, *(found[name][:, every] for name in fields))
-    errors = SensorErrors()
     noise = np.concatenate(
         [
             np.full(3, errors.attitude),

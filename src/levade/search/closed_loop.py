@@ -14,7 +14,7 @@ import numpy as np
 from levade.arrays import Array
 from levade.engines import Engine, MujocoEngine, State, perturbed_models
 from levade.engines.table import no_feedback
-from levade.feedback import Feedback, SensorErrors, period_steps, sensed
+from levade.feedback import Feedback, period_steps, sensed
 from levade.tasks import Regulation, Task
 from levade.trajectory import JointReference, Trajectories
 
@@ -66,7 +66,13 @@ class ClosedLoop:
             sample = robust.perturb.spread(engine.model, joints, n=regulation.runs, seed=(seed, _LEARNING))
             perturbed = perturbed_models(engine.model, engine.layout, sample, self._start)
             found = linearised(
-                engine, self._start, reference, perturbed=perturbed, rate=regulation.rate, threads=engine.threads
+                engine,
+                self._start,
+                reference,
+                perturbed=perturbed,
+                rate=regulation.rate,
+                errors=regulation.sensors,
+                threads=engine.threads,
             )
             design = Design(motion=regulation.motion, hold=regulation.hold, bound=regulation.bound)
             latest = dict(list(self._made.items())[-3:])
@@ -115,9 +121,8 @@ class ClosedLoop:
         """
         key = (seed, draw)
         if key not in self._errors:
-            drawn = SensorErrors().draw(
-                models, self._ticks, self._engine.embodiment.joints, seed=(seed, draw, _SENSING)
-            )
+            joints = self._engine.embodiment.joints
+            drawn = self._regulation.sensors.draw(models, self._ticks, joints, seed=(seed, draw, _SENSING))
             kept = {other: errors for other, errors in self._errors.items() if other[1] == 0}
             self._errors = {**kept, key: drawn}
         return self._errors[key]

@@ -86,7 +86,13 @@ def stabilise(
     )
     perturbed = perturbed_models(simulation.model, simulation.layout, sample, simulation.start)
     along = linearised(
-        simulation.engine, simulation.start, simulation.reference, perturbed=perturbed, rate=rate, threads=threads
+        simulation.engine,
+        simulation.start,
+        simulation.reference,
+        perturbed=perturbed,
+        rate=rate,
+        errors=simulation.task.sensors,
+        threads=threads,
     )
 
     def runs_of(design: Design | None, sample: Sample, tag: int, what: str = "") -> Trials:

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from levade.errors import LevadeError
+from levade.feedback import SensorErrors
 
 
 @dataclass(frozen=True)
@@ -24,6 +25,7 @@ class Regulation:
         every: Generations after which the gains are computed again, along the best motion. New gains are kept only if that
             motion ranks no worse with them than with the earlier ones; the first gains, no worse than without feedback.
         runs: Perturbed runs from which the regulator learns to predict what it cannot measure.
+        sensors: Errors of the sensors, in the search and in the check.
 
     Raises:
         LevadeError: If a value is out of range.
@@ -35,6 +37,7 @@ class Regulation:
     bound: float = 0.3
     every: int = 10
     runs: int = 32
+    sensors: SensorErrors = SensorErrors()
 
     def __post_init__(self) -> None:
         for name, least, most, unit in (

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from levade.costs import Criterion, clearance_of
 from levade.engines import Physics, Settled
+from levade.feedback import SensorErrors
 from levade.scenes import Scene
 from levade.tasks.demands import Demands
 from levade.tasks.parts import Change, Cost, HorizonRange, PolicyChoice, RobotChoice, Search, Stage, StartChoice
@@ -102,6 +103,11 @@ class Task:
     def good_enough(self) -> Mapping[str, Criterion]:
         """Criteria that a motion has to meet on a perturbed model, by name."""
         return self.success if self.robust is None or self.robust.success is None else self.robust.success
+
+    @property
+    def sensors(self) -> SensorErrors:
+        """Errors of the sensors that feedback measures with: those of the task's feedback, or usual ones."""
+        return SensorErrors() if self.feedback is None else self.feedback.sensors
 
     @property
     def clearance(self) -> float | None:
