@@ -112,6 +112,21 @@ def test_holding_is_for_every_row_of_the_hold(make):
     np.testing.assert_array_equal(Criterion("height", minimum=0.55, at="min").holds(t), [True, False])
 
 
+def test_the_value_is_that_of_the_instant_that_decides(make):
+    height = np.full((3, 25, 3), 0.6)
+    height[0, 22, 2], height[1, 21, 2], height[2, 5, 2] = 0.5, 0.65, 0.9
+    t = make(3, trunk_position=height, trunk_com_offset=np.zeros(3))
+    cases = {
+        Criterion("height", target=0.61, tolerance=1, at="hold"): [0.5, 0.65, 0.6],
+        Criterion("height", minimum=0.2, at="hold"): [0.5, 0.6, 0.6],
+        Criterion("height", minimum=0.2, maximum=0.7, at="hold"): [0.6, 0.65, 0.6],
+        Criterion("height", maximum=1.0, at="max"): [0.6, 0.65, 0.9],
+        Criterion("height", target=0.0, tolerance=0, at="horizon"): [0.6, 0.6, 0.6],
+    }
+    for criterion, expected in cases.items():
+        np.testing.assert_array_equal(criterion.value(t), expected)
+
+
 def test_success_is_all_criteria_and_no_divergence(make):
     t = make(3, diverged=np.array([False, True, False]))
     always = Criterion("height", minimum=-1e9)

@@ -43,6 +43,7 @@ def test_its_numbers_are_those_that_were_written() -> None:
     assert repr(side) == ("Motion(side-recovery on hyq2max: no success, T = 0.5 s and 0.02 s of hold, 12 trials)")
     assert (side.result.trials, side.result.success, side.result.diverged) == (12, False, False)
     assert side.result.errors == pytest.approx({"upright": 1.26046, "height": -0.21621, "still": 0.54213}, abs=1e-5)
+    assert side.result.values == {}
     assert not side.meets("upright")
     assert side.feedback is None
     assert side.task.policy.depart == load_task("side-recovery").policy.depart

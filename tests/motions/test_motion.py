@@ -270,6 +270,8 @@ def test_its_attributes_say_what_the_file_says(motion: Motion, objective: Object
     assert motion.robot == objective.robot.name
     assert motion.legs == tuple(replace(leg, roles=()) for leg in objective.robot.legs)
     assert motion.result.errors == solution.best.errors
+    off = {name: value - (motion.task.success[name].target or 0.0) for name, value in motion.result.values.items()}
+    assert off == pytest.approx(motion.result.errors, abs=1e-12)
     assert motion.result.cost == solution.best.cost
     assert motion.result.cost_weights == solution.cost_weights
     assert (motion.result.trials, motion.result.stopped) == (solution.trials, solution.stopped)

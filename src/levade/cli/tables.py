@@ -92,7 +92,9 @@ def goal_table(motion: Motion) -> Table:
             side = "" if len(ends) == 2 else "at least " if high is None else "at most "
             goal = f"{side}{' to '.join(ends)} {unit}"
             bound = low if error < 0 else high
-            result = "within" if error == 0 or bound is None else f"{bound + error:.4f} {unit}"
+            value = None if error == 0 or bound is None else bound + error
+            value = motion.result.values.get(name, value)
+            result = "within" if value is None else f"{value:.4f} {unit}"
         met = motion.meets(name)
         table.add_row(
             name + when[criterion.at] if name == criterion.quantity else name,

@@ -138,11 +138,28 @@ class Criterion:
             value = self._values(trajectories)
             error, room = _worst(self._deviation(value)), np.full(len(value), np.nan)
             if self.target is None:
-                low = np.inf if self.minimum is None else value - self.minimum
-                high = np.inf if self.maximum is None else self.maximum - value
-                room = np.minimum(low, high).min(axis=1)
+                room = self._slack(value).min(axis=1)
             bad = trajectories.diverged | ~np.isfinite(error)
             return np.where(bad, DIVERGED, within(error, DIVERGED)), np.where(bad, np.nan, room)
+
+    def value(self, trajectories: Trajectories) -> Array:
+        """Compute the quantity at the instant of the error: where it is farthest from the target, or has the least slack.
+
+        Args:
+            trajectories: The n trials.
+
+        Returns:
+            Values in the quantity's SI unit, shape (n,). They are not finite where a trial broke down.
+        """
+        with np.errstate(all="ignore"):
+            value = self._values(trajectories)
+            if value.shape[1] == 1:
+                return value[:, 0]
+            if self.target is not None:
+                row = np.argmax(np.abs(self._deviation(value)), axis=1)
+            else:
+                row = np.argmin(self._slack(value), axis=1)
+        return np.take_along_axis(value, row[:, None], axis=1)[:, 0]
 
     def holds(self, trajectories: Trajectories) -> NDArray[np.bool_]:
         """Tell whether each trial meets the criterion. A trial that diverged does not.
@@ -184,6 +201,12 @@ class Criterion:
         low = -np.inf if self.minimum is None else self.minimum
         high = np.inf if self.maximum is None else self.maximum
         return value - np.clip(value, low, high)
+
+    def _slack(self, value: Array) -> Array:
+        """Compute the distance to the nearer bound, negative beyond it."""
+        low = np.inf if self.minimum is None else value - self.minimum
+        high = np.inf if self.maximum is None else self.maximum - value
+        return np.minimum(low, high)
 
     def _values(self, trajectories: Trajectories, rows: slice | None = None) -> Array:
         """Compute the quantity at the criterion's instants, or at given rows instead, shape (n, rows)."""

@@ -65,7 +65,7 @@ META = (
 )
 """Keys of ``meta``."""
 
-LATER = ("cost_weights", "policy", "held", "model_joints", "initial", "trunk_balls")
+LATER = ("cost_weights", "policy", "held", "model_joints", "initial", "trunk_balls", "values")
 """Keys of ``meta`` that files of early versions lack. A motion with a stabiliser also has ``feedback``."""
 
 _LONGEST_META = 8_000_000

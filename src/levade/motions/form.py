@@ -174,6 +174,7 @@ class MetaForm(_Form):
     success: bool
     diverged: bool
     errors: dict[Name, float]
+    values: dict[Name, Number] = {}
     cost: float
     cost_weights: dict[Name, Number] | None = None
     cost_terms: dict[Name, float]

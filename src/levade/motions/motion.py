@@ -63,6 +63,8 @@ class Result:
         success: Whether it meets its task's criteria on the model, and for a robust task on enough perturbed models.
         diverged: Whether its simulation broke down.
         errors: Criterion -> error [SI], as in `levade.costs.Criterion.error`.
+        values: Criterion -> value of its quantity [SI], as in `levade.costs.Criterion.value`. Files of early versions, and
+            trials that broke down, lack it.
         cost: Weighted sum of the terms.
         cost_terms: Cost -> value of its term.
         cost_weights: Cost -> its weight in ``cost``: the task's, unless it changed during the search.
@@ -73,6 +75,7 @@ class Result:
     success: bool
     diverged: bool
     errors: Mapping[str, float]
+    values: Mapping[str, float]
     cost: float
     cost_terms: Mapping[str, float]
     cost_weights: Mapping[str, float]
@@ -363,6 +366,7 @@ class Motion:
             success=bool(meta["success"]),
             diverged=bool(meta["diverged"]),
             errors=meta["errors"],
+            values=meta.get("values", {}),
             cost=float(meta["cost"]),
             cost_terms=meta["cost_terms"],
             cost_weights=weights,

@@ -37,7 +37,9 @@ def summary_data(motion: Motion) -> dict[str, Any]:
         The summary, as JSON.
     """
     result = motion.result
-    criteria = [_criterion(name, one, result.errors[name]) for name, one in motion.task.success.items()]
+    criteria = [
+        _criterion(name, one, result.errors[name], result.values.get(name)) for name, one in motion.task.success.items()
+    ]
     terms = [
         {"name": name, "value": value, "weight": result.cost_weights[name]} for name, value in result.cost_terms.items()
     ]
@@ -53,7 +55,7 @@ def summary_data(motion: Motion) -> dict[str, Any]:
     }
 
 
-def _criterion(name: str, criterion: Criterion, error: float) -> dict[str, Any]:
+def _criterion(name: str, criterion: Criterion, error: float, value: float | None) -> dict[str, Any]:
     target, low, high = criterion.target, criterion.minimum, criterion.maximum
     tolerance = criterion.tolerance or 0.0
     if target is not None:
@@ -62,7 +64,7 @@ def _criterion(name: str, criterion: Criterion, error: float) -> dict[str, Any]:
             result = math.remainder(target + error, 2 * math.pi)
     else:
         bound = low if error < 0 else high
-        result = None if error == 0 or bound is None else bound + error
+        result = value if value is not None else None if error == 0 or bound is None else bound + error
     return {
         "name": name,
         "quantity": criterion.quantity,

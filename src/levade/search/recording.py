@@ -77,6 +77,12 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
         "success": met and (task.robust is None or solution.best.success),
         "diverged": bool(trajectories.diverged[0]),
         "errors": {name: float(error[0]) for name, error in errors(task.success, trajectories).items()},
+        "values": {
+            name: float(value)
+            for name, criterion in task.success.items()
+            for value in criterion.value(trajectories)
+            if np.isfinite(value)
+        },
         "cost": float(solution.best.cost),
         "cost_weights": dict(solution.cost_weights),
         "cost_terms": {name: float(value[0]) for name, value in evaluate(objective.terms, trajectories).items()},
