@@ -3,8 +3,8 @@
     python benchmarks/basin.py levade/motion.npz --figure docs/figures/basin.png
 
 The robot is put where the motion is at its horizon, turned about the point midway between what touches the ground, and with
-another pitch rate; then it holds. The success criteria of the hold judge, on the nominal model, with the regulator and
-without, through the hold of the motion.
+another pitch rate; then it holds. The success criteria of the hold judge its second half, on the nominal model, with the
+regulator and without: the robot may swing on the way.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ def main() -> None:
         }
         options.out.write_text(json.dumps(content) + "\n")
     if options.figure:
-        draw(options.figure, pitch, rate, caught)
+        draw(options.figure, motion, pitch, rate, caught)
 
 
 def arms(motion: Motion) -> dict[str, Feedback | None]:
@@ -148,7 +148,7 @@ def span(values: Array, caught: Array) -> str:
     return f"{values[low]:+.1f} to {values[high]:+.1f}"
 
 
-def draw(path: Path, pitch: Array, rate: Array, caught: dict[str, Array]) -> None:
+def draw(path: Path, motion: Motion, pitch: Array, rate: Array, caught: dict[str, Array]) -> None:
     """One map an arm, and both on the same axes."""
     import matplotlib
 
@@ -158,16 +158,23 @@ def draw(path: Path, pitch: Array, rate: Array, caught: dict[str, Array]) -> Non
 
     from levade.report.style import LIGHT
 
-    figure, axes = plt.subplots(1, len(caught), figsize=(4.2 * len(caught), 3.8), sharey=True, squeeze=False)
+    figure, axes = plt.subplots(1, len(caught), figsize=(5.4 * len(caught), 4.4), sharey=True, squeeze=False)
     for axis, (name, one) in zip(axes[0], caught.items(), strict=True):
+        held = one.T.astype(float)
         axis.pcolormesh(
-            pitch, rate, one.T.astype(float), cmap=ListedColormap([LIGHT.page, LIGHT.front_left]), vmin=0, vmax=1
+            pitch, rate, held, cmap=ListedColormap([LIGHT.page, LIGHT.front_left]), vmin=0, vmax=1, shading="nearest"
         )
         axis.axhline(0, color=LIGHT.grid, lw=0.8)
         axis.axvline(0, color=LIGHT.grid, lw=0.8)
-        axis.plot(0, 0, "+", color=LIGHT.ink, ms=10)
-        axis.set_title(f"{name}: {one.mean():.0%} caught", fontsize=10, color=LIGHT.ink)
-        axis.set_xlabel("pitch off at the horizon [degrees]\n(negative: farther back)")
+        axis.plot(0, 0, "o", color=LIGHT.page, mec=LIGHT.ink, ms=6)
+        axis.annotate("the motion", (0, 0), (8, -14), textcoords="offset points", fontsize=9, color=LIGHT.page)
+        for where, text in (((0.03, 0.04), "falls back"), ((0.97, 0.96), "falls forward")):
+            side = "left" if where[0] < 0.5 else "right"
+            level = "bottom" if where[1] < 0.5 else "top"
+            axis.text(*where, text, transform=axis.transAxes, ha=side, va=level, fontsize=9, color=LIGHT.ink)
+        whose = "without feedback" if name == "open loop" else "with the regulator"
+        axis.set_title(f"Where {motion.task_name} catches itself, {whose}", fontsize=10, color=LIGHT.ink)
+        axis.set_xlabel("pitch off at the horizon [degrees], negative: farther back")
     axes[0][0].set_ylabel("pitch rate off [rad/s]")
     figure.tight_layout()
     figure.savefig(path, dpi=120)

@@ -314,11 +314,13 @@ def conclusion(rows: Sequence[dict[str, Any]]) -> str:
         if 0.3 not in line or 3.0 not in line:
             continue
         effort, shares = line[0.3]
+        own = min(one["effort"] for one in of(rows, task, 3.0, "effort"))
         least = f"{within[0]:g} s" if within else "none of these"
         said.append(
             f"- **{does}** in 0.3 s needs {shares['speed']:.2f} of the speed limit and {shares['torque-speed']:.2f} of the"
             f" torque–speed line at best, and an effort of {effort:.2f} s. The shortest T for which a motion within both was"
-            f" found is {least}. Of 3 s the front's effort is {line[3.0][0]:.2f} s."
+            f" found is {least}. Of the motions found at 3 s the least effort is {own:.2f} s; a shorter one, and standing for"
+            f" the rest of 3 s, takes {line[3.0][0]:.2f} s."
         )
     return "\n".join(said)
 
@@ -424,7 +426,8 @@ def page() -> str:
     seeds = " and ".join(
         f"{len({row['seed'] for row in rows if row['task'] == task})}" for task in ("rearing", "posture-recovery")
     )
-    made = ", ".join(f"{name} {version}" for name, version in rows[0]["versions"].items()) if rows else "nothing"
+    found = {name: sorted({row["versions"][name] for row in rows}) for name in (rows[0]["versions"] if rows else ())}
+    made = ", ".join(f"{name} {' and '.join(versions)}" for name, versions in found.items()) or "nothing"
     filled = {
         "@REARING@": table(rows, "rearing"),
         "@RECOVERY@": table(rows, "posture-recovery"),

@@ -6,9 +6,10 @@
 
 *Duration*: each task as it is, and with ``horizon: {minimum: T/2, maximum: 3 T, initial: T}``; a search ends with its first
 success, or after 6000 trials. The rearing is in units of the robot on Go1 (``benchmarks/tasks``). *Grid*: the same, and
-eight fixed durations, with 600 trials after the first success, of which those without one end after 2600. *Posture*: each task as it is, and with ``policy.goal: free``,
-both with an effort of weight 1 that counts the hold as well, and 300 trials after the first success. The torque of standing is
-that of the last tenth of a second of the hold, as a share of each joint's limit, root mean square over joints.
+eight fixed durations, with 600 trials after the first success. Fixed ones without success end after 2600. *Posture*: each task
+as it is, and with ``policy.goal: free``, both with an effort of weight 1 that counts the hold as well, and 300 trials after the
+first success. The torque of standing is that of the last tenth of a second of the hold, as a share of each joint's limit, root
+mean square over joints.
 
 Every run is kept in results/freedom.jsonl under a checksum of its task, and is not made again: delete the file after a change
 to the search. Rows "from" skills.jsonl are runs of skills.py: the same searches. ``python benchmarks/duration.py --write``
