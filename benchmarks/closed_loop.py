@@ -108,7 +108,7 @@ def as_table(rows: list[dict[str, Any]]) -> str:
             ]
         )
         seeds = ", ".join(str(row["seed"]) for row in mine)
-        lines.append(f"| {', '.join(key)} | {seeds} | {' | '.join(shares)} | {ratio:.2f} |")
+        lines.append(f"| {Path(key[0]).stem}, {key[1]} | {seeds} | {' | '.join(shares)} | {ratio:.2f} |")
     return "\n".join(lines)
 
 
