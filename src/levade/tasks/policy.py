@@ -129,7 +129,7 @@ def _free_ranges(choice: PolicyChoice, robot: Robot) -> tuple[Array, Array]:
             low, high = value if sign > 0 else (-value[1], -value[0])
             if not least <= low <= high <= largest:
                 raise LevadeError(
-                    f"policy.goal.{key}: {low} to {high} rad should be a range within that of {names[joint]},"
+                    f"policy.goal.{key}: {low:.4g} to {high:.4g} rad should be a range within that of {names[joint]},"
                     f" {least:.4g} to {largest:.4g} rad"
                 )
             lower[joint], upper[joint] = low, high
