@@ -121,5 +121,5 @@ def _check_follows(last: Motion, motion: Motion, number: int) -> None:
         if apart > most:
             raise LevadeError(
                 f"chain: motion {number}, {motion.task_name}, does not begin where {last.task_name} ends: {name} is"
-                f" {apart:.2g} {unit} away; find it with levade solve --after, or after=..."
+                f" {apart:.2g} {unit} away; search for it after that motion"
             )
