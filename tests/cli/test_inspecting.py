@@ -140,7 +140,7 @@ def test_solve_says_in_one_line_that_there_are_warnings(levade, urdf: Path) -> N
     ("changes", "message"),
     [
         (["start.settled.posture={lf_hae: 0.1}"], "start.settled.posture: robot hyq2max: posture: no joint 'lf_hae'; did you"),
-        (["policy.goal={lf_hae: 0.1}", "policy.initial=interpolate"], "policy.goal: no leg or joint 'lf_hae' in hyq2max; did you"),
+        (["policy.goal={lf_hae: 0.1}", "policy.initial=interpolate"], "policy.goal: no leg or joint 'lf_hae' in hyq2max"),
         (["start.settled.posture={lf_haa: 3}"], "start.settled.posture: robot hyq2max: posture: lf_haa 3.0 rad is out of its"),
         (["success.height.target=2"], "success.height.target: asks for 1.98 m, but the trunk's centre of mass of hyq2max is"),
     ],
