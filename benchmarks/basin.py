@@ -168,14 +168,10 @@ def draw(path: Path, motion: Motion, pitch: Array, rate: Array, caught: dict[str
         axis.axvline(0, color=LIGHT.grid, lw=0.8)
         axis.plot(0, 0, "o", color=LIGHT.page, mec=LIGHT.ink, ms=6)
         axis.annotate("the motion", (0, 0), (8, -14), textcoords="offset points", fontsize=9, color=LIGHT.page)
-        for where, text in (((0.03, 0.04), "falls back"), ((0.97, 0.96), "falls forward")):
-            side = "left" if where[0] < 0.5 else "right"
-            level = "bottom" if where[1] < 0.5 else "top"
-            axis.text(*where, text, transform=axis.transAxes, ha=side, va=level, fontsize=9, color=LIGHT.ink)
         whose = "without feedback" if name == "open loop" else "with the regulator"
-        axis.set_title(f"Where {motion.task_name} catches itself, {whose}", fontsize=10, color=LIGHT.ink)
+        axis.set_title(f"Blue: where {motion.task_name} catches itself {whose}", fontsize=10, color=LIGHT.ink)
         axis.set_xlabel("pitch off at the horizon [degrees], negative: farther back")
-    axes[0][0].set_ylabel("pitch rate off [rad/s]")
+    axes[0][0].set_ylabel("pitch rate off [rad/s], negative: backward")
     figure.tight_layout()
     figure.savefig(path, dpi=120)
 
