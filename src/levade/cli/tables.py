@@ -85,16 +85,14 @@ def goal_table(motion: Motion) -> Table:
         target = criterion.target
         tolerance = criterion.tolerance or 0.0
         if target is not None:
-            goal, result = f"{target:.4f} {unit}", f"{target + error:.4f} {unit}"
+            goal, value = f"{target:.4f} {unit}", criterion.value_of(error)
         else:
             low, high = criterion.minimum, criterion.maximum
             ends = [f"{bound:.4f}" for bound in (low, high) if bound is not None]
             side = "" if len(ends) == 2 else "at least " if high is None else "at most "
             goal = f"{side}{' to '.join(ends)} {unit}"
-            bound = low if error < 0 else high
-            value = None if error == 0 or bound is None else bound + error
-            value = motion.result.values.get(name, value)
-            result = "within" if value is None else f"{value:.4f} {unit}"
+            value = motion.result.values.get(name, criterion.value_of(error))
+        result = "within" if value is None else f"{value:.4f} {unit}"
         met = motion.meets(name)
         table.add_row(
             name + when[criterion.at] if name == criterion.quantity else name,

@@ -153,13 +153,22 @@ class Criterion:
         """
         with np.errstate(all="ignore"):
             value = self._values(trajectories)
-            if value.shape[1] == 1:
-                return value[:, 0]
-            if self.target is not None:
-                row = np.argmax(np.abs(self._deviation(value)), axis=1)
-            else:
-                row = np.argmin(self._slack(value), axis=1)
-        return np.take_along_axis(value, row[:, None], axis=1)[:, 0]
+            off = -self._slack(value) if self.target is None else np.abs(self._deviation(value))
+        return _where_largest(off, value)
+
+    def value_of(self, error: float) -> float | None:
+        """Compute the value that an error means, as far as it tells.
+
+        Args:
+            error: Error as `error` returns it, in the quantity's SI unit.
+
+        Returns:
+            The value in the same unit. None within bounds.
+        """
+        if self.target is not None:
+            return self.target + error
+        bound = self.minimum if error < 0 else self.maximum
+        return None if error == 0 or bound is None else bound + error
 
     def holds(self, trajectories: Trajectories) -> NDArray[np.bool_]:
         """Tell whether each trial meets the criterion. A trial that diverged does not.
@@ -220,10 +229,12 @@ class Criterion:
 
 def _worst(deviation: Array) -> Array:
     """Return the largest value of each row with its sign, shape (n,), from (n, rows)."""
-    if deviation.shape[1] == 1:
-        return deviation[:, 0]
-    worst = np.argmax(np.abs(deviation), axis=1)[:, None]
-    return np.take_along_axis(deviation, worst, axis=1)[:, 0]
+    return deviation[:, 0] if deviation.shape[1] == 1 else _where_largest(np.abs(deviation), deviation)
+
+
+def _where_largest(off: Array, values: Array) -> Array:
+    """Return the value of each row where ``off`` is largest, shape (n,), from (n, rows) each."""
+    return np.take_along_axis(values, np.argmax(off, axis=1)[:, None], axis=1)[:, 0]
 
 
 def errors(criteria: Mapping[str, Criterion], trajectories: Trajectories) -> dict[str, Array]:

@@ -58,13 +58,11 @@ def summary_data(motion: Motion) -> dict[str, Any]:
 def _criterion(name: str, criterion: Criterion, error: float, value: float | None) -> dict[str, Any]:
     target, low, high = criterion.target, criterion.minimum, criterion.maximum
     tolerance = criterion.tolerance or 0.0
-    if target is not None:
-        result: float | None = target + error
-        if criterion.quantity in CIRCULAR:
-            result = math.remainder(target + error, 2 * math.pi)
-    else:
-        bound = low if error < 0 else high
-        result = value if value is not None else None if error == 0 or bound is None else bound + error
+    result = criterion.value_of(error)
+    if target is None and value is not None:
+        result = value
+    elif target is not None and criterion.quantity in CIRCULAR:
+        result = math.remainder(target + error, 2 * math.pi)
     return {
         "name": name,
         "quantity": criterion.quantity,

@@ -79,7 +79,6 @@ def check_asked_duration(success: Mapping[str, Criterion], horizon: float | Hori
     Raises:
         LevadeError: If no T meets a criterion.
     """
-    free = isinstance(horizon, HorizonRange)
     least, most = (horizon.minimum, horizon.maximum) if isinstance(horizon, HorizonRange) else (horizon, horizon)
     for name, one in success.items():
         if one.quantity != "duration":
@@ -91,7 +90,7 @@ def check_asked_duration(success: Mapping[str, Criterion], horizon: float | Hori
             asked = " and ".join(
                 f"{what} {value:g} s" for what, value in (("at least", low), ("at most", high)) if value is not None
             )
-            there = f"{least:g} to {most:g} s" if free else f"{least:g} s"
+            there = horizon if isinstance(horizon, HorizonRange) else f"{horizon:g} s"
             raise LevadeError(
                 f"success.{name}: asks for a duration of {asked}, but horizon is {there}; change one of them"
             )
