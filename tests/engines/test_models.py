@@ -28,6 +28,7 @@ from levade.robots import Robot
 from levade.scenes import Box, Gap, Scene
 from levade.trajectory import JointReference, Trajectories
 
+PYRAMIDAL = int(mujoco.mjtCone.mjCONE_PYRAMIDAL)
 BOXES = (Box(position=(0.0, 0.0, 0.21), size=(0.3, 0.16, 0.42), yaw=0.1),)  # a block below the trunk, 1 cm from it
 
 
@@ -67,7 +68,7 @@ def test_a_version_is_a_model_compiled_with_its_values(
     boxed: Engine, start: State, wave: Callable[..., JointReference], compile_in: Callable[..., None]
 ) -> None:
     steps = 60
-    everything = Perturbation(latency=None, softness=(0.9, 2.0)).draw(boxed.model, 12, n=3, seed=1)
+    everything = Perturbation(latency=None, softness=(0.9, 2.0), cone=(0.0, 1.0)).draw(boxed.model, 12, n=3, seed=1)
     starts, models = perturbed_models(boxed.model, boxed.layout, everything, start)
     reference = wave(start.joint_position, n=1, steps=steps, scale=0.1)
     ours = boxed.rollout(starts, reference, models=models)
@@ -89,6 +90,7 @@ def test_a_version_is_a_model_compiled_with_its_values(
         softer = v["softness"][0]
         model.geom_solref[:, 0] *= softer
         model.geom_solimp[:, :2] = 1 - (1 - model.geom_solimp[:, :2]) * softer
+        model.opt.cone = [int(boxed.model.opt.cone), PYRAMIDAL][int(v["cone"][0] >= 0.5)]
         assert not np.allclose(model.dof_invweight0, boxed.model.dof_invweight0)
         data = mujoco.MjData(model)
         data.qpos[:], data.qvel[:], data.act[:] = starts.qpos[run], starts.qvel[run], starts.act[run]
@@ -116,21 +118,25 @@ def test_a_run_depends_on_nothing_but_its_own_values(
     assert np.array_equal(again, whole[[5, 2]])
 
 
-def test_softness_leaves_the_other_numbers_as_they_are(boxed: Engine) -> None:
+@pytest.mark.parametrize(("late", "ends"), [("softness", (0.5, 2.0)), ("cone", (0.0, 1.0))])
+def test_what_was_added_later_leaves_the_other_numbers_as_they_are(
+    late: str, ends: tuple[float, float], boxed: Engine
+) -> None:
     for draw in (Perturbation.draw, Perturbation.spread):
-        without, soft = (
-            draw(one, boxed.model, 12, n=5, seed=3) for one in (Perturbation(), Perturbation(softness=(0.5, 2.0)))
+        without, other = (
+            draw(one, boxed.model, 12, n=5, seed=3)
+            for one in (Perturbation(), Perturbation(**{late: ends}))  # type: ignore[arg-type]
         )
         for name in without.values:
-            assert np.array_equal(without.values[name], soft.values[name]) == (name != "softness"), name
-        assert len(np.unique(soft.values["softness"])) == 5
+            assert np.array_equal(without.values[name], other.values[name]) == (name != late), name
+        assert len(np.unique(other.values[late])) == 5
 
 
 @pytest.mark.parametrize("name", [one.name for one in fields(Perturbation)])
 def test_every_parameter_changes_the_motion_and_its_corners_are_the_ends_of_its_range(
     name: str, boxed: Engine, start: State, wave: Callable[..., JointReference]
 ) -> None:
-    own = Perturbation(softness=(0.9, 2.0))
+    own = Perturbation(softness=(0.9, 2.0), cone=(0.0, 1.0))
     corners = own.corners(boxed.model, 12, name, n=4, seed=0)
     ends = getattr(own, name)
     assert set(np.unique(corners.values[name])) == set(ends)

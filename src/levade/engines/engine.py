@@ -24,7 +24,7 @@ from levade.arrays import Array
 from levade.embodiment import Embodiment
 from levade.engines.clearance import SELF_DISTANCE, distances_at
 from levade.engines.layout import FOOT_CONTACT_FORCE, SELF_FORCE, Layout
-from levade.engines.models import FIELDS, Models, delayed
+from levade.engines.models import CONE_FIELD, FIELDS, Models, delayed
 from levade.engines.physics import Physics
 from levade.engines.state import State
 from levade.engines.table import ENGINES, no_feedback
@@ -249,7 +249,7 @@ class Engine(ABC):
         if models is not None:
             rows["models"] = len(models)
             for name in models.fields:
-                if not hasattr(self.model, name):
+                if name != CONE_FIELD and not hasattr(self.model, name):
                     raise LevadeError(f"models: no field {name!r} in mujoco.MjModel; {did_you_mean(name, FIELDS)}")
         n = max(rows.values())
         if not set(rows.values()) <= {1, n}:

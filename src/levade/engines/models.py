@@ -36,6 +36,9 @@ FIELDS = (
 SOFTNESS_FIELDS = ("geom_solref", "geom_solimp", "pair_solref", "pair_solimp")
 """Further fields in which softer or harder models differ."""
 
+CONE_FIELD = "opt.cone"
+"""Further field in which models with another friction cone differ."""
+
 _DCMOTOR = int(mujoco.mjtGain.mjGAIN_DCMOTOR)
 _NONE = int(mujoco.mjtSameFrame.mjSAMEFRAME_NONE)
 # where MuJoCo keeps an actuator's numbers
@@ -173,6 +176,8 @@ def _fields(model: mujoco.MjModel, layout: Layout, values: Mapping[str, Array]) 
         fields |= {name: np.repeat(getattr(model, name)[None], n, axis=0) for name in SOFTNESS_FIELDS}
         for prefix in ("geom", "pair"):
             soften(fields[f"{prefix}_solref"], fields[f"{prefix}_solimp"], values["softness"][:, :, None])
+    if values["cone"].any():
+        fields[CONE_FIELD] = np.where(values["cone"][:, 0] >= 0.5, other_cone(model), int(model.opt.cone))
     gain, bias = fields["actuator_gainprm"], fields["actuator_biasprm"]
     fields["actuator_forcerange"] *= values["torque_limit"][:, :, None]
     for i, name in enumerate(layout.embodiment.joint_names):
@@ -187,6 +192,19 @@ def _fields(model: mujoco.MjModel, layout: Layout, values: Mapping[str, Array]) 
             bias[:, actuator, _PID_KP] *= kp
             bias[:, actuator, _PID_KD] *= kd
     return fields
+
+
+def other_cone(model: mujoco.MjModel) -> int:
+    """Return the friction cone that a model does not have.
+
+    Args:
+        model: The model.
+
+    Returns:
+        A value of `mujoco.mjtCone`.
+    """
+    elliptic, pyramidal = int(mujoco.mjtCone.mjCONE_ELLIPTIC), int(mujoco.mjtCone.mjCONE_PYRAMIDAL)
+    return pyramidal if model.opt.cone == elliptic else elliptic
 
 
 def soften(solref: Array, solimp: Array, factor: float | Array) -> None:

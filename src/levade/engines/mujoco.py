@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from importlib.metadata import version
+from operator import attrgetter
 from typing import ClassVar
 
 import mujoco
@@ -173,7 +174,7 @@ class MujocoEngine(Engine):
         self._varied |= set(fields)
         for name in self._varied:  # a version has the nominal values of what an earlier one differed in
             given = fields.get(name)
-            batch.expand(name)[:n] = getattr(self._free, name) if given is None else self._lean.fields(name, given)
+            batch.expand(name)[:n] = attrgetter(name)(self._free) if given is None else self._lean.fields(name, given)
         with quiet():
             batch.set_const(np.arange(n))
 

@@ -142,11 +142,16 @@ PARAMETERS: dict[str, Parameter] = {
         "time that a contact takes to push bodies apart, and what it may be short of the full force",
         "off: numbers of the simulation, not of the robot; a certificate tries both ends of 0.5 to 2",
     ),
+    "cone": Parameter(
+        *("-", "model"),
+        "friction cone of contacts: the model's own below 0.5, the other of pyramidal and elliptic from there on",
+        "off, as softness; a certificate tries the other one",
+    ),
 }
 """Name -> description, in the order of `Perturbation`."""
 
-_LATE, _LATE_TAG = ("softness",), 1_819_440_229
-"""Parameters with separate random numbers, and their tag. So the numbers of the others are as they were without these."""
+_LATE = {"softness": 1_819_440_229, "cone": 1_668_247_141}
+"""Parameters with random numbers of their own, and their tags. So the numbers of the others are as they were without these."""
 
 
 @dataclass(frozen=True)
@@ -178,6 +183,7 @@ class Perturbation:
     ground_slope: Range = (-0.02, 0.02)
     obstacle: Range = (-0.01, 0.01)
     softness: Range = None
+    cone: Range = None
 
     def __post_init__(self) -> None:
         for name, about in PARAMETERS.items():
@@ -274,11 +280,10 @@ class Perturbation:
     ) -> Sample:
         """Make a sample from numbers in [0, 1], shape (n, size) each, that ``draw`` returns."""
         seeds = seed if isinstance(seed, tuple) else (seed,)
-        late = {name: size for name, size in shapes.items() if name in _LATE}
         early = {name: size for name, size in shapes.items() if name not in _LATE}
         unit = draw(np.random.default_rng(seed), sum(early.values()))
-        others = draw(np.random.default_rng((*seeds, _LATE_TAG)), sum(late.values()))
-        return self._sample(np.concatenate([unit, others], axis=1), {**early, **late})
+        late = [draw(np.random.default_rng((*seeds, tag)), shapes[name]) for name, tag in _LATE.items()]
+        return self._sample(np.concatenate([unit, *late], axis=1), {**early, **{name: shapes[name] for name in _LATE}})
 
     def _sample(self, unit: Array, shapes: Mapping[str, int]) -> Sample:
         values: dict[str, Array] = {}

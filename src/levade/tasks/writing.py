@@ -22,7 +22,7 @@ _ORDER = (
 _LATER = (
     *(("hardware",), ("policy", "room"), ("policy", "slew"), ("policy", "through"), ("search", "patience")),
     ("search", "sketches"),
-    *(("robust", "perturb", "softness"), ("start", "fallen", "fold")),
+    *(("robust", "perturb", "softness"), ("robust", "perturb", "cone"), ("start", "fallen", "fold")),
 )
 """Keys that were added after the first runs with a checksum, and are null, zero or empty by default."""
 _LATER_OF_TERMS = {"margins": ("linkage",)}

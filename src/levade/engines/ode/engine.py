@@ -19,7 +19,7 @@ import numpy as np
 from levade.arrays import Array
 from levade.engines.engine import Engine, Trials, broke_down
 from levade.engines.layout import FOOT_CONTACT_FORCE, sole
-from levade.engines.models import Models, with_free_frames
+from levade.engines.models import CONE_FIELD, Models, with_free_frames
 from levade.engines.ode.library import load
 from levade.engines.ode.multibody import multibody_of
 from levade.engines.ode.simulation import Record, Simulation
@@ -113,7 +113,8 @@ class OdeEngine(Engine):
         if key not in self._kept:
             model = with_free_frames(self.model, self.layout)
             for name, values in models.fields.items():
-                getattr(model, name)[:] = values[row]
+                if name != CONE_FIELD:  # ODE has its own
+                    getattr(model, name)[:] = values[row]
             self._kept[key] = self._simulation(model)
             while len(self._kept) > _KEPT:
                 self._kept.popitem(last=False)
