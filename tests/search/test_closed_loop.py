@@ -17,6 +17,7 @@ from levade.motions import Motion, RecordedSimulation
 from levade.motions.trials import run_trials
 from levade.search import Evaluation, Generation, Objective, Stopped, Trials, make_objective, solve
 from levade.search.closed_loop import _SENSING as SENSING
+from levade.search.evaluation import Gains
 from levade.search.objective import _TAG as TAG
 from levade.search.recording import record
 from levade.search.run import resume, run
@@ -53,14 +54,14 @@ def by_hand(objective: Objective, trials: Trials, sensors: SensorErrors) -> Eval
     engine, policy, start, robust = objective.engine, objective.policy, objective.state, objective.task.robust
     assert isinstance(engine, MujocoEngine)
     assert robust is not None
-    assert trials.along is not None
+    assert trials.gains is not None
     assert trials.pairs is not None
     assert trials.draw is not None
     n = robust.samples if trials.draw else robust.fixed
     joints = engine.embodiment.joints
     sample = robust.perturb.spread(engine.model, joints, n=n, seed=(trials.seed, trials.draw, TAG))
     starts, models = perturbed_models(engine.model, engine.layout, sample, start)
-    gains = objective.regulator(trials.along, seed=trials.seed)
+    gains = objective.regulator(trials.gains, seed=trials.seed)
     period = gains.steps(engine.physics.timestep)
     ticks = -(-(objective.task.horizon_steps + objective.task.hold_steps) // period)
     errors = sensors.draw(n, ticks, joints, seed=(trials.seed, trials.draw, SENSING))
@@ -100,24 +101,26 @@ def on_the_way(engine: MujocoEngine, start: State, arrays: dict[str, Array], per
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("sensors", [SensorErrors(), SensorErrors(0.1, 0.0, 0.02, 0.3, 0.0)], ids=["usual", "other"])
-def test_a_batch_is_its_roll_outs_one_by_one(sensors: SensorErrors) -> None:
+@pytest.mark.parametrize(
+    ("sensors", "design"), [(SensorErrors(), 0), (SensorErrors(0.1, 0.0, 0.02, 0.3, 0.0), 1)], ids=["usual", "other"]
+)
+def test_a_batch_is_its_roll_outs_one_by_one(sensors: SensorErrors, design: int) -> None:
     objective = make_objective(replace(task(), feedback=replace(FEEDBACK, sensors=sensors)), threads=1)
     weights = objective.space.mean + 0.05 * np.random.default_rng(3).standard_normal((3, objective.space.size))
     pairs = (np.array([0, 0, 1, 2, 2]), np.array([0, 1, 1, 0, 1]))
-    trials = Trials(weights, 5, seed=7, draw=4, pairs=pairs, along=weights[1])
+    trials = Trials(weights, 5, seed=7, draw=4, pairs=pairs, gains=Gains(weights[1], design=design))
     found, expected = objective.evaluate(trials), by_hand(objective, trials, sensors)
     for name, values in found.terms.items():
         np.testing.assert_array_equal(values, expected.terms[name])
     np.testing.assert_array_equal(found.success, expected.success)
-    without = objective.evaluate(replace(trials, along=None))
+    without = objective.evaluate(replace(trials, gains=None))
     assert not np.array_equal(without.terms["orientation"], found.terms["orientation"])
 
 
 @pytest.mark.slow
 def test_what_was_kept_changes_no_bit(objective: Objective) -> None:
     weights = objective.space.mean + 0.05 * np.random.default_rng(4).standard_normal((2, objective.space.size))
-    trials = Trials(weights, 5, draw=1, pairs=(np.array([0, 1]), np.array([1, 0])), along=weights[0])
+    trials = Trials(weights, 5, draw=1, pairs=(np.array([0, 1]), np.array([1, 0])), gains=Gains(weights[0]))
     fresh = make_objective(objective.task, threads=2)
     objective.evaluate(Trials(weights, 5))  # sensed once, and kept
     once, again = objective.evaluate(trials), fresh.evaluate(trials)
@@ -127,15 +130,17 @@ def test_what_was_kept_changes_no_bit(objective: Objective) -> None:
 
 def test_gains_identify_a_question() -> None:
     trials = Trials(np.ones((1, 3)), 0, draw=1, pairs=(np.array([0]), np.array([0])))
-    along = replace(trials, along=np.ones(3))
-    assert len({trials.checksum, along.checksum, replace(along, along=np.zeros(3)).checksum}) == 3
+    others = [
+        replace(trials, gains=one) for one in (Gains(np.ones(3)), Gains(np.zeros(3)), Gains(np.ones(3), design=1))
+    ]
+    assert len({one.checksum for one in (trials, *others)}) == 4
 
 
 @pytest.mark.slow
 def test_the_motion_has_the_regulator_that_it_was_found_with(found: tuple[list[Generation], Motion]) -> None:
     """On the nominal model it does nothing: what is sensed there is what it holds the robot to."""
     generations, motion = found
-    assert generations[-1].best.along is not None
+    assert generations[-1].best.gains is not None
     assert motion.feedback is not None
     simulation = RecordedSimulation(motion, threads=1)
     without, within = (

@@ -305,16 +305,37 @@ def test_gains_that_hold_the_best_motion_less_well_are_not_taken(better: bool) -
     search, asked, seen = Search(task, SPACE, seed=0), [], []
     while (trials := search.ask()) is not None:
         evaluation = answer(task, trials)
-        if trials.along is not None:
-            asked += [trials.along.tobytes()] if trials.along.tobytes() not in asked else []
-            change = (0.5 if better else 2.0) ** asked.index(trials.along.tobytes())
+        if trials.gains is not None:
+            asked += [trials.gains.along.tobytes()] if trials.gains.along.tobytes() not in asked else []
+            change = (0.5 if better else 2.0) ** asked.index(trials.gains.along.tobytes())
             terms = {"position": evaluation.terms["position"] * change}
             evaluation = dataclasses.replace(evaluation, terms=terms)
         generation = search.tell(evaluation)
-        if generation is not None and generation.stage_name == "robust" and generation.best.along is not None:
-            seen.append(generation.best.along.tobytes())
+        if generation is not None and generation.stage_name == "robust" and generation.best.gains is not None:
+            seen.append(generation.best.gains.along.tobytes())
     assert len(asked) > 3
     assert len(set(seen)) > 3 if better else set(seen) == {asked[0]}
+
+
+def test_the_first_gains_are_of_the_best_design_and_later_ones_keep_it() -> None:
+    """Each design has its own cost, and the third the lowest."""
+    task = dataclasses.replace(
+        make_task(*NOMINAL_THEN_ROBUST, robust=REDRAWN, trials=500), feedback=Regulation(every=1)
+    )
+    search, asked = Search(task, SPACE, seed=0), []
+    while (trials := search.ask()) is not None:
+        evaluation = answer(task, trials)
+        if trials.gains is not None:
+            asked.append(trials.gains.design)
+            terms = {"position": evaluation.terms["position"] * (0.9, 0.8, 0.5, 0.7)[trials.gains.design]}
+            evaluation = dataclasses.replace(evaluation, terms=terms)
+        search.tell(evaluation)
+    assert list(dict.fromkeys(asked)) == [0, 1, 2, 3]
+    last = asked.index(3)
+    assert len(asked) > last + 3
+    assert set(asked[last + 1 :]) == {2}
+    assert search.solution.best.gains is not None
+    assert search.solution.best.gains.design == 2
 
 
 def test_feedback_that_holds_less_than_none_is_not_taken() -> None:
@@ -325,7 +346,7 @@ def test_feedback_that_holds_less_than_none_is_not_taken() -> None:
     search, seen, asked = Search(task, SPACE, seed=0), [], []
     while (trials := search.ask()) is not None:
         evaluation = answer(task, trials)
-        if trials.along is not None:
+        if trials.gains is not None:
             asked.append(trials)
             terms = {"position": evaluation.terms["position"] + 1.0}
             evaluation = dataclasses.replace(evaluation, terms=terms, success=np.zeros(trials.n, dtype=bool))
@@ -334,19 +355,19 @@ def test_feedback_that_holds_less_than_none_is_not_taken() -> None:
             seen.append(generation)
     assert len(asked) > 1
     assert all(len(trials.weights) == 1 for trials in asked)
-    assert all(generation.best.along is None for generation in seen)
-    assert search.solution.best.along is None
+    assert all(generation.best.gains is None for generation in seen)
+    assert search.solution.best.gains is None
 
 
 def test_feedback_is_asked_for_on_perturbed_models_only() -> None:
     """And not before there is a motion to make gains along."""
     task = dataclasses.replace(make_task(*NOMINAL_THEN_ROBUST, robust=REDRAWN), feedback=Regulation())
     asked, _ = driven(Search(task, SPACE, seed=0))
-    assert all(trials.along is None for trials in asked if trials.draw is None)
-    gains = [trials.along for trials in asked if trials.draw is not None]
-    first = next(i for i, along in enumerate(gains) if along is not None)
+    assert all(trials.gains is None for trials in asked if trials.draw is None)
+    gains = [trials.gains for trials in asked if trials.draw is not None]
+    first = next(i for i, one in enumerate(gains) if one is not None)
     assert first <= 1  # the motion to make them along is judged before
-    assert all(along is not None for along in gains[first:])
+    assert all(one is not None for one in gains[first:])
 
 
 def test_an_attempt_begins_around_the_best_of_its_sketches() -> None:

@@ -1,7 +1,7 @@
 """Closed loop of a search: gains along its motions, and what each candidate senses on the nominal model.
 
     closed = ClosedLoop(task.feedback, task, engine, start)
-    closed.feedback(weights, reference, seed=0)         # gains along a motion
+    closed.feedback(Gains(weights), reference, seed=0)  # gains along a motion
     closed.sensed(reference)                            # (n, ticks, sensed): the reference for perturbed models
 
 Everything follows from the arguments. The caches only save time.
@@ -9,14 +9,20 @@ Everything follows from the arguments. The caches only save time.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from levade.arrays import Array
 from levade.engines import Engine, MujocoEngine, State, perturbed_models
 from levade.engines.table import no_feedback
 from levade.feedback import Feedback, period_steps, sensed
+from levade.search.evaluation import Gains
 from levade.tasks import Regulation, Task
 from levade.trajectory import JointReference, Trajectories
+
+if TYPE_CHECKING:
+    from levade.regulators import Along
 
 _LEARNING, _SENSING = 1_279_610_446, 1_397_050_190
 """Separate the random numbers for learning gains, and for sensor errors, from others drawn with the same seed."""
@@ -44,22 +50,22 @@ class ClosedLoop:
         self._regulation, self._task, self._engine, self._start = regulation, task, engine, start
         self._period = period_steps(regulation.rate, task.physics.timestep)
         self._ticks = -(-(task.horizon_steps + task.hold_steps) // self._period)
-        self._made: dict[tuple[int, bytes], Feedback] = {}
+        self._made: dict[tuple[int, bytes], Along] = {}
         self._sensed: dict[bytes, Array] = {}
         self._errors: dict[tuple[int, int], Array] = {}
 
-    def feedback(self, along: Array, reference: JointReference, seed: int) -> Feedback:
+    def feedback(self, gains: Gains, reference: JointReference, seed: int) -> Feedback:
         """Make feedback with gains along a motion, which keeps the robot close to that motion.
 
         Args:
-            along: Weights of the motion, shape (d,).
+            gains: The motion, and which design to use.
             reference: Joint reference of the motion: one trial with the whole hold.
             seed: Seed of the search.
         """
-        key = (seed, along.tobytes())
-        if key not in self._made:
-            from levade.regulators import Design, linearised  # only tasks with feedback need it
+        from levade.regulators import Design, linearised  # only tasks with feedback need it
 
+        key = (seed, gains.along.tobytes())
+        if key not in self._made:
             robust, regulation, engine = self._task.robust, self._regulation, self._engine
             assert robust is not None
             joints = engine.embodiment.joints
@@ -74,10 +80,10 @@ class ClosedLoop:
                 errors=regulation.sensors,
                 threads=engine.threads,
             )
-            design = Design(motion=regulation.motion, hold=regulation.hold, bound=regulation.bound)
             latest = dict(list(self._made.items())[-3:])
-            self._made = {**latest, key: found.feedback(design)}
-        return self._made[key]
+            self._made = {**latest, key: found}
+        chosen = self._regulation.designs[gains.design]
+        return self._made[key].feedback(Design(motion=chosen.motion, hold=chosen.hold, bound=chosen.bound))
 
     def sensed(self, reference: JointReference) -> Array:
         """Return what candidates sense on the nominal model, shape (n, ticks, sensed).

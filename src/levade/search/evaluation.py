@@ -28,6 +28,19 @@ Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
+class Gains:
+    """What determines the gains of a task's feedback.
+
+    Attributes:
+        along: Weights of the motion along which they are made, shape (d,).
+        design: Number of their design in `levade.tasks.Regulation.designs`.
+    """
+
+    along: Array
+    design: int = 0
+
+
+@dataclass(frozen=True, eq=False)
 class Trials:
     """The roll-outs that a search asks for.
 
@@ -39,8 +52,7 @@ class Trials:
             models drawn for generation g.
         pairs: With a draw, the candidate and the model of each roll-out, both of shape (n,). Without a draw, each candidate
             is one roll-out.
-        along: With a draw, the weights of the motion along which the gains of the task's feedback are made, shape (d,). None
-            simulates without feedback.
+        gains: With a draw, the gains of the task's feedback. None simulates without feedback.
         closing: Whether the search asks for this at its end. The answer is not recorded, since a resumed search goes on
             instead.
     """
@@ -50,7 +62,7 @@ class Trials:
     seed: int = 0
     draw: int | None = None
     pairs: tuple[Index, Index] | None = None
-    along: Array | None = None
+    gains: Gains | None = None
     closing: bool = False
 
     def __getitem__(self, rows: slice) -> Trials:
@@ -72,8 +84,8 @@ class Trials:
         of = zlib.crc32(np.ascontiguousarray(self.weights).tobytes())
         for part in self.pairs or ():
             of = zlib.crc32(np.ascontiguousarray(part, dtype=np.int64).tobytes(), of)
-        if self.along is not None:
-            of = zlib.crc32(np.ascontiguousarray(self.along).tobytes(), of)
+        if self.gains is not None:
+            of = zlib.crc32(np.ascontiguousarray(self.gains.along).tobytes(), of + self.gains.design)
         return zlib.crc32(repr((self.hold_steps, self.draw)).encode(), of)
 
 

@@ -35,7 +35,7 @@ from levade.optimizers import SearchSpace
 from levade.policies import FreePolicy, JointPolicy, Policy
 from levade.robots import Robot
 from levade.search.closed_loop import ClosedLoop
-from levade.search.evaluation import Evaluation, Index, Trials, joined
+from levade.search.evaluation import Evaluation, Gains, Index, Trials, joined
 from levade.search.memory import check_fits, needed
 from levade.search.optimizing import make_attempt
 from levade.search.space import search_space
@@ -229,18 +229,18 @@ class Objective:
         # perturbed models have latency: until the first reference arrives, the joints keep their last command
         each = replace(reference[candidates], before=self.state.joint_reference[0])
         made = Rollouts(starts[models], each, drawn[models])
-        if trials.along is None or self._closed is None:
+        if trials.gains is None or self._closed is None:
             return made
         on_model = self._closed.sensed(reference)
-        feedback = self.regulator(trials.along, seed=trials.seed).along(on_model[candidates])
+        feedback = self.regulator(trials.gains, seed=trials.seed).along(on_model[candidates])
         errors = self._closed.sensor_errors(trials.seed, trials.draw, len(drawn))
         return replace(made, feedback=feedback, sensor_errors=errors[models])
 
-    def regulator(self, along: Array, *, seed: int) -> Feedback:
-        """Make the task's feedback with gains along a motion. It keeps the robot close to that motion.
+    def regulator(self, gains: Gains, *, seed: int) -> Feedback:
+        """Make the task's feedback. It keeps the robot close to the motion along which its gains are made.
 
         Args:
-            along: Weights of the motion, shape (d,).
+            gains: What determines its gains.
             seed: Seed of the search.
 
         Raises:
@@ -248,8 +248,8 @@ class Objective:
         """
         if self._closed is None:
             raise LevadeError("feedback: the task has none; add feedback: {} to the task")
-        reference = self.policy.reference(along[None], hold_steps=self.task.hold_steps)
-        return self._closed.feedback(along, reference, seed)
+        reference = self.policy.reference(gains.along[None], hold_steps=self.task.hold_steps)
+        return self._closed.feedback(gains, reference, seed)
 
     def sensed(self, weights: Array) -> Array:
         """Return what a motion senses on the nominal model at the ticks of the task's feedback, shape (ticks, sensed).
@@ -370,7 +370,7 @@ def evaluate_many(asked: Sequence[tuple[Objective, Trials]]) -> list[Evaluation]
     together: dict[tuple[int, int, bool, tuple[str, ...], int], list[int]] = {}
     for i, (objective, trials) in enumerate(asked):
         steps = objective.policy.horizon_steps + trials.hold_steps
-        alone = -1 if trials.along is None else i  # it has its own gains
+        alone = -1 if trials.gains is None else i  # it has its own gains
         key = (id(objective.engine), steps, trials.draw is None, objective.recorded, alone)
         together.setdefault(key, []).append(i)
     for members in together.values():

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from levade.arrays import Array
-from levade.search.evaluation import Evaluation
+from levade.search.evaluation import Evaluation, Gains
 from levade.tasks import Change
 
 
@@ -35,7 +35,7 @@ class Trial:
         errors: Criterion -> error [SI].
         success: Whether it meets every criterion. For a robust task also on enough of the perturbed models.
         share: Share of the perturbed models on which it succeeds. None if it was not tried on any.
-        along: Weights of the motion along which the gains of its feedback were made, shape (d,). None if it had no feedback.
+        gains: Gains of its feedback. None if it had no feedback.
         met: Whether it meets every criterion of the nominal model. This matters where the criteria of perturbed models ask
             for less.
     """
@@ -46,11 +46,11 @@ class Trial:
     errors: Mapping[str, float]
     success: bool
     share: float | None = None
-    along: Array | None = None
+    gains: Gains | None = None
     met: bool = True
 
     @classmethod
-    def of(cls, weights: Array, cost: float, evaluation: Evaluation, i: int, along: Array | None = None) -> Trial:
+    def of(cls, weights: Array, cost: float, evaluation: Evaluation, i: int, gains: Gains | None = None) -> Trial:
         """Make a trial of one row of an evaluation.
 
         Args:
@@ -58,7 +58,7 @@ class Trial:
             cost: Its cost.
             evaluation: The evaluation.
             i: Row of the evaluation.
-            along: Weights of the motion along which gains were made, shape (d,).
+            gains: Gains of its feedback.
         """
         return cls(
             weights=weights.copy(),
@@ -67,7 +67,7 @@ class Trial:
             errors={name: float(values[i]) for name, values in evaluation.errors.items()},
             success=bool(evaluation.success[i]),
             share=None if evaluation.samples is None else float(evaluation.samples.share[i]),
-            along=None if evaluation.samples is None else along,
+            gains=None if evaluation.samples is None else gains,
             met=evaluation.met is None or bool(evaluation.met[i]),
         )
 

@@ -92,8 +92,8 @@ def record(objective: Objective, solution: Solution, *, seed: int) -> Motion:
     }
     arrays = {name: np.ascontiguousarray(arrays[name]).copy() for name in (*ARRAYS, *LATER_ARRAYS)}
     motion = Motion(meta, engine.xml, arrays, dict(engine.assets), task if holds_code(task) else None)
-    along = solution.best.along
-    if along is None:
+    gains = solution.best.gains
+    if gains is None:
         return motion
-    feedback = objective.regulator(along, seed=seed).along(objective.sensed(solution.best.weights))
+    feedback = objective.regulator(gains, seed=seed).along(objective.sensed(solution.best.weights))
     return motion.stabilised(feedback, made="in the search")

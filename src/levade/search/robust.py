@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from levade.arrays import Array
-from levade.search.evaluation import Evaluation, Index, Samples, Trials
+from levade.search.evaluation import Evaluation, Gains, Index, Samples, Trials
 from levade.search.outcome import Trial
 from levade.search.schedule import Level, level_of
 from levade.tasks import Robust, Task
@@ -40,14 +40,13 @@ class Judge:
         task: The task.
         seed: Seed of the search, which determines the perturbed models.
         closing: Whether this judges at the end of the search: see `Trials`.
-        along: Weights of the motion along which the gains of the task's feedback are made, shape (d,). None judges without
-            feedback.
+        gains: Gains of the task's feedback. None judges without feedback.
     """
 
     task: Task
     seed: int
     closing: bool = False
-    along: Array | None = None
+    gains: Gains | None = None
 
     def evaluate(
         self,
@@ -117,9 +116,10 @@ class Judge:
         robust = self.task.robust
         if robust is None:
             return population
-        if self.task.feedback is not None and level.robust:  # judges the best once more, with other gains
+        if self.task.feedback is not None and level.robust:  # judges the best again, with other gains
             others = replace(self, task=replace(self.task, feedback=None)).most(population, level)
-            return others + (1 + robust.fixed) * (1 + (level.hold_steps < self.task.hold_steps))
+            judged = (1 + robust.fixed) * (1 + (level.hold_steps < self.task.hold_steps))
+            return others + judged * (len(self.task.feedback.designs) if self.gains is None else 1)
         validated = 1 + robust.fixed
         if not level.robust:
             partial = any(
@@ -186,7 +186,7 @@ class Judge:
             return samples
         rows_of, columns_of = (axis.ravel() for axis in np.meshgrid(np.arange(len(rows)), columns, indexing="ij"))
         asked = self._trials(candidates[rows], hold_steps)
-        found = yield replace(asked, draw=draw, pairs=(rows_of, columns_of), along=self.along)
+        found = yield replace(asked, draw=draw, pairs=(rows_of, columns_of), gains=self.gains)
         return samples.updated((rows[rows_of], columns_of), found)
 
     def _trials(self, candidates: Array, hold_steps: int) -> Trials:

@@ -20,7 +20,7 @@ from levade.arrays import Array
 from levade.costs import DIVERGED
 from levade.errors import LevadeError
 from levade.optimizers import Optimizer, SearchSpace, uses_errors
-from levade.search.evaluation import Evaluation, Trials
+from levade.search.evaluation import Evaluation, Gains, Trials
 from levade.search.initial import AROUND, InitialGuess
 from levade.search.optimizing import make_attempt
 from levade.search.outcome import Generation, Solution, Stopped, Trial, better
@@ -248,25 +248,29 @@ class Search:
     def _regulate(self) -> _Asking:
         """Make the gains of the task's feedback along the best motion, if they are due.
 
-        New gains stay only if the motion holds as well as with the earlier ones. The first gains are compared with no feedback.
+        New gains stay only if the motion ranks no lower than with the earlier ones. The first gains are those of the design
+        with which it ranks highest, and are compared with no feedback.
         """
         feedback, level, best = self._task.feedback, self._schedule.level, self._best
         if feedback is None or not level.robust or best is None:
             return
         since = feedback.every if self._regulated is None else self._generations - self._regulated
-        along = self._judge.along
-        if since < feedback.every or (along is not None and np.array_equal(along, best.weights)):
+        earlier = self._judge.gains
+        if since < feedback.every or (earlier is not None and np.array_equal(earlier.along, best.weights)):
             return
         self._regulated = self._generations
-        judge = replace(self._judge, along=best.weights)
-        evaluation = yield from judge.evaluate(best.weights[None], level)
-        self._trials += evaluation.trials
-        cost = float(evaluation.cost(self._weights, self._task.robust)[0])
-        again = Trial.of(best.weights, cost, evaluation, 0, judge.along)
-        if best.share is None or again.rank <= best.rank:
-            self._judge, self._best = judge, again
-            if self._trials_to_success is None and again.success:
-                self._trials_to_success = self._trials
+        for design in range(len(feedback.designs)) if earlier is None else (earlier.design,):
+            assert self._best is not None
+            judge = replace(self._judge, gains=Gains(best.weights, design))
+            evaluation = yield from judge.evaluate(best.weights[None], level, best=self._best)
+            self._trials += evaluation.trials
+            cost = float(evaluation.cost(self._weights, self._task.robust)[0])
+            again = Trial.of(best.weights, cost, evaluation, 0, judge.gains)
+            if self._best.share is None or again.rank <= self._best.rank:
+                self._judge, self._best = judge, again
+                if self._trials_to_success is None and again.success:
+                    self._trials_to_success = self._trials
+        if self._judge.gains is not earlier:
             self._forget_costs()
 
     def _generation(self) -> Generator[Trials | Generation, Evaluation, Report]:
@@ -299,7 +303,7 @@ class Search:
         if self._trials_to_success is None and judged.success.any():
             self._trials_to_success = self._trials
         self._starts += [start] if start is not None else []
-        self._keep_best(contenders, judged, self._judge.along)
+        self._keep_best(contenders, judged, self._judge.gains)
         yield self._state(cost, evaluation, validated)
         return Report(
             spent,
@@ -352,7 +356,7 @@ class Search:
         self._scale_step()
         level = self._schedule.level
         if not level.robust:
-            self._judge, self._regulated = replace(self._judge, along=None), None
+            self._judge, self._regulated = replace(self._judge, gains=None), None
         self._forget_costs(hold=level.hold_steps != before.hold_steps)
         if level != before:
             self._trials += yield from self._judge_best_again(self._judge, level)
@@ -363,7 +367,7 @@ class Search:
 
     def _close(self) -> _Asking:
         """Judge the best motion as the task does, whatever the last stage simulated."""
-        judge = replace(self._judge, closing=True, along=None if self._best is None else self._best.along)
+        judge = replace(self._judge, closing=True, gains=None if self._best is None else self._best.gains)
         level, full = self._schedule.level, full_level(self._task)
         if self._best is None:
             candidate = self._space.mean[None]
@@ -385,7 +389,7 @@ class Search:
         candidate = self._best.weights[None]
         evaluation = yield from judge.evaluate(candidate, level)
         self._best = None
-        self._keep_best(candidate, evaluation, judge.along)
+        self._keep_best(candidate, evaluation, judge.gains)
         return 0 if evaluation.samples is None else evaluation.trials
 
     def _weigh_best_again(self) -> _Asking:
@@ -405,7 +409,7 @@ class Search:
         """Return a trial with its cost by the current weights. One tried on many models has to be simulated again."""
         if trial.share is not None:
             on_models = Level(level.hold_steps, robust=True)
-            judge = replace(self._judge, along=trial.along)
+            judge = replace(self._judge, gains=trial.gains)
             evaluation = yield from judge.evaluate(trial.weights[None], on_models)
         else:
             terms = {name: np.array([value]) for name, value in trial.terms.items()}
@@ -413,13 +417,13 @@ class Search:
             evaluation = Evaluation(terms, {}, np.array([trial.success]), diverged)
         return replace(trial, cost=float(evaluation.cost(self._weights, self._task.robust)[0]))
 
-    def _keep_best(self, candidates: Array, evaluation: Evaluation, along: Array | None = None) -> None:
-        """Keep the best trial of all, by its rank. For ``along`` see `Judge`."""
+    def _keep_best(self, candidates: Array, evaluation: Evaluation, gains: Gains | None = None) -> None:
+        """Keep the best trial of all, by its rank. For ``gains`` see `Judge`."""
         cost = evaluation.cost(self._weights, self._task.robust)
         share = np.zeros(len(cost)) if evaluation.samples is None else evaluation.samples.share
         unmet = np.zeros(len(cost), dtype=bool) if evaluation.met is None else ~evaluation.met
         first = int(np.lexsort((cost, -share, unmet, ~evaluation.success))[0])
-        trial = Trial.of(candidates[first], float(cost[first]), evaluation, first, along)
+        trial = Trial.of(candidates[first], float(cost[first]), evaluation, first, gains)
         if self._best is None or trial.rank < self._best.rank:
             self._best = trial
 

@@ -3,10 +3,16 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from levade.errors import LevadeError
 from levade.feedback import SensorErrors
+
+_LEAST, _MOST = 0.001, 100.0
+"""Range of corrections that cost 1 [rad]."""
+
+_OTHERS = (0.25, 2.0)
+"""Factors on the correction that costs 1 up to the horizon, for the other designs."""
 
 
 @dataclass(frozen=True)
@@ -23,7 +29,8 @@ class Regulation:
             fade; that suits postures that stand by themselves, on several contacts.
         bound: Bound on each correction [rad].
         every: Generations after which the gains are computed again, along the best motion. New gains are kept only if that
-            motion ranks no worse with them than with the earlier ones; the first gains, no worse than without feedback.
+            motion ranks no worse with them than with the earlier ones. The first gains are the best of all `designs`, if it
+            ranks no worse with them than without feedback.
         runs: Perturbed runs from which the regulator learns to predict what it cannot measure.
         sensors: Errors of the sensors, in the search and in the check.
 
@@ -39,11 +46,17 @@ class Regulation:
     runs: int = 32
     sensors: SensorErrors = SensorErrors()
 
+    @property
+    def designs(self) -> tuple[Regulation, ...]:
+        """These settings, and others to try before the first gains: larger and smaller corrections, and none in the hold."""
+        others = [replace(self, motion=min(max(factor * self.motion, _LEAST), _MOST)) for factor in _OTHERS]
+        return tuple(dict.fromkeys((self, *others, replace(self, hold=None))))
+
     def __post_init__(self) -> None:
         for name, least, most, unit in (
             ("rate", 1.0, 10_000.0, "Hz; 250 is usual"),
-            ("motion", 0.001, 100.0, "rad; 0.1 to 1 is usual"),
-            ("hold", 0.001, 100.0, "rad; 0.03 to 0.3 is usual"),
+            ("motion", _LEAST, _MOST, "rad; 0.1 to 1 is usual"),
+            ("hold", _LEAST, _MOST, "rad; 0.03 to 0.3 is usual"),
             ("bound", 0.001, 2.0, "rad; 0.3 is usual"),
         ):
             value: float | None = getattr(self, name)
