@@ -17,10 +17,9 @@ there differ widely on other robots. The second search begins around the best of
 the nearest motion, if none keeps the limits. While the best motion succeeds on few robots, the search that found it is repeated
 with other random numbers.
 
-A robust search follows around the motion that succeeds on most robots, and a search with feedback around the result. Where few
-robots succeed in open loop, the search with feedback follows at once. Fine searches then begin around a motion if it succeeds
-on nearly enough robots, if its lead is so small that other robots could change the verdict, or if it fails because of how
-contact is computed. Searches that are no longer needed are left out.
+A search on perturbed models follows around the motion that succeeds on most robots, with feedback if the motion may have any.
+Fine searches then begin around a motion if it succeeds on nearly enough robots, if its lead is so small that other robots could
+change the verdict, or if it fails because of how contact is computed. Searches that are no longer needed are left out.
 
 A pursuit around a given motion has one search within limits, ``near``, which begins around it.
 """
@@ -82,14 +81,8 @@ _ENOUGH = 0.4
 _GOOD = 0.9
 """Share of perturbed robots that makes a motion good enough to begin the robust searches around."""
 
-_ON_ROBUST = 0.7
-"""Share of the time after which a robust search without success ends, if a search with feedback can follow."""
-
-_BALANCED = 0.25
-"""Share of perturbed robots below which no motion becomes robust in open loop: it needs feedback at once."""
-
-_CONTACTS = {"softer contact", "stiffer contact"}
-"""Variants of the contact model. If a motion fails one, the search around it also perturbs contacts."""
+_TIMES = 3
+"""Once a search within limits has succeeded, later ones end without success after this multiple of its trials."""
 
 _APART = 1000
 """Distance between the seeds of searches that differ in nothing else."""
@@ -303,21 +296,14 @@ class _Pursuit:
                 break
 
     def _hold_on_others(self) -> None:
-        """Search around the motion that succeeds on most perturbed robots, without feedback and with it."""
-        plan, closing = self._plan, self._plan.can_close_the_loop
+        """Search around the motion that succeeds on most perturbed robots, with feedback if it may have any."""
+        plan = self._plan
         around = max((part for part in self._parts if part.met), key=lambda part: (part.sure, part.share))
         self._choose(around)
-        for name, make in ((ROBUST, plan.robust), (CLOSED, plan.closed_loop)):
-            if around.sure or (name == CLOSED and not closing):
-                break
-            if name == ROBUST and closing and around.share < _BALANCED:
-                continue
-            self._share = _ON_ROBUST if name == ROBUST and closing else 1.0
+        if not around.sure:
+            name, make = (CLOSED, plan.closed_loop) if plan.can_close_the_loop else (ROBUST, plan.robust)
             near = around.motion
-            around = self._search(name, make(near.horizon, near.task.policy), near, seed=self._seed)
-            if self._stopped or not around.met:
-                break
-        self._share = 1.0
+            self._search(name, make(near.horizon, near.task.policy), near, seed=self._seed)
 
     def _refine(self) -> None:
         """Search around the best motion in small steps, if it nearly passes."""
@@ -326,13 +312,7 @@ class _Pursuit:
             if self._stopped or best.sure or not best.near:
                 break
             near = best.motion
-            failed = set() if best.certificate is None else set(best.certificate.failed)
-            task = self._plan.finer(
-                near.horizon,
-                near.task.policy,
-                feedback=near.stabiliser is not None,
-                softness=bool(failed & _CONTACTS),
-            )
+            task = self._plan.finer(near.horizon, near.task.policy, feedback=near.stabiliser is not None)
             self._search(name, task, near, seed=self._seed + _APART * number)
 
     @property
@@ -471,15 +451,22 @@ class _Pursuit:
             self._stopped, wish = "time", Stopped.INTERRUPTED
         elif self._budget.spent(1.0, generation.trials):  # also when it is replayed: a later call stops there, too
             self._stopped, wish = "trials", Stopped.INTERRUPTED
-        elif generation.trials_to_success is None and self._gives_up(generation):
+        elif generation.trials_to_success is None and self._gives_up(name, generation):
             wish = Stopped.INTERRUPTED
         return wish
 
-    def _gives_up(self, generation: Generation) -> bool:
+    def _gives_up(self, name: str, generation: Generation) -> bool:
         """Whether a search without success ends, because it has had its share."""
-        if self._budget.spent(self._share, generation.trials):
+        if self._budget.spent(self._share, generation.trials) or self._outdone(name, generation):
             return True
         return not generation.replayed and self._budget.late(self._share)
+
+    def _outdone(self, name: str, generation: Generation) -> bool:
+        """Whether a search within limits takes much longer than one that has succeeded."""
+        if name not in self._kinds:
+            return False
+        least = min((part.trials for part in self._parts if part.met), default=None)
+        return least is not None and generation.trials >= _TIMES * least
 
     def _better_there(self, part: Part) -> bool:
         """Whether an earlier call left a motion with a better certificate for the same demands."""

@@ -93,9 +93,9 @@ _FINER, _FINER_VALIDATION, _FINER_TRIALS = 0.1, 120, 4000
 """Settings of a search around a motion that succeeds on most perturbed models: factor on the step, models to judge on, and
 trials."""
 
-_SOFTNESS = (0.8, 2.0)
-"""Softness of contacts there, if a certificate fails with softer or stiffer ones. Usual time steps cannot resolve stiffer
-contacts."""
+_SOFTNESS, _CONE = (0.8, 2.0), (0.0, 1.0)
+"""Softness and friction cone of contacts on perturbed models: certificates try others, too. Usual time steps cannot resolve
+stiffer contacts than these."""
 
 _SMOOTHNESS = 0.15
 """Correlation length of neighbouring kernels, as in tasks with few kernels."""
@@ -218,11 +218,14 @@ class Plan:
     def robust(self, horizon: float, policy: PolicyChoice | None = None) -> Task:
         """Make the task on perturbed models. They have to reach the goal; the nominal model also has to keep the limits.
 
+        The models also differ in how contact is computed.
+
         Args:
             horizon: Duration [s].
             policy: Policy of the motion to begin around. Defaults to the policy of the first search within limits.
         """
         search, demanding = self.task.search, self._demanding(_ROBUST_MARGINS_WEIGHT)
+        perturb = self.perturb
         return replace(
             demanding,
             horizon=horizon,
@@ -239,12 +242,12 @@ class Plan:
             ),
             robust=Robust(
                 samples=3,
-                measure="mean",
+                measure="mean-log",
                 redraw="generation",
                 validation=40,
                 contender="mean",
                 success=self.on_others,
-                perturb=self.perturb,
+                perturb=replace(perturb, softness=perturb.softness or _SOFTNESS, cone=perturb.cone or _CONE),
             ),
         )
 
@@ -279,6 +282,8 @@ class Plan:
             ),
             robust=replace(
                 robust.robust,
+                measure="mean",
+                perturb=self.perturb,
                 success=None if robust.success == self.on_others else self.on_others,
                 required=Demands().share or 0.0,
             ),
@@ -290,27 +295,21 @@ class Plan:
             ),
         )
 
-    def finer(
-        self, horizon: float, policy: PolicyChoice | None = None, *, feedback: bool, softness: bool = False
-    ) -> Task:
+    def finer(self, horizon: float, policy: PolicyChoice | None = None, *, feedback: bool) -> Task:
         """Make one of these tasks with small steps and more models, which distinguish 93 % from 97 %.
 
         Args:
             horizon: Duration [s].
             policy: Policy of the motion to begin around.
             feedback: Whether to use feedback.
-            softness: Whether to perturb the softness of contacts, too.
         """
         task = (self.closed_loop if feedback else self.robust)(horizon, policy)
         assert task.robust is not None
-        perturb = task.robust.perturb
-        if softness and perturb.softness is None:
-            perturb = replace(perturb, softness=_SOFTNESS)
         return replace(
             task,
             stages=(Stage("finer", step=_FINER, hold=self._held),),
             search=replace(task.search, trials=_FINER_TRIALS, polish=None),
-            robust=replace(task.robust, validation=_FINER_VALIDATION, perturb=perturb),
+            robust=replace(task.robust, validation=_FINER_VALIDATION),
         )
 
     @property
