@@ -58,7 +58,7 @@ def test_every_nominal_task_has_one(name: str, robot: Robot) -> None:
     assert (finer.success, finer.costs, finer.horizon) == (robust.success, robust.costs, robust.horizon)
     assert finer.robust == replace(robust.robust, validation=120)
     assert plan.finer(0.5, feedback=True).feedback == plan.closed_loop(0.5).feedback
-    assert robust.robust.perturb == replace(plan.perturb, softness=(0.8, 2.0), cone=(0.0, 1.0))
+    assert robust.robust.perturb == replace(plan.perturb, softness=(0.8, 2.0), cone=(0.0, 0.75))
     nearer = plan.nearer(0, 99.0)
     assert nearer.horizon == replace(within.horizon, initial=within.horizon.maximum)
     assert (nearer.success, set(nearer.costs)) == (within.success, set(within.costs))

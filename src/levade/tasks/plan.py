@@ -93,9 +93,9 @@ _FINER, _FINER_VALIDATION, _FINER_TRIALS = 0.1, 120, 4000
 """Settings of a search around a motion that succeeds on most perturbed models: factor on the step, models to judge on, and
 trials."""
 
-_SOFTNESS, _CONE = (0.8, 2.0), (0.0, 1.0)
+_SOFTNESS, _CONE = (0.8, 2.0), (0.0, 0.75)
 """Softness and friction cone of contacts on perturbed models: certificates try others, too. Usual time steps cannot resolve
-stiffer contacts than these."""
+stiffer contacts than these. One model of three has the other cone."""
 
 _SMOOTHNESS = 0.15
 """Correlation length of neighbouring kernels, as in tasks with few kernels."""
