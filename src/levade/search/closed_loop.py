@@ -30,6 +30,9 @@ _LEARNING, _SENSING = 1_279_610_446, 1_397_050_190
 _KEPT = 1024
 """Number of references whose sensed values are cached."""
 
+_MADE = 7
+"""Number of earlier gains that are cached."""
+
 
 class ClosedLoop:
     """Makes the feedback of a task.
@@ -50,7 +53,8 @@ class ClosedLoop:
         self._regulation, self._task, self._engine, self._start = regulation, task, engine, start
         self._period = period_steps(regulation.rate, task.physics.timestep)
         self._ticks = -(-(task.horizon_steps + task.hold_steps) // self._period)
-        self._made: dict[tuple[int, bytes], Along] = {}
+        self._linear: dict[tuple[int, bytes], Along] = {}
+        self._made: dict[tuple[int, bytes, int], Feedback] = {}
         self._sensed: dict[bytes, Array] = {}
         self._errors: dict[tuple[int, int], Array] = {}
 
@@ -62,10 +66,21 @@ class ClosedLoop:
             reference: Joint reference of the motion: one trial with the whole hold.
             seed: Seed of the search.
         """
-        from levade.regulators import Design, linearised  # only tasks with feedback need it
-
-        key = (seed, gains.along.tobytes())
+        key = (seed, gains.along.tobytes(), gains.design)
         if key not in self._made:
+            from levade.regulators import Design  # only tasks with feedback need it
+
+            chosen = self._regulation.designs[gains.design]
+            design = Design(motion=chosen.motion, hold=chosen.hold, bound=chosen.bound)
+            made = self._linearised(gains.along, reference, seed).feedback(design)
+            self._made = {**dict(list(self._made.items())[-_MADE:]), key: made}
+        return self._made[key]
+
+    def _linearised(self, along: Array, reference: JointReference, seed: int) -> Along:
+        key = (seed, along.tobytes())
+        if key not in self._linear:
+            from levade.regulators import linearised
+
             robust, regulation, engine = self._task.robust, self._regulation, self._engine
             assert robust is not None
             joints = engine.embodiment.joints
@@ -80,10 +95,8 @@ class ClosedLoop:
                 errors=regulation.sensors,
                 threads=engine.threads,
             )
-            latest = dict(list(self._made.items())[-3:])
-            self._made = {**latest, key: found}
-        chosen = self._regulation.designs[gains.design]
-        return self._made[key].feedback(Design(motion=chosen.motion, hold=chosen.hold, bound=chosen.bound))
+            self._linear = {**dict(list(self._linear.items())[-_MADE:]), key: found}
+        return self._linear[key]
 
     def sensed(self, reference: JointReference) -> Array:
         """Return what candidates sense on the nominal model, shape (n, ticks, sensed).
