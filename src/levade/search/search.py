@@ -36,6 +36,10 @@ on. `Stopped.INTERRUPTED` ends the search."""
 _SKETCHES = 1_936_419_188
 """Separates the random numbers of sketches from those of the optimizers."""
 
+POLISH = 0.5
+"""Factor on the step once a trial has succeeded: from there on the search refines. Not if the stage's own factor did it already,
+and not on perturbed models."""
+
 _AT_ONCE = 48
 """Largest number of motions to begin around that are tried in one batch. Ctrl-C is heard between batches."""
 
@@ -302,6 +306,8 @@ class Search:
         judged = validated if validated is not None and (start is None or start.success) else evaluation
         if self._trials_to_success is None and judged.success.any():
             self._trials_to_success = self._trials
+            if task.robust is None and stage.step == 1.0:
+                optimizer.scale_step(POLISH)
         self._starts += [start] if start is not None else []
         self._keep_best(contenders, judged, self._judge.gains)
         yield self._state(cost, evaluation, validated)
