@@ -296,6 +296,23 @@ def _wanted(search: Search) -> Trials:
     return trials
 
 
+@pytest.mark.parametrize(("stage", "robust", "factor"), [(1.0, None, 0.5), (0.5, None, 1.0), (1.0, REDRAWN, 1.0)])
+def test_the_step_is_halved_after_the_first_success(
+    stage: float, robust: Robust | None, factor: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Once, and not where the stage has a factor of its own or models are perturbed."""
+    task = make_task(Stage(step=stage, robust=robust is not None), tolerance=0.3, robust=robust, trials=400)
+    _, halved = driven(Search(task, SPACE, seed=0))
+    monkeypatch.setattr("levade.search.search.POLISH", 1.0)
+    _, left = driven(Search(task, SPACE, seed=0))
+    first = next(i for i, one in enumerate(left) if one.trials_to_success is not None)
+    assert [one.step for one in halved[:first]] == [one.step for one in left[:first]]
+    assert halved[first].step == pytest.approx(factor * left[first].step)
+    again = [a.step / b.step for a, b in zip(halved[first + 1 :], left[first + 1 :], strict=False)]
+    assert len(again) > 2
+    assert (np.array(again) == 1.0).all() if factor == 1.0 else again[0] > 0.25
+
+
 @pytest.mark.parametrize("better", [True, False])
 def test_gains_that_hold_the_best_motion_less_well_are_not_taken(better: bool) -> None:
     """Feedback whose gains are made again each generation: with later gains every roll-out costs less, or more."""
