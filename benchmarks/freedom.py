@@ -197,16 +197,38 @@ def interval(fixed: list[float], free: list[float], samples: int = 4000) -> tupl
 
 
 def grid_table() -> str:
-    """Cost of a free duration, of each fixed one, and how far the best of these is from the free one."""
+    """Cost of a free duration, of each fixed one, and how far the best of these is from the free one.
+
+    The best of eight medians is lower than its expectation, so it is compared on other seeds, too, if there are any.
+    """
     found, rows = kept(), []
     for task, robot in pairs(found, "best", *GRID):
-        free = several(found, task, robot, "best")
-        fixed = [several(found, task, robot, kind) for kind in GRID]
-        mine, least = cost(free), min(cost(one) for one in fixed if all(run["success"] for run in one))
-        cells = [f"{cost(one):.3g}" if all(run["success"] for run in one) else won(one) for one in fixed]
+        several_of = {
+            kind: {one["case"][3]: one for one in several(found, task, robot, kind)} for kind in ("best", *GRID)
+        }
+        counts = {seed: sum(seed in several_of[kind] for kind in GRID) for seed in several_of["best"]}
+        chosen_on = {seed for seed, count in counts.items() if 2 * count > len(GRID)}
+        free, *fixed = (
+            [one for seed, one in sorted(several_of[kind].items()) if seed in chosen_on] for kind in ("best", *GRID)
+        )
+        mine = cost(free)
+        least, best = min((cost(one), kind) for one, kind in zip(fixed, GRID, strict=True) if all_won(one))
+        cells = [f"{cost(one):.3g}" if all_won(one) else won(one) for one in fixed]
         horizon = middle([one["horizon"] for one in free], 2)
-        rows.append(f"| `{task}` | {robot} | {' | '.join(cells)} | {mine:.3g} | {horizon} | {least / mine - 1:+.0%} |")
+        others = sorted(set(several_of["best"]) & set(several_of[best]) - chosen_on)
+        again = ""
+        if others:
+            pair = [cost([several_of[kind][seed] for seed in others]) for kind in (best, "best")]
+            again = f"{pair[0] / pair[1] - 1:+.0%} ({len(others)} seeds)"
+        rows.append(
+            f"| `{task}` | {robot} | {' | '.join(cells)} | {mine:.3g} | {horizon} | {least / mine - 1:+.0%} | {again} |"
+        )
     return "\n".join(rows)
+
+
+def all_won(results: list[dict[str, Any]]) -> bool:
+    """Whether every search succeeded."""
+    return all(one["success"] for one in results)
 
 
 def cost(results: list[dict[str, Any]]) -> float:

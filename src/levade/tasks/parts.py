@@ -118,7 +118,7 @@ class HorizonRange:
             )
 
     def __str__(self) -> str:
-        return f"{self.minimum:g} to {self.maximum:g} s"
+        return f"{self.minimum:.3g} to {self.maximum:.3g} s"
 
     @property
     def begin(self) -> float:
