@@ -401,7 +401,7 @@ def test_an_interrupted_search_keeps_the_start_that_holds_best(answered: Answere
 
 @pytest.mark.slow
 def test_few_samples_cover_every_range_evenly() -> None:
-    sample = Perturbation(friction=(0.0 + 0.1, 1.1), softness=(0.5, 2.0)).spread(
+    sample = Perturbation(friction=(0.0 + 0.1, 1.1), softness=(0.5, 2.0), cone=(0.0, 1.0)).spread(
         objective().engine.model, 12, n=10, seed=1
     )
     assert sorted(np.floor((sample.values["friction"][:, 0] - 0.1) * 10).tolist()) == list(range(10))
