@@ -38,7 +38,7 @@ _SKETCHES = 1_936_419_188
 
 POLISH = 0.5
 """Factor on the step once a trial has succeeded: from there on the search refines. It does not apply on perturbed models,
-after a stage's own factor, or to a step that has grown, since such a search is still on its way."""
+before the last stage, after a stage's own factor, or to a step that has grown, since such a search is still on its way."""
 
 _AT_ONCE = 48
 """Largest number of motions to begin around that are tried in one batch. Ctrl-C is heard between batches."""
@@ -306,7 +306,8 @@ class Search:
         judged = validated if validated is not None and (start is None or start.success) else evaluation
         if self._trials_to_success is None and judged.success.any():
             self._trials_to_success = self._trials
-            if task.robust is None and stage.step == 1.0 and optimizer.step <= self._space.step:
+            last = schedule.number + 1 == len(task.stages)
+            if task.robust is None and last and stage.step == 1.0 and optimizer.step <= self._space.step:
                 optimizer.scale_step(POLISH)
         self._starts += [start] if start is not None else []
         self._keep_best(contenders, judged, self._judge.gains)
