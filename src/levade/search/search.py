@@ -306,8 +306,9 @@ class Search:
         judged = validated if validated is not None and (start is None or start.success) else evaluation
         if self._trials_to_success is None and judged.success.any():
             self._trials_to_success = self._trials
-            last = schedule.number + 1 == len(task.stages)
-            if task.robust is None and last and stage.step == 1.0 and optimizer.step <= self._space.step:
+            last, polish = schedule.number + 1 == len(task.stages), task.search.polish
+            long = polish is None or polish > optimizer.population
+            if task.robust is None and long and last and stage.step == 1.0 and optimizer.step <= self._space.step:
                 optimizer.scale_step(POLISH)
         self._starts += [start] if start is not None else []
         self._keep_best(contenders, judged, self._judge.gains)
