@@ -299,7 +299,7 @@ def test_with_time_left_it_searches_again_with_another_seed(tmp_path: Path, monk
     cut = pursuit(60.0, stop)
     assert cut.stopped == "interrupted"
     assert [part.name for part in cut.parts] == begun
-    assert begun[:5] == ["limits-1", "limits-2", "limits-3", "limits-4", "robust"]
+    assert begun[:5] == ["limits-1", "limits-2", "limits-3", "limits-4", "feedback"]
     assert begun[-1] == "again-1/limits-1"
     seeds = [part.motion.provenance.seed for part in cut.parts[:4]]
     assert len(set(seeds)) == 4

@@ -170,7 +170,7 @@ def test_stopped_in_a_search_and_gone_on_with_it_has_the_same_bytes(tmp_path: Pa
 
 @pytest.mark.slow
 def test_stopped_anywhere_and_gone_on_with_in_processes_it_has_the_same_bytes(library: Library, tmp_path: Path) -> None:
-    built_in_parts(tmp_path, (3, 30, 15), starts=STARTS, hardware=HARDWARE, threads=2, processes=2)
+    built_in_parts(tmp_path, (3, 30, 5), starts=STARTS, hardware=HARDWARE, threads=2, processes=2)
     assert contents(tmp_path) == contents(library.directory)
 
 
