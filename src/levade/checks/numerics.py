@@ -11,7 +11,7 @@ import numpy as np
 
 from levade.costs import errors, success
 from levade.costs.orientation import geodesic
-from levade.engines.models import soften
+from levade.engines.models import other_cone, soften
 from levade.motions import RecordedSimulation
 from levade.trajectory import Trajectories
 
@@ -52,7 +52,6 @@ QUICK = ("half time step", "other contact cone")
 _OTHER_INTEGRATOR = {
     mujoco.mjtIntegrator.mjINT_IMPLICITFAST: mujoco.mjtIntegrator.mjINT_EULER,
 }
-_OTHER_CONE = {mujoco.mjtCone.mjCONE_ELLIPTIC: mujoco.mjtCone.mjCONE_PYRAMIDAL}
 
 
 @dataclass(frozen=True)
@@ -129,7 +128,7 @@ def varied(model: mujoco.MjModel, variant: Variant) -> mujoco.MjModel:
             mujoco.mjtIntegrator(model.opt.integrator), mujoco.mjtIntegrator.mjINT_IMPLICITFAST
         )
     if variant.cone:
-        model.opt.cone = _OTHER_CONE.get(mujoco.mjtCone(model.opt.cone), mujoco.mjtCone.mjCONE_ELLIPTIC)
+        model.opt.cone = other_cone(model)
     if variant.softness != 1.0:
         for prefix in ("geom", "pair"):
             soften(getattr(model, f"{prefix}_solref"), getattr(model, f"{prefix}_solimp"), variant.softness)
