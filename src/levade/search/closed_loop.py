@@ -53,7 +53,7 @@ class ClosedLoop:
         self._regulation, self._task, self._engine, self._start = regulation, task, engine, start
         self._period = period_steps(regulation.rate, task.physics.timestep)
         self._ticks = -(-(task.horizon_steps + task.hold_steps) // self._period)
-        self._linear: dict[tuple[int, bytes], Along] = {}
+        self._linear: dict[tuple[int, bytes], Along] = {}  # the latest: all its designs are made in succession
         self._made: dict[tuple[int, bytes, int], Feedback] = {}
         self._sensed: dict[bytes, Array] = {}
         self._errors: dict[tuple[int, int], Array] = {}
@@ -95,7 +95,7 @@ class ClosedLoop:
                 errors=regulation.sensors,
                 threads=engine.threads,
             )
-            self._linear = {**dict(list(self._linear.items())[-_MADE:]), key: found}
+            self._linear = {key: found}
         return self._linear[key]
 
     def sensed(self, reference: JointReference) -> Array:

@@ -37,8 +37,8 @@ _SKETCHES = 1_936_419_188
 """Separates the random numbers of sketches from those of the optimizers."""
 
 POLISH = 0.5
-"""Factor on the step once a trial has succeeded: from there on the search refines. It does not apply on perturbed models,
-before the last stage, after a stage's own factor, or to a step that has grown, since such a search is still on its way."""
+"""Factor on the step once a trial has succeeded, if the search then `Search._refines`. It does not where models are perturbed,
+before the last stage, after a stage's own factor, with a step that has grown (it is still on its way), or with a generation left."""
 
 _AT_ONCE = 48
 """Largest number of motions to begin around that are tried in one batch. Ctrl-C is heard between batches."""
@@ -306,9 +306,7 @@ class Search:
         judged = validated if validated is not None and (start is None or start.success) else evaluation
         if self._trials_to_success is None and judged.success.any():
             self._trials_to_success = self._trials
-            last, polish = schedule.number + 1 == len(task.stages), task.search.polish
-            long = polish is None or polish > optimizer.population
-            if task.robust is None and long and last and stage.step == 1.0 and optimizer.step <= self._space.step:
+            if self._refines:
                 optimizer.scale_step(POLISH)
         self._starts += [start] if start is not None else []
         self._keep_best(contenders, judged, self._judge.gains)
@@ -321,6 +319,15 @@ class Search:
             found_start=start is not None,
             cost=float(cost.min()),
         )
+
+    @property
+    def _refines(self) -> bool:
+        """Whether the search goes on around its first success, in steps that are still long for that."""
+        task, schedule, optimizer = self._task, self._schedule, self._optimizer
+        if task.robust is not None or schedule.number + 1 < len(task.stages) or schedule.stage.step != 1.0:
+            return False
+        polish = task.search.polish
+        return optimizer.step <= self._space.step and (polish is None or polish > optimizer.population)
 
     def _state(self, cost: Array, evaluation: Evaluation, validated: Evaluation | None) -> Generation:
         assert self._best is not None
