@@ -37,8 +37,7 @@ _SKETCHES = 1_936_419_188
 """Separates the random numbers of sketches from those of the optimizers."""
 
 POLISH = 0.5
-"""Factor on the step once a trial has succeeded, if the search then `Search._refines`. It does not where models are perturbed,
-before the last stage, after a stage's own factor, with a step that has grown (it is still on its way), or with a generation left."""
+"""Factor on the step once a trial has succeeded, if the search refines from there on."""
 
 _AT_ONCE = 48
 """Largest number of motions to begin around that are tried in one batch. Ctrl-C is heard between batches."""
@@ -322,7 +321,11 @@ class Search:
 
     @property
     def _refines(self) -> bool:
-        """Whether the search goes on around its first success, in steps that are still long for that."""
+        """Whether the search goes on around its first success, in steps that are still long for that.
+
+        It does not on perturbed models, before the last stage, or with one generation left. A stage's own factor has already
+        shortened the steps. Steps that have grown say that the search is still on its way.
+        """
         task, schedule, optimizer = self._task, self._schedule, self._optimizer
         if task.robust is not None or schedule.number + 1 < len(task.stages) or schedule.stage.step != 1.0:
             return False
