@@ -52,7 +52,7 @@ def test_before_the_first_certificate_roll_outs_of_the_search_tell(clock: Clock)
     """100 roll-outs in 2 s: 140 longer ones take 5.6 s."""
     budget = Budget(100.0, None, 500)
     clock.now = 92.0
-    budget.begin()
+    budget.begin("limits-1")
     clock.now = 94.0
     assert not budget.over(generation(None))
     clock.now = 95.0

@@ -10,6 +10,7 @@ DIR/certificate.html    the certificate as a page, with the poorest runs to play
 DIR/task.yaml           its task, with every default filled in
 DIR/hardware.json       the arguments, and the search that later ones begin around: a later call goes on from here
 DIR/limits-1, ...       the searches, each a run of its own (`levade.search.run`)
+DIR/feedback-1, ...     those on perturbed models, each around the motion of limits-1, ...
 DIR/again-1, ...        the same once more with another seed, if no certificate passed and time was left
 
 The first searches look for motions of the nominal model within its limits. There are several, since motions that look alike
@@ -17,29 +18,27 @@ there differ widely on other robots. The second search begins around the best of
 the nearest motion, if none keeps the limits. While the best motion succeeds on few robots, the search that found it is repeated
 with other random numbers.
 
-A search on perturbed models follows around the motion that succeeds on most robots, with feedback if the motion may have any.
-Fine searches then begin around a motion if it succeeds on nearly enough robots, if its lead is so small that other robots could
-change the verdict, or if it fails because of how contact is computed. Searches that are no longer needed are left out.
+Searches on perturbed models follow, each around one of the motions that succeed on most robots, with feedback if the motion may
+have any. It shows early which of them gets far, and only that one goes on. Fine searches then begin around a motion if it
+succeeds on nearly enough robots, if its lead is so small that other robots could change the verdict, or if it fails because of
+how contact is computed. Searches that are no longer needed are left out.
 
 A pursuit around a given motion has one search within limits, ``near``, which begins around it.
 """
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from levade.checks import Certificate, check
-from levade.checks.record import CERTIFICATE
+from levade.checks import check
 from levade.checks.statistics import wilson
-from levade.document import read_yaml
 from levade.errors import LevadeError, Remedy
 from levade.hardware.budget import FEW, Budget
-from levade.hardware.page import write_certificate
-from levade.hardware.part import Part, Pursued, rank
+from levade.hardware.keeping import keep
+from levade.hardware.part import Part, Pursued
 from levade.hardware.starts import rough_start
 from levade.hardware.state import (
     ASKED,
@@ -63,11 +62,10 @@ from levade.robots import Robot
 from levade.search import Generation, Stopped, make_objective
 from levade.search.checkpoint import CHECKPOINT
 from levade.search.initial import initial_guess
-from levade.search.run import MOTION, TASK, Outcome, read_run, resume, run
+from levade.search.run import Outcome, read_run, resume, run
 from levade.search.storage import storing
-from levade.tasks import Demands, Task, task_to_dict, task_to_yaml
+from levade.tasks import Demands, Task, task_to_dict
 from levade.tasks.plan import RUN_UP, Plan
-from levade.writing import write_text
 
 _ON_LIMITS = (0.25, 0.6, 1.0)
 """Shares of the time after which searches within limits, in order, end if they have no success."""
@@ -80,6 +78,16 @@ _ENOUGH = 0.4
 
 _GOOD = 0.9
 """Share of perturbed robots that makes a motion good enough to begin the robust searches around."""
+
+_STARTS, _HEAT = 3, 600
+"""Most motions to begin searches on perturbed models around, and the roll-outs after which the worst of them ends. The next one
+ends after twice as many."""
+
+_PROMISING = 0.5
+"""Least share of perturbed robots for such a motion, as a part of the share of the best one."""
+
+_ON_HEATS = 0.7
+"""Share of the time after which only the best of these searches goes on."""
 
 _TIMES = 3
 """Once a search within limits has succeeded, later ones end without success after this multiple of its trials."""
@@ -228,6 +236,7 @@ class _Pursuit:
         self._parts: list[Part] = []
         self._kinds: dict[str, int] = {}  # which of the plan's searches within limits each is
         self._share = 1.0  # share of the time for a search without success
+        self._most: int | None = None  # roll-outs after which the search ends for now
         self._stopped = ""
 
     @property
@@ -255,8 +264,8 @@ class _Pursuit:
             other: Result of the other pursuit.
         """
         best = min(found.best, other.best, key=lambda part: part.rank)
-        if best is other.best and best.certificate is not None and not self._better_there(best):
-            self._keep(best, best.certificate)
+        if best is other.best and best.certificate is not None:
+            keep(best, best.certificate, self._directory)
         return replace(found, parts=(*found.parts, *other.parts), best=best, stopped=other.stopped)
 
     def go(self) -> Pursued:
@@ -296,14 +305,29 @@ class _Pursuit:
                 break
 
     def _hold_on_others(self) -> None:
-        """Search around the motion that succeeds on most perturbed robots, with feedback if it may have any."""
-        plan = self._plan
-        around = max((part for part in self._parts if part.met), key=lambda part: (part.sure, part.share))
-        self._choose(around)
-        if not around.sure:
-            name, make = (CLOSED, plan.closed_loop) if plan.can_close_the_loop else (ROBUST, plan.robust)
-            near = around.motion
-            self._search(name, make(near.horizon, near.task.policy), near, seed=self._seed)
+        """Search around the motions that succeed on most perturbed robots, with feedback if they may have any."""
+        met = sorted((part for part in self._parts if part.met), key=lambda part: (part.sure, part.share), reverse=True)
+        start = met[0]
+        if not start.sure:
+            start = self._best_start([part for part in met[:_STARTS] if part.share >= _PROMISING * met[0].share])
+        self._choose(start)
+        if not start.sure:
+            self._search(*self._on_others(start), seed=self._seed)
+
+    def _best_start(self, starts: list[Part]) -> Part:
+        """Return the start from which a search on perturbed models gets farthest. The worst search ends, then the next one."""
+        most = _HEAT
+        while len(starts) > 1 and not self._stopped and not self._budget.late(_ON_HEATS):
+            made = [(self._search(*self._on_others(one), seed=self._seed, most=most), one) for one in starts]
+            *starts, _ = (start for _, start in sorted(made, key=lambda pair: pair[0].trial.rank))
+            most *= 2
+        return starts[0]
+
+    def _on_others(self, start: Part) -> tuple[str, Task, Motion]:
+        """Return the name of a search on perturbed models, its task, and the motion that it begins around."""
+        plan, near = self._plan, start.motion
+        names, make = (CLOSED, plan.closed_loop) if plan.can_close_the_loop else (ROBUST, plan.robust)
+        return names[start.name], make(near.horizon, near.task.policy), near
 
     def _refine(self) -> None:
         """Search around the best motion in small steps, if it nearly passes."""
@@ -355,17 +379,28 @@ class _Pursuit:
     def _best(self) -> Part:
         return min(self._parts, key=lambda part: part.rank)
 
-    def _search(self, name: str, task: Task, around: Motion | None, *, seed: int) -> Part:
-        """Make one search, go on with it, or take its earlier result; then certify its motion."""
-        began = self._budget.begin()
+    def _search(self, name: str, task: Task, around: Motion | None, *, seed: int, most: int | None = None) -> Part:
+        """Make one search, go on with it, or take its earlier result; then certify its motion.
+
+        Args:
+            name: Name of the search.
+            task: Its task.
+            around: The motion that it begins around, if any.
+            seed: Its seed.
+            most: Number of roll-outs after which it ends for now, without a certificate. None for no end.
+        """
+        began, self._most = self._budget.begin(name), most
         outcome = self._run(name, task, around, seed)
         motion = outcome.motion.with_task(self._plan.certifiable(outcome.motion.task))
+        names = [part.name for part in self._parts]
+        at = names.index(name) if name in names else len(names)
+        seconds = time.monotonic() - began + sum(part.seconds for part in self._parts[at : at + 1])
+        part = Part(name, motion, outcome.solution.best, outcome.solution.trials, seconds, None)
         # a motion beyond the limits would only fail; if there is no other, the nearest one is certified in the end
         hopeless = name in self._kinds and not motion.met
-        part = Part(name, motion, outcome.solution.trials, time.monotonic() - began, None)
-        if not hopeless:
+        if not hopeless and most is None:
             part = self._certified(part)
-        self._parts.append(part)
+        self._parts[at : at + 1] = [part]
         self._budget.made(part.trials)
         self._tell_of(part)
         return part
@@ -409,8 +444,8 @@ class _Pursuit:
         took = time.monotonic() - began
         self._budget.certified(took, certificate.perturbed.runs)
         part = replace(part, certificate=certificate, seconds=part.seconds + took)
-        if part.rank <= min((one.rank for one in self._parts), default=part.rank) and not self._better_there(part):
-            self._keep(part, certificate)
+        if part.rank <= min((one.rank for one in self._parts), default=part.rank):
+            keep(part, certificate, self._directory)
         return part
 
     def _hopeless(self, successes: int, runs: int) -> bool:
@@ -451,9 +486,15 @@ class _Pursuit:
             self._stopped, wish = "time", Stopped.INTERRUPTED
         elif self._budget.spent(1.0, generation.trials):  # also when it is replayed: a later call stops there, too
             self._stopped, wish = "trials", Stopped.INTERRUPTED
-        elif generation.trials_to_success is None and self._gives_up(name, generation):
+        elif self._ends(name, generation):
             wish = Stopped.INTERRUPTED
         return wish
+
+    def _ends(self, name: str, generation: Generation) -> bool:
+        """Whether a search ends before its time, to be compared with others or because it has no success."""
+        if self._most is not None and generation.trials >= self._most:
+            return True
+        return generation.trials_to_success is None and self._gives_up(name, generation)
 
     def _gives_up(self, name: str, generation: Generation) -> bool:
         """Whether a search without success ends, because it has had its share."""
@@ -467,23 +508,3 @@ class _Pursuit:
             return False
         least = min((part.trials for part in self._parts if part.met), default=None)
         return least is not None and generation.trials >= _TIMES * least
-
-    def _better_there(self, part: Part) -> bool:
-        """Whether an earlier call left a motion with a better certificate for the same demands."""
-        place = self._directory / CERTIFICATE
-        if part.certificate is None or not place.is_file() or not (self._directory / MOTION).is_file():
-            return False
-        try:
-            there, found = read_yaml(place), part.certificate.to_json()
-            return there["demands"] == found["demands"] and rank(there) < rank(found)
-        except (LevadeError, LookupError, TypeError, ValueError):
-            return False
-
-    def _keep(self, part: Part, certificate: Certificate) -> None:
-        place, room = self._directory, Remedy("make room, then go on", "resume", self._directory)
-        with storing(place, then=room):
-            part.motion.save(place / MOTION)
-            write_text(place / TASK, task_to_yaml(part.motion.task, code=True))
-            content = {"motion": MOTION, **certificate.to_json()}
-            write_text(place / CERTIFICATE, json.dumps(content, ensure_ascii=False, indent=1) + "\n")
-            write_certificate(part.motion, certificate, place / PAGE, source=MOTION)

@@ -16,13 +16,19 @@ from levade.tasks import Demands, Task, task_from_dict, task_to_dict
 from levade.writing import write_text
 
 ASKED, PAGE = PURSUIT, CERTIFICATE_PAGE
-LIMITS, ROBUST, CLOSED = ("limits-1", "limits-2", "limits-3"), "robust", "feedback"
+LIMITS = ("limits-1", "limits-2", "limits-3")
 FINER = ("finer-1", "finer-2", "finer-3")
 MORE = ("limits-4", "limits-5", "limits-6", "limits-7", "limits-8")
 """Searches within limits that may follow those in `LIMITS`. Each has other random numbers."""
 
 NEAR = "near"
 """The search around a given motion, which takes the place of those in `LIMITS`."""
+
+ROBUST, CLOSED = (
+    {name: name.replace("limits", kind) if name in (*LIMITS, *MORE) else kind for name in (*LIMITS, *MORE, NEAR)}
+    for kind in ("robust", "feedback")
+)
+"""Search within limits -> the search on perturbed models that begins around its motion, without and with feedback."""
 
 AGAIN = "again"
 """Prefix of the directories for searches that are repeated with another seed: ``again-1``, ..."""
@@ -133,7 +139,7 @@ def discard(directory: Path) -> None:
     Raises:
         LevadeError: If one of them is still running.
     """
-    searches = [directory, *(directory / name for name in (*LIMITS, *MORE, NEAR, ROBUST, CLOSED, *FINER))]
+    searches = [directory, *(directory / name for name in (*ROBUST, *ROBUST.values(), *CLOSED.values(), *FINER))]
     for search in searches:
         check_unlocked(search)
     number = 1
