@@ -236,7 +236,6 @@ class _Pursuit:
         self._parts: list[Part] = []
         self._kinds: dict[str, int] = {}  # which of the plan's searches within limits each is
         self._share = 1.0  # share of the time for a search without success
-        self._most: int | None = None  # roll-outs after which the search ends for now
         self._stopped = ""
 
     @property
@@ -389,8 +388,8 @@ class _Pursuit:
             seed: Its seed.
             most: Number of roll-outs after which it ends for now, without a certificate. None for no end.
         """
-        began, self._most = self._budget.begin(name), most
-        outcome = self._run(name, task, around, seed)
+        began = self._budget.begin(name)
+        outcome = self._run(name, task, around, seed, most)
         motion = outcome.motion.with_task(self._plan.certifiable(outcome.motion.task))
         names = [part.name for part in self._parts]
         at = names.index(name) if name in names else len(names)
@@ -453,14 +452,14 @@ class _Pursuit:
         share = self._demands.share
         return share is not None and runs >= FEW and wilson(successes, runs)[1] < share
 
-    def _run(self, name: str, task: Task, around: Motion | None, seed: int) -> Outcome:
+    def _run(self, name: str, task: Task, around: Motion | None, seed: int, most: int | None) -> Outcome:
         directory = self._directory / name
         objective = make_objective(task, robot=self._plan.robot, threads=self._threads)
         if (directory / CHECKPOINT).is_file():
             known, checkpoint = read_run(directory)
             if task_to_dict(known, code=True) == task_to_dict(task, code=True) and checkpoint.header.seed == seed:
                 self._told(name, task)
-                return resume(directory, objective=objective, observe=lambda one: self._watch(name, one))
+                return resume(directory, objective=objective, observe=lambda one: self._watch(name, one, most))
         guess = None if around is None else initial_guess(objective.policy, around)
         if guess is None and self._kinds.get(name) == RUN_UP:
             guess = rough_start(objective, seed=seed)
@@ -470,14 +469,14 @@ class _Pursuit:
             seed=seed,
             directory=directory,
             initial=guess,
-            observe=lambda one: self._watch(name, one),
+            observe=lambda one: self._watch(name, one, most),
         )
 
     def _told(self, name: str, task: Task) -> None:
         if self._begin is not None:
             self._begin(self._prefix + name, task)
 
-    def _watch(self, name: str, generation: Generation) -> Stopped | None:
+    def _watch(self, name: str, generation: Generation, most: int | None) -> Stopped | None:
         wish = None if self._observe is None else self._observe(self._prefix + name, generation)
         wish = wish or (Stopped.INTERRUPTED if self._stopping() else None)
         if wish is not None:
@@ -486,18 +485,14 @@ class _Pursuit:
             self._stopped, wish = "time", Stopped.INTERRUPTED
         elif self._budget.spent(1.0, generation.trials):  # also when it is replayed: a later call stops there, too
             self._stopped, wish = "trials", Stopped.INTERRUPTED
-        elif self._ends(name, generation):
+        elif (most is not None and generation.trials >= most) or self._gives_up(name, generation):
             wish = Stopped.INTERRUPTED
         return wish
 
-    def _ends(self, name: str, generation: Generation) -> bool:
-        """Whether a search ends before its time, to be compared with others or because it has no success."""
-        if self._most is not None and generation.trials >= self._most:
-            return True
-        return generation.trials_to_success is None and self._gives_up(name, generation)
-
     def _gives_up(self, name: str, generation: Generation) -> bool:
-        """Whether a search without success ends, because it has had its share."""
+        """Whether a search ends without success, because it has had its share."""
+        if generation.trials_to_success is not None:
+            return False
         if self._budget.spent(self._share, generation.trials) or self._outdone(name, generation):
             return True
         return not generation.replayed and self._budget.late(self._share)

@@ -24,11 +24,11 @@ MORE = ("limits-4", "limits-5", "limits-6", "limits-7", "limits-8")
 NEAR = "near"
 """The search around a given motion, which takes the place of those in `LIMITS`."""
 
-ROBUST, CLOSED = (
-    {name: name.replace("limits", kind) if name in (*LIMITS, *MORE) else kind for name in (*LIMITS, *MORE, NEAR)}
-    for kind in ("robust", "feedback")
-)
-"""Search within limits -> the search on perturbed models that begins around its motion, without and with feedback."""
+_WITHIN = (*LIMITS, *MORE, NEAR)
+
+ROBUST = {name: name.replace("limits", "robust") for name in _WITHIN} | {NEAR: "robust"}
+CLOSED = {name: name.replace("limits", "feedback") for name in _WITHIN} | {NEAR: "feedback"}
+"""Search within limits -> the search on perturbed models around its motion: `ROBUST` without feedback, `CLOSED` with it."""
 
 AGAIN = "again"
 """Prefix of the directories for searches that are repeated with another seed: ``again-1``, ..."""
@@ -139,7 +139,7 @@ def discard(directory: Path) -> None:
     Raises:
         LevadeError: If one of them is still running.
     """
-    searches = [directory, *(directory / name for name in (*ROBUST, *ROBUST.values(), *CLOSED.values(), *FINER))]
+    searches = [directory, *(directory / name for name in (*_WITHIN, *ROBUST.values(), *CLOSED.values(), *FINER))]
     for search in searches:
         check_unlocked(search)
     number = 1
