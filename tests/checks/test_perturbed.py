@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
 
-from levade.checks import Demands, margins, perturbed
+from levade.checks import Demands, check, margins, perturbed
 from levade.costs import Criterion, success
 from levade.engines import Perturbation
 from levade.motions import Motion, RecordedSimulation
@@ -114,6 +114,18 @@ def test_the_line_of_the_actuators_is_a_criterion_in_a_check_too(standing: Motio
     assert left < 0.98
     assert found.errors["line"]["mean"] == pytest.approx(left - 0.99, abs=1e-6)
     assert found.successes == 0
+
+
+def test_the_certificate_names_what_the_task_says_and_what_counts_on_perturbed_models(standing: Motion) -> None:
+    enough = {"height": replace(standing.task.success["height"], tolerance=0.05)}
+    eased = standing.with_task(replace(standing.task, good_enough=enough))
+    asked = {"pitch": replace(standing.task.success["pitch"], tolerance=0.006)}
+    goal = {one.criterion: one for one in check(eased, runs=2, asked=asked).goal}
+    assert (goal["height"].task, goal["height"].model) == ("0.574 ± 0.01 m", "0.574 ± 0.01 m")
+    assert goal["height"].perturbed == "0.574 ± 0.05 m"
+    assert (goal["pitch"].task, goal["pitch"].perturbed) == ("0 ± 0.006 rad", "0 ± 0.05 rad")
+    assert Criterion("height", minimum=0.1).wording == "at least 0.1 m"
+    assert Criterion("speed_margin", minimum=0.1, maximum=1.0).wording == "0.1 to 1 of limit"
 
 
 @pytest.mark.slow

@@ -106,6 +106,7 @@ def test_every_verdict_and_the_checksum_are_on_the_page(opened: Any, motion: Mot
     assert certificate.checksum == motion.checksum
     assert motion.checksum in shown
     assert f"{certificate.perturbed.successes} of {RUNS} succeed" in shown
+    assert all(goal.perturbed in shown for goal in certificate.goal)
     assert opened.complaints == []
 
 

@@ -29,13 +29,13 @@ def objective(task: Task) -> Objective:
 
 
 def test_a_tolerance_is_enough_the_rest_is_the_task_s(task: Task) -> None:
-    assert set(task.good_enough) == {"pitch"}
-    assert task.good_enough["pitch"] == replace(task.success["pitch"], tolerance=10)
+    assert set(task.on_others) == {"pitch"}
+    assert task.on_others["pitch"] == replace(task.success["pitch"], tolerance=10)
 
 
 def test_without_it_the_task_s_criteria_count() -> None:
-    assert load_task("rearing-robust").good_enough == load_task("rearing-robust").success
-    assert load_task("rearing").good_enough == load_task("rearing").success
+    assert load_task("rearing-robust").on_others == load_task("rearing-robust").success
+    assert load_task("rearing").on_others == load_task("rearing").success
 
 
 def test_perturbed_models_are_judged_by_it_and_the_model_by_the_task(objective: Objective) -> None:
@@ -52,6 +52,30 @@ def test_perturbed_models_are_judged_by_it_and_the_model_by_the_task(objective: 
 
 def test_it_survives_a_file(task: Task) -> None:
     assert task_from_dict(task_to_dict(task), where="file") == task
+
+
+def test_a_task_on_the_nominal_model_may_say_it_too() -> None:
+    """Then all other criteria hold on perturbed models as they are."""
+    task = load_task("squat-jump", changes=["good_enough={apex: {minimum: 0.8}}"])
+    assert task.robust is None
+    apex = task.success["apex"]
+    assert task.on_others == {**task.success, "apex": replace(apex, minimum=0.8)}
+    assert task_from_dict(task_to_dict(task), where="file") == task
+    robust = load_task("squat-jump", changes=["good_enough={apex: {minimum: 0.8}}", "robust={success: {apex: {}}}"])
+    assert robust.on_others == {"apex": apex}
+
+
+@pytest.mark.parametrize(
+    ("enough", "message"),
+    [
+        ("{apx: {minimum: 1}}", "good_enough.apx: .*did you mean apex"),
+        ("{apex: {minimum: 1, maximm: 2}}", "good_enough.apex: .*did you mean maximum"),
+        ("3", "good_enough: should be a table"),
+    ],
+)
+def test_mistakes_there_are_told(enough: str, message: str) -> None:
+    with pytest.raises(LevadeError, match=message):
+        load_task("squat-jump", changes=[f"good_enough={enough}"])
 
 
 @pytest.mark.parametrize(

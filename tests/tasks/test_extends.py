@@ -43,7 +43,20 @@ def test_it_has_what_it_says_and_the_rest_of_the_other(tmp_path: Path) -> None:
     for ours, theirs in ((task.costs, other.costs), (task.success, other.success)):
         assert ours.keys() == theirs.keys() - {"straight"}
         assert all(ours[name] == theirs[name] for name in ours.keys() - {"apex"})
-    assert replace(task, name=other.name, costs=other.costs, success=other.success) == other
+    assert task.good_enough == {}  # what it said of a criterion goes with it
+    same = {"costs": other.costs, "success": other.success, "good_enough": other.good_enough}
+    assert replace(task, name=other.name, **same) == other
+
+
+def test_a_criterion_that_is_stated_anew_holds_on_perturbed_models_too(tmp_path: Path) -> None:
+    text = "name: strict\nextends: squat-jump\nsuccess: {straight: {quantity: travel, maximum: 0.1 m, at: max}}\n"
+    for task in (
+        load_task(written(tmp_path / "strict.yaml", text)),
+        load_task("squat-jump", changes=["success.straight.maximum=0.1"]),
+    ):
+        assert task.on_others["straight"].maximum == 0.1
+    text += "good_enough: {straight: {maximum: 0.2 m}}\n"
+    assert load_task(written(tmp_path / "both.yaml", text)).on_others["straight"].maximum == 0.2
 
 
 def test_nothing_but_a_name_is_the_other_task_on_any_robot(tmp_path: Path, quadruped: type[Any]) -> None:

@@ -52,7 +52,7 @@ def test_every_nominal_task_has_one(name: str, robot: Robot) -> None:
     assert robust.policy == within.policy
     assert plan.closed_loop(0.5, task.policy).policy == task.policy  # of the motion that it is around
     assert robust.robust is not None
-    assert robust.robust.success == plan.goal
+    assert robust.robust.success == {**plan.goal, **task.good_enough}
     assert isinstance(within.horizon, HorizonRange)
     finer = plan.finer(0.5, feedback=False)
     assert (finer.success, finer.costs, finer.horizon) == (robust.success, robust.costs, robust.horizon)
@@ -72,7 +72,19 @@ def test_what_is_tighter_than_hardware_needs_is_loosened_and_told(robot: Robot) 
     asked, enough = plan.loosened["pitch"]
     assert (asked.tolerance, enough.tolerance) == (0.006, 0.1)
     assert plan.goal["height"].tolerance == pytest.approx(dimensions(robot).height / 12)
-    assert Plan.of(load_task("squat-jump"), robot).loosened == {}
+    assert Plan.of(load_task("self-righting"), robot).loosened == {}
+
+
+def test_what_a_task_calls_good_enough_holds_on_perturbed_models_alone(robot: Robot) -> None:
+    task = load_task("squat-jump")
+    plan = Plan.of(task, robot)
+    assert plan.loosened == {"straight": (task.success["straight"], task.good_enough["straight"])}
+    assert plan.goal["straight"] == task.success["straight"]
+    for made in (plan.robust(1.0), plan.certifiable(plan.within_limits()), plan.in_one_search()):
+        assert made.success["straight"] == task.success["straight"]
+        assert made.on_others["straight"] == task.good_enough["straight"]
+        assert "speed_margin" in made.success
+        assert "speed_margin" not in made.on_others
 
 
 def test_what_the_task_says_of_perturbed_models_counts(robot: Robot) -> None:
@@ -164,7 +176,7 @@ def test_what_perturbed_models_need_not_do_is_asked_of_the_nominal_one(robot: Ro
     robust = plan.robust(0.4)
     assert {"pitch", "height"} <= set(robust.success)
     assert {"pitch", "height"} <= set(robust.costs)
-    assert set(robust.good_enough) == {"pitch"}
+    assert set(robust.on_others) == {"pitch"}
 
 
 def test_a_measure_of_one_s_own_is_a_cost_that_a_file_names(robot: Robot) -> None:

@@ -83,7 +83,7 @@ def test_a_variant_asks_for_the_motion_of_its_task_on_other_robots(name: str) ->
     limits = {one.quantity for one in made.success.values()} & set(ROOM)
     expected = set(ROOM) if linked else set(ROOM) - {"linkage_margin"}
     assert limits == (expected if variant == "within-limits" else set())
-    assert not {one.quantity for one in made.good_enough.values()} & set(ROOM)  # a weak robot may come to its limits
+    assert not {one.quantity for one in made.on_others.values()} & set(ROOM)  # a weak robot may come to its limits
     if variant == "within-limits":
         assert isinstance(made.costs["margins"].term, Margins)
         assert ends(made)[1] == pytest.approx(LONGEST * ends(made)[0]) or isinstance(nominal.horizon, HorizonRange)
@@ -108,7 +108,7 @@ def test_costs_follow_from_the_criteria() -> None:
 def test_the_whole_attitude_counts_where_a_robot_rears() -> None:
     robust, within = load_task("rearing-robust"), load_task("rearing-within-limits")
     assert {one.quantity for one in robust.success.values()} == {"roll", "pitch", "yaw", "height"}
-    assert set(robust.success) == set(within.good_enough)
+    assert set(robust.success) == set(within.on_others)
     assert {one.tolerance for name, one in robust.success.items() if name != "height"} == {0.1}
     assert (robust.horizon, ends(within)) == (0.3, (0.3, 0.75))
 

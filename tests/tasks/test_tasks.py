@@ -193,6 +193,7 @@ def test_the_checksum_is_of_the_task_and_of_what_else_decides() -> None:
     task = load_task("rearing")
     first = task_to_yaml(task).replace("optimizer: cma-aimed", "optimizer: levade")
     keys = ("  room: null", "  slew: null", "  through: []", "  sketches: 0", "  patience: null", "hardware: null")
+    keys = (*keys, "good_enough: {}")
     for later in (f"{key}\n" for key in keys):
         first = first.replace(later, "")
     assert task_checksum(task) == zlib.crc32(first.encode())  # as in runs and benches from before it had this name
@@ -605,3 +606,18 @@ def test_a_motions_task_reads_no_files(tmp_path: Path) -> None:
     assert task_from_dict(content, where="task").scene.terrain is not None
     with pytest.raises(LevadeError, match=r"task\.scene\.terrain: unknown key 'file'"):
         task_from_dict(content, where="task", code=True)
+
+
+class Own:
+    """An optimizer with a setting that no other has."""
+
+    SETTINGS = ("limits",)
+
+
+def test_the_settings_of_an_optimizer_of_ones_own_survive_a_file() -> None:
+    task = load_task("rearing")
+    own = dataclasses.replace(task, search=dataclasses.replace(task.search, optimizer=Own, settings={"limits": 3}))
+    content = task_to_dict(own, code=True)
+    read = task_from_dict(content, where="file", code=True)
+    assert read.search.settings == {"limits": 3}
+    assert task_to_dict(read, code=True) == content

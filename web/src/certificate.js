@@ -25,6 +25,7 @@ export function createCertificate(element, data) {
   const player = el("div", { class: "player panel" }, stage, controls, el("div", { class: "which options" }, choice, said));
   const main = el("main", {},
     el("div", { class: "top" }, el("div", { class: "place" }, player), el("div", { class: "panel" }, verdicts(data))),
+    goal(data),
     limits(data.limits),
     el("div", { class: "columns" }, missed(data), sensitivity(data)),
     tried(data),
@@ -89,6 +90,13 @@ function limits({ time, horizon, end, joints, kinds }) {
   const note = `Of the joint that has least left at each instant, on the model. Nearest: ${joints[who[least.k][least.row]]} at ${fixed(x[least.row], 3)} s, ${fixed(100 * lines[least.k].y[least.row], 1)} % of its ${KINDS[least.kind.name]} left.`;
   return el("section", { class: "panel", id: "limits" }, el("header", {}, el("h2", {}, "Limits"), el("p", { class: "note" }, note)),
     el("figure", {}, el("figcaption", {}, el("span", { class: "title" }, "left of the limit", el("span", { class: "unit" }, " [share]")), legend), body));
+}
+
+// What the motion has to do. Where a task asks for more than robots that differ can do, both are named.
+function goal({ goal }) {
+  const rows = goal.map(({ criterion, task, model, perturbed }) => el("tr", {}, el("th", { scope: "row" }, criterion.replaceAll("_", " ")),
+    ...[task, model, perturbed || "\u2013"].map((text) => el("td", {}, text))));
+  return table("What it has to do", "In SI units. Other numerics and engines are judged as perturbed robots are.", ["Criterion", "The task", "On the model", "On perturbed robots"], rows);
 }
 
 function missed({ errors, share }) {

@@ -11,15 +11,16 @@ docs/check.md describes each part.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 
-from levade.checks.certificate import Certificate
+from levade.checks.certificate import Certificate, Goal
 from levade.checks.engines import Replayed, other_engines
 from levade.checks.margins import margins
 from levade.checks.numerics import Numeric, numerics
 from levade.checks.perturbed import Hopeless, Perturbed, Sensitivity, perturbed
 from levade.checks.slack import Margin
 from levade.checks.verdicts import Verdict
+from levade.costs import Criterion
 from levade.engines import Perturbation
 from levade.errors import LevadeError
 from levade.feedback import Feedback
@@ -29,6 +30,7 @@ from levade.tasks import Demands, Task
 __all__ = [
     "Certificate",
     "Demands",
+    "Goal",
     "Margin",
     "Numeric",
     "Perturbed",
@@ -52,6 +54,7 @@ def check(
     perturbation: Perturbation | None = None,
     demands: Demands | None = None,
     criteria: Task | None = None,
+    asked: Mapping[str, Criterion] | None = None,
     threads: int = 0,
     hopeless: Hopeless | None = None,
     stopping: Callable[[], bool] | None = None,
@@ -66,7 +69,8 @@ def check(
         perturbation: Ranges of the perturbed parameters. Defaults to `levade.engines.Perturbation`.
         demands: Thresholds of the certificate. Defaults to `levade.tasks.Demands`.
         criteria: A task whose success criteria replace those of the motion's task, which are its criteria for perturbed
-            models (`levade.tasks.Robust.success`).
+            models (`levade.tasks.Task.on_others`).
+        asked: What the task asked for, if the motion's task has other tolerances. The certificate only repeats it.
         threads: Number of engine threads (0: one per core). Results do not depend on it.
         hopeless: Called with the successes and perturbed runs so far; once it returns true, no more runs are made.
         stopping: Called during the runs; once it returns true, the check ends, and the certificate is marked as interrupted.
@@ -77,7 +81,7 @@ def check(
     Raises:
         LevadeError: If there are no success criteria, or ``runs`` or ``divide`` is out of range.
     """
-    judged = motion.task.good_enough if criteria is None else criteria.success
+    judged = motion.task.on_others if criteria is None else criteria.success
     simulation = RecordedSimulation(motion, criteria=judged, threads=threads)
     if not simulation.criteria:
         raise LevadeError(
@@ -111,6 +115,7 @@ def check(
         task=simulation.task.name,
         robot=motion.robot,
         criteria=simulation.task.name if criteria is None else criteria.name,
+        goal=tuple(_goal(motion.task.success if criteria is None else criteria.success, judged, asked or {})),
         checksum=motion.checksum,
         versions=versions(simulation.engine.name),
         demands=demands,
@@ -122,3 +127,11 @@ def check(
         margins={} if cut else margins(simulation, demands),
         interrupted=cut,
     )
+
+
+def _goal(
+    model: Mapping[str, Criterion], perturbed: Mapping[str, Criterion], asked: Mapping[str, Criterion]
+) -> Iterator[Goal]:
+    for name, criterion in model.items():
+        there = perturbed[name].wording if name in perturbed else ""
+        yield Goal(name, asked.get(name, criterion).wording, criterion.wording, there)

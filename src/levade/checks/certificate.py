@@ -16,6 +16,23 @@ from levade.tasks import Demands
 
 
 @dataclass(frozen=True)
+class Goal:
+    """What a criterion asks for, in words and SI units.
+
+    Attributes:
+        criterion: Name of the criterion.
+        task: What the task says.
+        model: What the motion has to meet on the model.
+        perturbed: What it has to meet on perturbed models, with other numerics and in other engines. "" if nothing.
+    """
+
+    criterion: str
+    task: str
+    model: str
+    perturbed: str
+
+
+@dataclass(frozen=True)
 class Certificate:
     """All findings of a check.
 
@@ -23,6 +40,7 @@ class Certificate:
         task: Name of the motion's task.
         robot: Name of the robot.
         criteria: Name of the task whose success criteria were used.
+        goal: What each criterion asks for.
         checksum: Checksum of the motion (`levade.motions.Motion.checksum`).
         versions: Library -> version, for those that decide the bits of a result.
         demands: Thresholds that the motion has to meet.
@@ -38,6 +56,7 @@ class Certificate:
     task: str
     robot: str
     criteria: str
+    goal: tuple[Goal, ...]
     checksum: str
     versions: Mapping[str, str]
     demands: Demands
@@ -81,6 +100,7 @@ class Certificate:
             "task": self.task,
             "robot": self.robot,
             "criteria": self.criteria,
+            "goal": [asdict(one) for one in self.goal],
             "checksum": self.checksum,
             "versions": dict(self.versions),
             "failed": list(self.failed),

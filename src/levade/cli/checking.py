@@ -153,6 +153,13 @@ def _tell(console: Console, path: Path, motion: Motion, certificate: Certificate
         + (f", by the criteria of {escape(certificate.criteria)}" if certificate.criteria != certificate.task else "")
     )
     console.print(verdict_table(certificate))
+    for goal in certificate.goal:
+        if goal.perturbed and not goal.task == goal.model == goal.perturbed:
+            own = "" if goal.task == goal.model else f"; the task says {goal.task}"
+            console.print(
+                f"{escape(goal.criterion)}: {goal.perturbed} on perturbed robots, {goal.model} on the model{own}",
+                style="dim",
+            )
     console.print()
     console.print(_errors(certificate.perturbed))
     if certificate.perturbed.successes:  # where nothing succeeds, nothing can be compared

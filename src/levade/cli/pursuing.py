@@ -185,10 +185,11 @@ def _tell_goal(console: Console, plan: Plan) -> None:
             f"On hardware: T may be {horizon}, and the motion has to keep the limits of {escape(plan.robot.name)}."
         )
     for name, (asked, enough) in plan.loosened.items():
-        if asked.tolerance is None or enough.tolerance is None:
-            console.print(f"On hardware {escape(name)} is good enough as robust.success of the task says.")
-            continue
         unit = quantity_unit(asked.quantity)
+        if asked.tolerance is None or enough.tolerance is None:
+            said = f"{enough.wording} is good enough; the task says {asked.wording}"
+            console.print(f"On perturbed robots {escape(name)}: {said}.")
+            continue
         within = f"{enough.tolerance:.3g} {unit}; the task says {asked.tolerance:.3g} {unit}"
         console.print(f"On hardware {escape(name)} is good enough within {within}.")
 

@@ -142,6 +142,18 @@ class Criterion:
             bad = trajectories.diverged | ~np.isfinite(error)
             return np.where(bad, DIVERGED, within(error, DIVERGED)), np.where(bad, np.nan, room)
 
+    @property
+    def wording(self) -> str:
+        """What it asks for, in the quantity's SI unit, such as "-1.05 ± 0.1 rad" or "at least 0.88 m"."""
+        unit = f" {unit_of(self.quantity)}".rstrip()
+        if self.target is not None:
+            return f"{self.target:.3g} ± {self.tolerance:.3g}{unit}"
+        if self.minimum is not None and self.maximum is not None:
+            return f"{self.minimum:.3g} to {self.maximum:.3g}{unit}"
+        if self.minimum is not None:
+            return f"at least {self.minimum:.3g}{unit}"
+        return f"at most {self.maximum:.3g}{unit}"
+
     def value(self, trajectories: Trajectories) -> Array:
         """Compute the quantity at the instant of the error: where it is farthest from the target, or has the least slack.
 

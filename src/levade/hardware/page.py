@@ -118,6 +118,7 @@ def certificate_data(
         "description": motion.task.description,
         "robot": certificate.robot,
         "criteria": certificate.criteria,
+        "goal": [asdict(one) for one in certificate.goal],
         "horizon": motion.horizon,
         "hold": motion.hold,
         "feedback": None if motion.stabiliser is None else motion.stabiliser["rate"],
@@ -132,7 +133,7 @@ def certificate_data(
         "ranges": list(_ranges(certificate)),
         "limits": limits_data(motion),
         "scene": scene,
-        "runs": list(_poorest(motion, certificate, criteria or motion.task.good_enough, scene)),
+        "runs": list(_poorest(motion, certificate, criteria or motion.task.on_others, scene)),
         "provenance": {
             "motion": source,
             "checksum": certificate.checksum,

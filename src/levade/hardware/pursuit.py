@@ -434,6 +434,7 @@ class _Pursuit:
             seed=self._seed,
             perturbation=self._plan.perturb,
             demands=self._demands,
+            asked=self._plan.task.success,
             threads=self._threads,
             hopeless=self._hopeless,
             stopping=self._stopping,

@@ -98,5 +98,5 @@ def _trials(task: Task) -> int:
 
 def _hard(task: Task, trials: int) -> Task:
     search = replace(task.search, trials=trials, restart=None, patience=None, polish=0)
-    robust = replace(_ROBUST, success=task.good_enough)  # so that success on the model is reported separately
+    robust = replace(_ROBUST, success=task.on_others)  # so that success on the model is reported separately
     return replace(task, robust=robust, stages=(Stage(hold=_HOLD),), search=search)

@@ -286,7 +286,7 @@ class Objective:
                 errors of the others are NaN.
         """
         terms, n = self.terms, trajectories.n
-        criteria = self.task.good_enough if perturbed else self.task.success
+        criteria = self.task.on_others if perturbed else self.task.success
         if 0 == hold_steps < self.task.hold_steps:
             terms = {name: term for name, term in terms.items() if not looks_at_hold(term)}
             criteria = {name: criterion for name, criterion in criteria.items() if not looks_at_hold(criterion)}

@@ -77,7 +77,7 @@ def stabilise(
     Raises:
         LevadeError: If another engine than MuJoCo made the motion, it broke down or has no criteria, or a number is not valid.
     """
-    simulation = RecordedSimulation(motion, criteria=motion.task.good_enough, threads=threads)
+    simulation = RecordedSimulation(motion, criteria=motion.task.on_others, threads=threads)
     _check(simulation, rate, bound, runs)
     assert isinstance(simulation.engine, MujocoEngine)  # the one that a recorded motion is simulated in
     drawing = perturbation or Perturbation()

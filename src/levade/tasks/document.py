@@ -86,6 +86,11 @@ def load_task(name_or_path: str | Path, *, robot: str | Robot | None = None, cha
                 and canonical(content["search"]["optimizer"]) != task.search.optimizer
             ):
                 content["search"]["settings"] = {}
+        paths = [change.partition("=")[0].split(".") for change in rest]
+        again = {path[1] for path in paths if path[0] == "success" and len(path) > 1}
+        if isinstance(content["good_enough"], dict):  # as in a file that extends the task
+            for key in again - {path[1] for path in paths if path[0] == "good_enough" and len(path) > 1}:
+                content["good_enough"].pop(key, None)
         task = _changed(content, made)
     if task.robot.name != own:
         stances.check_postures(task, written, own, made)
@@ -155,7 +160,7 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
     content = with_family(stances.on_robot(checked, chosen, where), where)
     if isinstance(content.get("success"), Mapping):
         content["success"] = _with_quantities(content["success"], where)
-        content["robust"] = _good_enough(content.get("robust"), content["success"], where)
+        content |= _completed(content, where)
     costs = content.get("costs")
     if isinstance(costs, Mapping):
         content["costs"] = {
@@ -186,7 +191,8 @@ def task_from_dict(content: Mapping[str, Any], *, where: str, code: bool = False
         _without_code_in_criteria(content, where)
     task = build(Task, content, where=where)
     if optimizer is not None:
-        task = dataclasses.replace(task, search=dataclasses.replace(task.search, optimizer=optimizer))
+        missing, own = optimizer
+        task = dataclasses.replace(task, search=dataclasses.replace(task.search, optimizer=missing, settings=own))
     return task
 
 
@@ -232,21 +238,27 @@ def _with_quantities(success: Mapping[str, Any], where: str) -> dict[str, Any]:
     return named
 
 
-def _good_enough(robust: Any, success: Mapping[str, Any], where: str) -> Any:
-    """Complete the criteria of robust from those of the task, so that ``{pitch: {tolerance: 0.1}}`` is enough."""
-    if not (isinstance(robust, Mapping) and isinstance(robust.get("success"), Mapping)):
-        return robust
-    for name in robust["success"]:
-        if name not in success:
-            hint = did_you_mean(str(name), success) if success else "the task has none"
-            raise LevadeError(f"{where}.robust.success.{name}: is not a criterion of the task; {hint}")
-    filled = {
-        name: {**success[name], **value}
-        if isinstance(value, Mapping) and isinstance(success.get(name), Mapping)
-        else value
-        for name, value in robust["success"].items()
-    }
-    return {**robust, "success": filled}
+def _completed(content: Mapping[str, Any], where: str) -> dict[str, Any]:
+    """Complete criteria for perturbed models from the task's, so that ``{pitch: {tolerance: 0.1}}`` is enough."""
+    success, completed = content["success"], {}
+    robust = content.get("robust")
+    for place, table in (("good_enough", content), ("robust.success", robust)):
+        key = place.rpartition(".")[2]
+        criteria = table.get(key) if isinstance(table, Mapping) else None
+        if not isinstance(criteria, Mapping):
+            continue
+        for name in criteria:
+            if name not in success:
+                hint = did_you_mean(str(name), success) if success else "the task has none"
+                raise LevadeError(f"{where}.{place}.{name}: is not a criterion of the task; {hint}")
+        filled = {
+            name: {**success[name], **value}
+            if isinstance(value, Mapping) and isinstance(success[name], Mapping)
+            else value
+            for name, value in criteria.items()
+        }
+        completed |= {"robust": {**table, key: filled}} if table is robust else {key: filled}
+    return completed
 
 
 def _without_code(criteria: Mapping[str, Any], where: str) -> dict[str, Any]:
@@ -260,7 +272,9 @@ def _without_code(criteria: Mapping[str, Any], where: str) -> dict[str, Any]:
 
 
 def _without_code_in_criteria(content: dict[str, Any], where: str) -> None:
-    content["success"] = _without_code(content.get("success", {}), f"{where}.success")
+    for key in ("success", "good_enough"):
+        if isinstance(content.get(key), Mapping):
+            content[key] = _without_code(content[key], f"{where}.{key}")
     robust = content.get("robust")
     if isinstance(robust, Mapping) and isinstance(robust.get("success"), Mapping):
         content["robust"] = {**robust, "success": _without_code(robust["success"], f"{where}.robust.success")}
@@ -285,14 +299,14 @@ def _check_horizon(horizon: Any, where: str) -> None:
     )
 
 
-def _missing_optimizer(content: dict[str, Any]) -> MissingCode | None:
-    """Remove an optimizer that was Python code from a task's tables."""
+def _missing_optimizer(content: dict[str, Any]) -> tuple[MissingCode, Any] | None:
+    """Remove an optimizer that was Python code from a task's tables, with its settings, and return both."""
     search = content.get("search")
     if not (isinstance(search, Mapping) and isinstance(search.get("optimizer"), Mapping)):
         return None
     name = search["optimizer"].get(KEY)
-    content["search"] = {key: value for key, value in search.items() if key != "optimizer"}
-    return MissingCode(str(name))
+    content["search"] = {key: value for key, value in search.items() if key not in ("optimizer", "settings")}
+    return MissingCode(str(name)), search.get("settings", {})
 
 
 def _tolerances(stage: Any, success: Mapping[str, Any], where: str, robot: Callable[[], Dimensions]) -> Any:
@@ -364,4 +378,6 @@ def _apply(content: dict[str, Any], change: str) -> None:
 
 def _may_add(table: str, value: Any) -> bool:
     """Find out whether a change may add to a table, where the task itself reports a wrong name."""
-    return table in ("search.settings", "start.fall") or (table in ("costs", "success") and isinstance(value, Mapping))
+    return table in ("search.settings", "start.fall") or (
+        table in ("costs", "success", "good_enough") and isinstance(value, Mapping)
+    )

@@ -32,7 +32,7 @@ VARIANT, BY_VARIANT = "variant", "variants"
 VARIANTS = ("robust", "within-limits")
 """Variants of every task. Each built-in one has a name, such as rearing-robust."""
 
-MERGED = ("scene", "physics", "policy", "costs", "success", "search", "robust", "feedback")
+MERGED = ("scene", "physics", "policy", "costs", "success", "good_enough", "search", "robust", "feedback")
 """Tables of which a task that extends another one names only the keys that it changes."""
 
 
@@ -233,6 +233,9 @@ def extended(base: dict[str, Any], changes: dict[str, Any], *, nulls: bool = Fal
     Returns:
         The merged tables.
     """
+    again, enough = changes.get("success"), base.get("good_enough")
+    if isinstance(again, Mapping) and isinstance(enough, Mapping):  # what is stated anew holds on perturbed models, too
+        base = {**base, "good_enough": {key: value for key, value in enough.items() if key not in again}}
     content = {**base, **changes}
     for name in MERGED:
         ours, theirs = changes.get(name), base.get(name)
@@ -241,7 +244,7 @@ def extended(base: dict[str, Any], changes: dict[str, Any], *, nulls: bool = Fal
         table = {**{key: value for key, value in theirs.items() if key not in ours}, **ours}
         if name == "search" and "optimizer" in ours and "settings" not in ours:
             table.pop("settings", None)  # they belong to the other optimizer
-        if name in ("costs", "success") and not nulls:
+        if name in ("costs", "success", "good_enough") and not nulls:
             table = {key: value for key, value in table.items() if value is not None}
         content[name] = table
     return content

@@ -113,6 +113,7 @@ class Plan:
         task: The task as the user gave it. If the robot has a linkage and the demands name it, the task asks for it, too.
         robot: Its robot, with its linkage in this case.
         goal: Criterion -> what is good enough on hardware: the task's own criterion, with a tolerance of at least `tolerance`.
+        on_others: Criterion -> what perturbed models have to meet.
         limits: Criterion -> the slack to keep for each kind of limit that the robot has, or what the task itself asks for.
         feedback: Whether motions may have feedback.
     """
@@ -120,6 +121,7 @@ class Plan:
     task: Task
     robot: Robot
     goal: Mapping[str, Criterion]
+    on_others: Mapping[str, Criterion]
     limits: Mapping[str, Criterion]
     feedback: bool = True
 
@@ -128,7 +130,7 @@ class Plan:
         """Make the plan for a task.
 
         Args:
-            task: The task. Its criteria for perturbed models also hold on the nominal model.
+            task: The task. What ``robust.success`` says also holds on the nominal model; what ``good_enough`` says does not.
             robot: Its robot.
             demands: Demands of the certificate. Defaults to the task's, or else to `levade.tasks.Demands`.
             feedback: Whether motions may have feedback.
@@ -136,22 +138,22 @@ class Plan:
         demands = demands or task.hardware or Demands()
         if robot.curves and demands.linkage is not None:
             robot, task = robot.with_linkage(), replace(task, robot=replace(task.robot, linkage=True))
-        size, own = dimensions(robot), {**task.success, **task.good_enough}
-        goal = {name: _good_enough(one, size) for name, one in own.items() if one.quantity not in ROOM}
+        size = dimensions(robot)
+        stated = {} if task.robust is None else task.robust.success or {}
+        own = {name: one for name, one in {**task.success, **stated}.items() if one.quantity not in ROOM}
+        goal = {name: _good_enough(one, size) for name, one in own.items()}
+        on_others = {**goal, **({} if stated else task.good_enough)}
+        on_others = {name: one for name, one in on_others.items() if name in goal and name in task.on_others}
         asked = {name: one for name, one in task.success.items() if one.quantity in ROOM}
         known = {one.quantity for one in asked.values()}
         limits = {name: one for name, one in _limits(robot, demands).items() if name not in known}
-        return cls(task, robot, goal, {**limits, **asked}, feedback)
-
-    @property
-    def on_others(self) -> Mapping[str, Criterion]:
-        """The part of the goal that perturbed models have to meet."""
-        return {name: one for name, one in self.goal.items() if name in self.task.good_enough}
+        return cls(task, robot, goal, on_others, {**limits, **asked}, feedback)
 
     @property
     def loosened(self) -> Mapping[str, tuple[Criterion, Criterion]]:
-        """Criterion -> the task's own, and the one that replaces it, where these differ."""
-        pairs = {name: (self.task.success[name], one) for name, one in self.goal.items() if name in self.task.success}
+        """Criterion -> the task's own, and the one that replaces it, on perturbed models at least, where these differ."""
+        enough = {**self.goal, **self.on_others}
+        pairs = {name: (one, enough[name]) for name, one in self.task.success.items() if name in enough}
         return {name: pair for name, pair in pairs.items() if pair[0] != pair[1]}
 
     def within_limits(self, number: int = 0) -> Task:

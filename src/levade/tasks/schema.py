@@ -43,6 +43,11 @@ def task_schema() -> Schema:
     task = _table(Task, definitions)
     task["properties"]["costs"] = _costs(definitions)
     task["properties"]["success"] = _success(definitions)
+    task["properties"]["good_enough"] = {
+        "type": "object",
+        "description": "Name -> what differs from this criterion of success on perturbed models.",
+        "additionalProperties": {"anyOf": [_reference("Criterion"), {"type": "null"}]},
+    }
     definitions["Stage"]["properties"]["promote"] = {"type": "object", "additionalProperties": _number("any")}
     heights = definitions["Terrain"]
     heights["properties"]["file"] = {"type": "string", "description": "File of heights: a .npy in m, or an image."}
@@ -132,7 +137,7 @@ def _table(kind: Any, definitions: dict[str, Schema], *, term: str | None = None
     hints, texts = typing.get_type_hints(kind), _described(kind, [field.name for field in fields])
     properties: dict[str, Schema] = {}
     for field in fields:
-        if kind is Task and field.name in ("costs", "success"):
+        if kind is Task and field.name in ("costs", "success", "good_enough"):
             continue
         measures = "any" if kind is Criterion else measured(field.name, {"term": term})
         if kind is HorizonRange:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from levade.costs import Criterion, clearance_of
 from levade.engines import Physics, Settled
@@ -50,6 +50,7 @@ class Task:
         feedback: Regulator that is on while candidates run on perturbed models. None runs them without feedback.
         hardware: Demands of a certificate: searches go on until a motion passes, as with ``levade solve --hardware``. None
             makes one search.
+        good_enough: Name -> criterion that replaces one of ``success`` on perturbed models.
 
     Raises:
         LevadeError: If a value makes no sense, or two do not go together.
@@ -71,6 +72,7 @@ class Task:
     robust: Robust | None = None
     feedback: Regulation | None = None
     hardware: Demands | None = None
+    good_enough: Mapping[str, Criterion] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         check_name(self.name)
@@ -81,7 +83,8 @@ class Task:
         check_search(self.search, self.costs)
         check_stages(self.stages, self.costs, self.success, hold=self.hold, hold_steps=self.hold_steps)
         check_starts(self.robust, self.stages)
-        check_good_enough(self.robust, self.success, self.hold)
+        check_good_enough(self.good_enough, self.success, self.hold, "good_enough")
+        check_good_enough(self.robust.success or {} if self.robust else {}, self.success, self.hold, "robust.success")
         check_feedback(self.feedback, self.robust, self.horizon)
 
     def changed(self, change: Change) -> Task:
@@ -100,9 +103,11 @@ class Task:
         return replace(self, search=replace(self.search, changes=changes))
 
     @property
-    def good_enough(self) -> Mapping[str, Criterion]:
+    def on_others(self) -> Mapping[str, Criterion]:
         """Criteria that a motion has to meet on a perturbed model, by name."""
-        return self.success if self.robust is None or self.robust.success is None else self.robust.success
+        if self.robust is not None and self.robust.success is not None:
+            return self.robust.success
+        return {**self.success, **self.good_enough}
 
     @property
     def sensors(self) -> SensorErrors:
@@ -112,7 +117,7 @@ class Task:
     @property
     def clearance(self) -> float | None:
         """Distance up to which two parts of the robot count as near [m]; None if no cost or criterion looks at it."""
-        looking = [*(cost.term for cost in self.costs.values()), *self.success.values(), *self.good_enough.values()]
+        looking = [*(cost.term for cost in self.costs.values()), *self.success.values(), *self.on_others.values()]
         return clearance_of(looking)
 
     @property

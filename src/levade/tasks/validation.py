@@ -209,22 +209,25 @@ def check_starts(robust: Robust | None, stages: Sequence[Stage]) -> None:
         )
 
 
-def check_good_enough(robust: Robust | None, success: Mapping[str, Criterion], hold: float) -> None:
+def check_good_enough(
+    good_enough: Mapping[str, Criterion], success: Mapping[str, Criterion], hold: float, where: str
+) -> None:
     """Check that the criteria for perturbed models are criteria of the task.
 
     Args:
-        robust: How candidates run on perturbed models; None if they do not.
+        good_enough: Name -> criterion for perturbed models.
         success: Name -> criterion of the task.
         hold: Time after the horizon [s].
+        where: Key of the criteria, for messages.
 
     Raises:
         LevadeError: If one is not.
     """
-    for name, criterion in ({} if robust is None else robust.success or {}).items():
+    for name, criterion in good_enough.items():
         if name not in success:
             hint = did_you_mean(name, success) if success else "the task has none"
-            raise LevadeError(f"robust.success.{name}: is not a criterion of the task; {hint}")
-        _check_hold(f"robust.success.{name}", criterion, hold)
+            raise LevadeError(f"{where}.{name}: is not a criterion of the task; {hint}")
+        _check_hold(f"{where}.{name}", criterion, hold)
 
 
 def check_feedback(feedback: Regulation | None, robust: Robust | None, horizon: float | HorizonRange) -> None:

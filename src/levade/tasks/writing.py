@@ -17,11 +17,11 @@ from levade.tasks.terms import TERMS
 
 _ORDER = (
     *("name", "description", "robot", "scene", "physics", "start", "horizon", "hold"),
-    *("policy", "costs", "stages", "success", "search", "robust", "feedback", "hardware"),
+    *("policy", "costs", "stages", "success", "good_enough", "search", "robust", "feedback", "hardware"),
 )
 _LATER = (
     *(("hardware",), ("policy", "room"), ("policy", "slew"), ("policy", "through"), ("search", "patience")),
-    ("search", "sketches"),
+    *(("search", "sketches"), ("good_enough",)),
     *(("robust", "perturb", "softness"), ("robust", "perturb", "cone"), ("start", "fallen", "fold")),
 )
 """Keys that were added after the first runs with a checksum, and are null, zero or empty by default."""
@@ -49,11 +49,14 @@ def task_to_dict(task: Task, *, code: bool = False) -> dict[str, Any]:
     if not isinstance(optimizer, str):
         if not code:
             raise LevadeError("search.optimizer: a Python object cannot be written to a task file")
-        task = dataclasses.replace(task, search=dataclasses.replace(task.search, optimizer=Search().optimizer))
+        own = task.search.settings
+        plain = dataclasses.replace(task.search, optimizer=Search().optimizer, settings={})
+        task = dataclasses.replace(task, search=plain)
     content = _plain(dataclasses.asdict(task))
     if not isinstance(optimizer, str):
-        content["search"]["optimizer"] = {KEY: code_name(optimizer)}
+        content["search"] |= {"optimizer": {KEY: code_name(optimizer)}, "settings": dict(own)}
     _name_measures(content["success"], task.success, code, "success")
+    _name_measures(content["good_enough"], task.good_enough, code, "good_enough")
     if task.robust is not None and task.robust.success is not None:
         _name_measures(content["robust"]["success"], task.robust.success, code, "robust.success")
     content["start"] = {key: value for key, value in content["start"].items() if value is not None}
@@ -130,7 +133,7 @@ def task_checksum(task: Task, *more: object) -> int:
         table: Any = content
         for key in tables:
             table = table.get(key) if isinstance(table, dict) else None
-        if isinstance(table, dict) and name in table and table[name] in (None, [], 0):
+        if isinstance(table, dict) and name in table and table[name] in (None, [], {}, 0):
             del table[name]
     for cost in content["costs"].values():
         for name in _LATER_OF_TERMS.get(cost.get("term"), ()):
