@@ -240,25 +240,27 @@ def _with_quantities(success: Mapping[str, Any], where: str) -> dict[str, Any]:
 
 def _completed(content: Mapping[str, Any], where: str) -> dict[str, Any]:
     """Complete criteria for perturbed models from the task's, so that ``{pitch: {tolerance: 0.1}}`` is enough."""
-    success, completed = content["success"], {}
-    robust = content.get("robust")
-    for place, table in (("good_enough", content), ("robust.success", robust)):
-        key = place.rpartition(".")[2]
-        criteria = table.get(key) if isinstance(table, Mapping) else None
-        if not isinstance(criteria, Mapping):
-            continue
+    success = content["success"]
+
+    def filled(criteria: Mapping[str, Any], place: str) -> dict[str, Any]:
         for name in criteria:
             if name not in success:
                 hint = did_you_mean(str(name), success) if success else "the task has none"
                 raise LevadeError(f"{where}.{place}.{name}: is not a criterion of the task; {hint}")
-        filled = {
+        return {
             name: {**success[name], **value}
             if isinstance(value, Mapping) and isinstance(success[name], Mapping)
             else value
             for name, value in criteria.items()
         }
-        completed |= {"robust": {**table, key: filled}} if table is robust else {key: filled}
-    return completed
+
+    found: dict[str, Any] = {}
+    if isinstance(enough := content.get("good_enough"), Mapping):
+        found["good_enough"] = filled(enough, "good_enough")
+    robust = content.get("robust")
+    if isinstance(robust, Mapping) and isinstance(enough := robust.get("success"), Mapping):
+        found["robust"] = {**robust, "success": filled(enough, "robust.success")}
+    return found
 
 
 def _without_code(criteria: Mapping[str, Any], where: str) -> dict[str, Any]:

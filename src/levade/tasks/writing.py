@@ -45,11 +45,10 @@ def task_to_dict(task: Task, *, code: bool = False) -> dict[str, Any]:
     Raises:
         LevadeError: If a cost, measure or optimizer is Python code and ``code`` is false.
     """
-    optimizer = task.search.optimizer
+    optimizer, own = task.search.optimizer, task.search.settings
     if not isinstance(optimizer, str):
         if not code:
             raise LevadeError("search.optimizer: a Python object cannot be written to a task file")
-        own = task.search.settings
         plain = dataclasses.replace(task.search, optimizer=Search().optimizer, settings={})
         task = dataclasses.replace(task, search=plain)
     content = _plain(dataclasses.asdict(task))
