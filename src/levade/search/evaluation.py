@@ -210,7 +210,8 @@ class Evaluation:
         samples = self.samples
         if samples is None or robust is None:
             return cost
-        on_models = total({name: samples.terms[name] for name in terms}, {name: weights[name] for name in terms})
+        there = [name for name in terms if name not in robust.free]
+        on_models = total({name: samples.terms[name] for name in there}, {name: weights[name] for name in there})
         costs = np.column_stack([cost, np.where(samples.diverged, DIVERGED, on_models)])
         known = np.column_stack([np.ones(len(cost), dtype=bool), samples.known])
         measured = risk(costs, known, measure=robust.measure, tail=robust.tail)

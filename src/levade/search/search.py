@@ -24,6 +24,7 @@ from levade.search.evaluation import Evaluation, Gains, Trials
 from levade.search.initial import AROUND, InitialGuess
 from levade.search.optimizing import make_attempt
 from levade.search.outcome import Generation, Solution, Stopped, Trial, better
+from levade.search.repair import Repair
 from levade.search.robust import Judge
 from levade.search.schedule import Level, Move, Report, Schedule, first_to_end, full_level, level_of, promoted
 from levade.search.weighing import cost_weights, missed, stage_weights
@@ -82,6 +83,7 @@ class Search:
         self._schedule = Schedule(task)
         self._judge = Judge(task, seed)
         self._optimizer: Optimizer = make_attempt(task, space, seed=seed)
+        self._repair = Repair(space.factor, np.array([one.target is None for one in task.success.values()], dtype=bool))
         self._weights = cost_weights(task, 0)
         self._best: Trial | None = None
         self._kept: Trial | None = None  # the best of earlier rounds
@@ -288,7 +290,8 @@ class Search:
         ends = bool(promoted(stage, evaluation).any())
         validated, contenders, start = None, candidates, None
         if level.robust and task.robust is not None and task.robust.redraw == "generation":
-            contenders = (candidates[np.argmin(cost)] if mean is None else mean)[None]
+            self._repair.tell(candidates, missed(task, evaluation))
+            contenders = (candidates[np.argmin(cost)] if mean is None else self._repair.repaired(mean))[None]
             validated = yield from self._judge.evaluate(contenders, level, best=self._best)
         elif schedule.finds_start(promoted=ends, spent=evaluation.trials):
             first = first_to_end(stage, cost, evaluation)
@@ -456,6 +459,8 @@ class Search:
         Args:
             hold: Whether the simulated part of the hold changes, too, and with it the errors that depend on the hold.
         """
+        if hold:
+            self._repair.forget()
         if uses_errors(self._optimizer):
             criteria = self._task.success.values()
             self._optimizer.forget_costs(np.array([hold and looks_at_hold(criterion) for criterion in criteria]))

@@ -227,9 +227,12 @@ class Plan:
             policy: Policy of the motion to begin around. Defaults to the policy of the first search within limits.
         """
         search, demanding = self.task.search, self._demanding(_ROBUST_MARGINS_WEIGHT)
-        perturb = self.perturb
+        perturb, size = self.perturb, dimensions(self.robot)
+        eased = {name: one for name, one in self.on_others.items() if one != self.goal[name]}
+        costs = {f"{name} (perturbed)": Cost(_miss(one, size), 1.0) for name, one in eased.items()}
         return replace(
             demanding,
+            costs={**demanding.costs, **costs},
             horizon=horizon,
             policy=policy or demanding.policy,
             stages=(Stage("robust", step=0.3, hold=self._held),),
@@ -249,6 +252,7 @@ class Plan:
                 validation=40,
                 contender="mean",
                 success=self.on_others,
+                free=(*eased, *(name for name in ("margins",) if name in demanding.costs)),
                 perturb=replace(perturb, softness=perturb.softness or _SOFTNESS, cone=perturb.cone or _CONE),
             ),
         )
@@ -271,13 +275,14 @@ class Plan:
         within = self.within_limits()
         robust = self.robust(within.usual_horizon)
         assert robust.robust is not None
+        costs = {name: robust.costs[name] for name in self._demanding(_ROBUST_MARGINS_WEIGHT).costs}
         reached = {name: one.tolerance or 0.0 for name, one in within.success.items()}
         margins = {name: within.costs[name].weight for name in ("margins",) if name in robust.costs}
         duration = {name: within.costs[name] for name in ("duration",) if name in within.costs}
         return replace(
             robust,
             horizon=within.horizon,
-            costs={**duration, **robust.costs},
+            costs={**duration, **costs},
             stages=(
                 Stage("nominal", robust=False, hold=self._held, promote=reached, weights=margins),
                 replace(robust.stages[0], name="robust"),
@@ -285,6 +290,7 @@ class Plan:
             robust=replace(
                 robust.robust,
                 measure="mean",
+                free=(),
                 perturb=self.perturb,
                 success=None if robust.success == self.on_others else self.on_others,
                 required=Demands().share or 0.0,

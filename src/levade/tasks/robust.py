@@ -62,6 +62,7 @@ class Robust:
             fixed sample goes on to the robust stages. Motions that look alike on one model differ widely on others.
         success: Criteria for a perturbed model: some of the task's, by name, with their own tolerances or bounds. The
             others apply to the nominal model alone. Defaults to the task's criteria.
+        free: Costs of the nominal model alone, from which perturbed models are free.
         racing: Race that spares poor candidates most samples. None runs every candidate on every sample.
         perturb: Ranges of the perturbed parameters.
 
@@ -78,6 +79,7 @@ class Robust:
     required: float = 1.0
     starts: int = 1
     success: Mapping[str, Criterion] | None = None
+    free: tuple[str, ...] = ()
     racing: Racing | None = None
     perturb: Perturbation = Perturbation()
 

@@ -18,6 +18,7 @@ from levade.tasks.validation import (
     check_costs,
     check_durations,
     check_feedback,
+    check_free,
     check_good_enough,
     check_name,
     check_policy,
@@ -83,6 +84,7 @@ class Task:
         check_search(self.search, self.costs)
         check_stages(self.stages, self.costs, self.success, hold=self.hold, hold_steps=self.hold_steps)
         check_starts(self.robust, self.stages)
+        check_free(self.robust, self.costs)
         check_good_enough(self.good_enough, self.success, self.hold, "good_enough")
         check_good_enough(self.robust.success or {} if self.robust else {}, self.success, self.hold, "robust.success")
         check_feedback(self.feedback, self.robust, self.horizon)

@@ -209,6 +209,24 @@ def check_starts(robust: Robust | None, stages: Sequence[Stage]) -> None:
         )
 
 
+def check_free(robust: Robust | None, costs: Mapping[str, Cost]) -> None:
+    """Check that the costs from which perturbed models are free are costs of the task.
+
+    Args:
+        robust: How candidates run on perturbed models; None if they do not.
+        costs: Name -> term and weight.
+
+    Raises:
+        LevadeError: If one is not, or none is left.
+    """
+    free = () if robust is None else robust.free
+    for name in free:
+        if name not in costs:
+            raise LevadeError(f"robust.free: no {name!r} in this task; {did_you_mean(name, costs)}")
+    if free and not costs.keys() - set(free):
+        raise LevadeError("robust.free: has every cost, so perturbed models would have none; leave one out")
+
+
 def check_good_enough(
     good_enough: Mapping[str, Criterion], success: Mapping[str, Criterion], hold: float, where: str
 ) -> None:

@@ -21,7 +21,7 @@ _ORDER = (
 )
 _LATER = (
     *(("hardware",), ("policy", "room"), ("policy", "slew"), ("policy", "through"), ("search", "patience")),
-    *(("search", "sketches"), ("good_enough",)),
+    *(("search", "sketches"), ("good_enough",), ("robust", "free")),
     *(("robust", "perturb", "softness"), ("robust", "perturb", "cone"), ("start", "fallen", "fold")),
 )
 """Keys that were added after the first runs with a checksum, and are null, zero or empty by default."""
