@@ -32,6 +32,7 @@ from levade.search import (
 from levade.search.objective import _TAG as TAG
 from levade.search.optimizing import make_attempt
 from levade.search.recording import record
+from levade.search.repair import Repair
 from levade.search.robust import Judge, Judging
 from levade.search.run import MOTION, TASK, read_run, resume, run
 from levade.search.schedule import Level, full_level
@@ -277,6 +278,34 @@ def test_the_mean_of_a_generation_may_be_compared_in_place_of_its_best(answered:
 
 
 @pytest.mark.slow
+def test_a_mean_that_misses_a_criterion_is_repaired_before_it_is_compared(monkeypatch: pytest.MonkeyPatch) -> None:
+    moved: list[np.ndarray] = []
+
+    def repaired(self: Repair, mean: np.ndarray) -> np.ndarray:
+        moved.append(mean + 0.001)
+        return moved[-1]
+
+    monkeypatch.setattr(Repair, "repaired", repaired)
+    for generation, trials in asked(objective(MEAN)):
+        if generation.validated is not None:
+            assert any(np.array_equal(one.weights, moved[-1][None]) for one in trials if one.draw is None)
+    assert len(moved) >= 2
+
+
+@pytest.mark.slow
+def test_perturbed_models_are_free_from_some_costs(fixed: list[Generation]) -> None:
+    evaluation, robust = fixed[3].evaluation, Robust(samples=4, measure="mean", free=("effort",))
+    weights = {name: cost.weight for name, cost in objective().task.costs.items()}
+    samples = evaluation.samples
+    less = {name: weight for name, weight in weights.items() if name != "effort"}
+    on_models = total({name: samples.terms[name] for name in less}, less)
+    expected = np.column_stack([total(dict(evaluation.terms), weights), on_models]).mean(axis=1)
+    whole = samples.complete
+    np.testing.assert_allclose(evaluation.cost(weights, robust)[whole], expected[whole], rtol=1e-12)
+    assert (expected[whole] < evaluation.cost(weights, replace(robust, free=()))[whole]).all()
+
+
+@pytest.mark.slow
 def test_a_search_starts_anew_on_the_nominal_model_only() -> None:
     """Each nominal stage has two generations of six: it starts anew after one, or goes on with other models."""
     never = "success={pitch: {target: 1.5, tolerance: 0.1}}"
@@ -451,6 +480,8 @@ def test_tasks_keep_what_they_ask_for(tmp_path: Path) -> None:
         ("{tail: 0}", r"robust.tail: 0.0 should be a share"),
         ("{samples: 2, racing: {first: 2}}", r"robust.racing.first: 2 should be less than samples, 2"),
         ("{racing: {first: 1, keep: 0}}", r"robust.racing.keep: 0.0 should be a share"),
+        ("{free: [effrt]}", r"robust.free: no 'effrt' in this task; did you mean effort\?"),
+        ("{free: [orientation, position, effort, joint_limits]}", r"robust.free: has every cost"),
         ("{perturb: {frction: [1, 1]}}", r"unknown key 'frction'; did you mean friction\?"),
     ],
 )

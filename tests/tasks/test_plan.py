@@ -85,6 +85,11 @@ def test_what_a_task_calls_good_enough_holds_on_perturbed_models_alone(robot: Ro
         assert made.on_others["straight"] == task.good_enough["straight"]
         assert "speed_margin" in made.success
         assert "speed_margin" not in made.on_others
+    robust = plan.robust(1.0)
+    assert robust.robust is not None
+    assert set(robust.robust.free) == {*task.good_enough, "margins"}  # perturbed models have the easier costs alone
+    assert robust.costs["apex"].term.minimum > robust.costs["apex (perturbed)"].term.minimum
+    assert {f"{name} (perturbed)" for name in task.good_enough} < set(robust.costs)
 
 
 def test_what_the_task_says_of_perturbed_models_counts(robot: Robot) -> None:
