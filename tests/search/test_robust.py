@@ -286,9 +286,9 @@ def test_a_mean_that_misses_a_criterion_is_repaired_before_it_is_compared(monkey
         return moved[-1]
 
     monkeypatch.setattr(Repair, "repaired", repaired)
-    for generation, trials in asked(objective(MEAN)):
-        if generation.validated is not None:
-            assert any(np.array_equal(one.weights, moved[-1][None]) for one in trials if one.draw is None)
+    rounds = [trials for generation, trials in asked(objective(MEAN)) if generation.validated is not None]
+    for trials, mean in zip(rounds, moved, strict=True):
+        assert any(np.array_equal(one.weights, mean[None]) for one in trials if one.draw is None)
     assert len(moved) >= 2
 
 
