@@ -194,6 +194,10 @@ class Perturbation:
             if not (math.isfinite(low) and math.isfinite(high) and low <= high):
                 raise LevadeError(f"perturb.{name}: {list(ends)} should be [lowest, highest], two finite numbers")
             least = {"x": 0.01, "s": 0.0}.get(about.unit)
+            if about.unit == "-" and not 0.0 <= low <= high <= 1.0:
+                raise LevadeError(
+                    f"perturb.{name}: {list(ends)} should be within 0 and 1; [0, 1] takes either cone alike"
+                )
             if least is not None and low < least:
                 raise LevadeError(f"perturb.{name}: {low} is too low; {least} or more, {about.nominal:g} is nominal")
 
