@@ -15,7 +15,7 @@ from levade.hardware import Plan
 from levade.robots import Dimensions, Robot, dimensions, load_robot
 from levade.tasks import Change, Cost, HorizonRange, builtin_tasks, load_task, overview, task_from_dict, task_to_yaml
 from levade.tasks.files import read_task
-from levade.tasks.plan import _miss, tolerance
+from levade.tasks.goals import miss_of, tolerance
 from levade.tasks.policy import make_policy
 from levade.trajectory import Trajectories
 
@@ -154,7 +154,7 @@ SIZE = Dimensions(height=0.6, leg=0.7, trunk=0.8)
 )
 def test_a_bound_costs_1_and_so_does_half_a_tolerance(criterion: Criterion, values: dict[float, float]) -> None:
     """By hand: squared distance from what costs nothing, over the scale."""
-    miss = _miss(criterion, SIZE)
+    miss = miss_of(criterion, SIZE)
     for value, cost in values.items():
         low = -np.inf if miss.minimum is None else miss.minimum
         high = np.inf if miss.maximum is None else miss.maximum

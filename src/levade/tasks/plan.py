@@ -24,16 +24,15 @@ from levade.costs import (
     Duration,
     LinearVelocity,
     Margins,
-    Measure,
     Miss,
     Orientation,
     Position,
     Posture,
-    unit_of,
 )
 from levade.engines import Perturbation, engine_kind
-from levade.robots import Dimensions, Robot, dimensions
+from levade.robots import Robot, dimensions
 from levade.tasks.demands import Demands
+from levade.tasks.goals import good_enough, miss_of
 from levade.tasks.parts import Cost, HorizonRange, PolicyChoice, Search, Stage
 from levade.tasks.regulation import Regulation
 from levade.tasks.robust import Robust
@@ -112,7 +111,8 @@ class Plan:
     Attributes:
         task: The task as the user gave it. If the robot has a linkage and the demands name it, the task asks for it, too.
         robot: Its robot, with its linkage in this case.
-        goal: Criterion -> what is good enough on hardware: the task's own criterion, with a tolerance of at least `tolerance`.
+        goal: Criterion -> what is good enough on hardware: the task's own criterion, with a tolerance of at least that of
+            `levade.tasks.goals`.
         on_others: Criterion -> what perturbed models have to meet.
         limits: Criterion -> the slack to keep for each kind of limit that the robot has, or what the task itself asks for.
         feedback: Whether motions may have feedback.
@@ -141,7 +141,7 @@ class Plan:
         size = dimensions(robot)
         stated = {} if task.robust is None else task.robust.success or {}
         own = {name: one for name, one in {**task.success, **stated}.items() if one.quantity not in ROOM}
-        goal = {name: _good_enough(one, size) for name, one in own.items()}
+        goal = {name: good_enough(one, size) for name, one in own.items()}
         on_others = {**goal, **({} if stated else task.good_enough)}
         on_others = {name: one for name, one in on_others.items() if name in goal and name in task.on_others}
         asked = {name: one for name, one in task.success.items() if one.quantity in ROOM}
@@ -229,7 +229,7 @@ class Plan:
         search, demanding = self.task.search, self._demanding(_ROBUST_MARGINS_WEIGHT)
         perturb, size = self.perturb, dimensions(self.robot)
         eased = {name: one for name, one in self.on_others.items() if one != self.goal[name]}
-        costs = {f"{name} (perturbed)": Cost(_miss(one, size), 1.0) for name, one in eased.items()}
+        costs = {f"{name} (perturbed)": Cost(miss_of(one, size), 1.0) for name, one in eased.items()}
         return replace(
             demanding,
             costs={**demanding.costs, **costs},
@@ -346,7 +346,7 @@ class Plan:
 
     def _demanding(self, margins_weight: float = _MARGINS_WEIGHT) -> Task:
         size = dimensions(self.robot)
-        costs = {name: Cost(_miss(one, size), 1.0) for name, one in self.goal.items()}
+        costs = {name: Cost(miss_of(one, size), 1.0) for name, one in self.goal.items()}
         kept = {
             f"{name} (cost)" if name in costs else name: cost
             for name, cost in self.task.costs.items()
@@ -432,49 +432,3 @@ def _limits(robot: Robot, demands: Demands) -> dict[str, Criterion]:
         for name, demand in demanded.items()
         if there[name] and demand is not None
     }
-
-
-def tolerance(unit: str, size: Dimensions) -> float:
-    """Return the tolerance that is good enough on hardware [SI].
-
-    Args:
-        unit: Unit of the criterion's target.
-        size: Dimensions of the robot.
-
-    Returns:
-        0.1 rad for angles, a twelfth of the robot's height for lengths, and 0 for other units.
-    """
-    return {"rad": 0.1, "m": size.height / 12}.get(unit, 0.0)
-
-
-def _good_enough(criterion: Criterion, size: Dimensions) -> Criterion:
-    if criterion.tolerance is None:
-        return criterion
-    return replace(criterion, tolerance=max(criterion.tolerance, tolerance(unit_of(criterion.quantity), size)))
-
-
-class MissOfCode(Miss):
-    """A miss of a measure that is Python code. It counts as code itself: files hold its name only."""
-
-
-def _miss(criterion: Criterion, size: Dimensions) -> Miss:
-    """Turn a criterion into a cost: 1 for a miss of half the tolerance, or at a bound, and 0 some way inside the bound."""
-    kind = MissOfCode if isinstance(criterion.quantity, Measure) else Miss
-    same = {"quantity": criterion.quantity, "at": criterion.at, "legs": criterion.legs}
-    if criterion.target is not None:
-        return kind(target=criterion.target, scale=max(criterion.tolerance or 0.0, 1e-9) / 2, **same)  # type: ignore[arg-type]
-    low, high = criterion.minimum, criterion.maximum
-    fall = size.fall
-    unit = unit_of(criterion.quantity)
-    scale = tolerance(unit, size) / 2 or {"m/s": 0.05 * size.height / fall, "rad/s": 0.1 / fall}.get(unit, 0.05)
-    if low is not None and high is not None:
-        scale = min(scale, (high - low) / 4)
-    elif high is not None and high > 0:
-        scale = min(scale, high / 2)
-    scale = max(scale, 1e-9)
-    return kind(
-        minimum=None if low is None else low + scale,
-        maximum=None if high is None else high - scale,
-        scale=scale,
-        **same,  # type: ignore[arg-type]
-    )
