@@ -52,7 +52,7 @@ def test_before_the_first_certificate_roll_outs_of_the_search_tell(clock: Clock)
     """100 roll-outs in 2 s: 140 longer ones take 5.6 s."""
     budget = Budget(100.0, None, 500)
     clock.now = 92.0
-    budget.begin("limits-1")
+    budget.begin()
     clock.now = 94.0
     assert not budget.over(generation(None))
     clock.now = 95.0
@@ -68,16 +68,3 @@ def test_roll_outs_of_finished_searches_count(clock: Clock) -> None:
     clock.now = 1e9  # without a limit of time
     assert not budget.late(0.5, 99)
     assert not budget.over(generation(None))
-
-
-def test_the_roll_outs_of_a_search_that_goes_on_count_once() -> None:
-    budget = Budget(None, 1000, 500)
-    budget.begin("robust-1")
-    budget.made(300)
-    budget.begin("robust-2")
-    assert budget.spent(0.5, 200)
-    assert not budget.spent(0.5, 199)
-    budget.made(300)
-    budget.begin("robust-1")  # its 300 are among those that it reports from now on
-    assert budget.spent(0.7, 400)
-    assert not budget.spent(0.7, 399)

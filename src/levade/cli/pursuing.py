@@ -148,7 +148,7 @@ class _Showing:
         self.close()
         if self._quiet:
             return
-        found = _without_certificate(part) if part.certificate is None else _found(part.certificate)
+        found = "it does not keep the limits" if part.certificate is None else _found(part.certificate)
         left = self._deadline.left
         self._console.print(
             f"{part.name}: {part.trials} trials, {part.seconds:.0f} s, T = {part.motion.horizon:.3g} s; {found}"
@@ -160,12 +160,6 @@ class _Showing:
         if self._display is not None:
             self._display.__exit__(None, None, None)
             self._display = None
-
-
-def _without_certificate(part: Part) -> str:
-    """Return what a search found that no certificate was made for."""
-    share = part.trial.share
-    return "it does not keep the limits" if share is None else f"so far {share:.1%} of perturbed models"
 
 
 def _found(certificate: Certificate) -> str:

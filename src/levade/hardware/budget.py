@@ -1,7 +1,7 @@
 """Keep to the time and the roll-outs of a pursuit.
 
 budget = Budget(end=time.monotonic() + 300.0, trials=None, runs=500)
-budget.begin("robust-1")            # a search
+budget.begin()                      # a search
 budget.over(generation)             # whether it has to end
 budget.late(0.6, generation.trials) # whether 60 % are over
 budget.certified(seconds, runs)     # how long certificates take; the last one has to fit
@@ -38,30 +38,25 @@ class Budget:
     def __init__(self, end: float | None, trials: int | None, runs: int) -> None:
         self.end, self.trials, self.runs = end, trials, runs
         self._began = self._searching = time.monotonic()
-        self._made: dict[str, int] = {}
-        self._name = ""
+        self._made = 0
         self._each: float | None = None
 
-    def begin(self, name: str) -> float:
-        """Take note that a search begins, or that an earlier one goes on.
-
-        Args:
-            name: Name of the search.
+    def begin(self) -> float:
+        """Take note that a search begins.
 
         Returns:
             The time [s].
         """
-        self._name, self._searching = name, time.monotonic()
-        self._made.pop(name, None)
+        self._searching = time.monotonic()
         return self._searching
 
     def made(self, trials: int) -> None:
-        """Take note of the roll-outs of the search that has just ended.
+        """Take note of the roll-outs of a finished search.
 
         Args:
-            trials: Number of its roll-outs, with those before it went on.
+            trials: Number of roll-outs.
         """
-        self._made[self._name] = trials
+        self._made += trials
 
     def certified(self, seconds: float, runs: int) -> None:
         """Take note of how long a certificate took.
@@ -79,7 +74,7 @@ class Budget:
             share: The share.
             trials: Roll-outs of the search that goes on.
         """
-        return self.trials is not None and sum(self._made.values()) + trials >= share * self.trials
+        return self.trials is not None and self._made + trials >= share * self.trials
 
     def late(self, share: float, trials: int = 0) -> bool:
         """Return whether a share of the time is over, or of the roll-outs.

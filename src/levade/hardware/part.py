@@ -9,7 +9,6 @@ from typing import Any
 
 from levade.checks import Certificate
 from levade.motions import Motion
-from levade.search import Trial
 from levade.tasks.plan import Plan
 
 _MOST = 1000
@@ -46,7 +45,6 @@ class Part:
     Attributes:
         name: Name of its directory.
         motion: The motion that it found.
-        trial: The search's best trial, which the motion records.
         trials: Number of its roll-outs.
         seconds: Duration of the search and of the check [s].
         certificate: Certificate of the motion. None if the motion is not within the limits and other searches go on, or if the
@@ -55,7 +53,6 @@ class Part:
 
     name: str
     motion: Motion
-    trial: Trial
     trials: int
     seconds: float
     certificate: Certificate | None

@@ -10,7 +10,7 @@ DIR/certificate.html    the certificate as a page, with the poorest runs to play
 DIR/task.yaml           its task, with every default filled in
 DIR/hardware.json       the arguments, and the search that later ones begin around: a later call goes on from here
 DIR/limits-1, ...       the searches, each a run of its own (`levade.search.run`)
-DIR/feedback-1, ...     those on perturbed models, each around the motion of limits-1, ...
+DIR/feedback-1          the one on perturbed models, around the motion of limits-1, or feedback-2 and so on
 DIR/again-1, ...        the same once more with another seed, if no certificate passed and time was left
 
 The first searches look for motions of the nominal model within its limits. There are several, since motions that look alike
@@ -18,10 +18,9 @@ there differ widely on other robots. The second search begins around the best of
 the nearest motion, if none keeps the limits. While the best motion succeeds on few robots, the search that found it is repeated
 with other random numbers.
 
-Searches on perturbed models follow, each around one of the motions that succeed on most robots, with feedback if the motion may
-have any. It shows early which of them gets far, and only that one goes on. Fine searches then begin around a motion if it
-succeeds on nearly enough robots, if its lead is so small that other robots could change the verdict, or if it fails because of
-how contact is computed. Searches that are no longer needed are left out.
+A search on perturbed models follows around the motion that succeeds on most robots, with feedback if the motion may have any.
+Fine searches then begin around a motion if it succeeds on nearly enough robots, if its lead is so small that other robots could
+change the verdict, or if it fails because of how contact is computed. Searches that are no longer needed are left out.
 
 A pursuit around a given motion has one search within limits, ``near``, which begins around it.
 """
@@ -76,18 +75,8 @@ _ON_NEAR = 0.6
 _ENOUGH = 0.4
 """The same share once another search has succeeded. No further search within limits begins after it."""
 
-_GOOD = 0.9
+_GOOD = 0.7
 """Share of perturbed robots that makes a motion good enough to begin the robust searches around."""
-
-_STARTS, _HEAT = 3, 600
-"""Most motions to begin searches on perturbed models around, and the roll-outs after which the worst of them ends. The next one
-ends after twice as many."""
-
-_PROMISING = 0.5
-"""Least share of perturbed robots for such a motion, as a part of the share of the best one."""
-
-_ON_HEATS = 0.7
-"""Share of the time after which only the best of these searches goes on."""
 
 _TIMES = 3
 """Once a search within limits has succeeded, later ones end without success after this multiple of its trials."""
@@ -304,29 +293,14 @@ class _Pursuit:
                 break
 
     def _hold_on_others(self) -> None:
-        """Search around the motions that succeed on most perturbed robots, with feedback if they may have any."""
-        met = sorted((part for part in self._parts if part.met), key=lambda part: (part.sure, part.share), reverse=True)
-        start = met[0]
-        if not start.sure:
-            start = self._best_start([part for part in met[:_STARTS] if part.share >= _PROMISING * met[0].share])
+        """Search around the motion that succeeds on most perturbed robots, with feedback if it may have any."""
+        plan = self._plan
+        start = max((part for part in self._parts if part.met), key=lambda part: (part.sure, part.share))
         self._choose(start)
         if not start.sure:
-            self._search(*self._on_others(start), seed=self._seed)
-
-    def _best_start(self, starts: list[Part]) -> Part:
-        """Return the start from which a search on perturbed models gets farthest. The worst search ends, then the next one."""
-        most = _HEAT
-        while len(starts) > 1 and not self._stopped and not self._budget.late(_ON_HEATS):
-            made = [(self._search(*self._on_others(one), seed=self._seed, most=most), one) for one in starts]
-            *starts, _ = (start for _, start in sorted(made, key=lambda pair: pair[0].trial.rank))
-            most *= 2
-        return starts[0]
-
-    def _on_others(self, start: Part) -> tuple[str, Task, Motion]:
-        """Return the name of a search on perturbed models, its task, and the motion that it begins around."""
-        plan, near = self._plan, start.motion
-        names, make = (CLOSED, plan.closed_loop) if plan.can_close_the_loop else (ROBUST, plan.robust)
-        return names[start.name], make(near.horizon, near.task.policy), near
+            near = start.motion
+            names, make = (CLOSED, plan.closed_loop) if plan.can_close_the_loop else (ROBUST, plan.robust)
+            self._search(names[start.name], make(near.horizon, near.task.policy), near, seed=self._seed)
 
     def _refine(self) -> None:
         """Search around the best motion in small steps, if it nearly passes."""
@@ -378,28 +352,17 @@ class _Pursuit:
     def _best(self) -> Part:
         return min(self._parts, key=lambda part: part.rank)
 
-    def _search(self, name: str, task: Task, around: Motion | None, *, seed: int, most: int | None = None) -> Part:
-        """Make one search, go on with it, or take its earlier result; then certify its motion.
-
-        Args:
-            name: Name of the search.
-            task: Its task.
-            around: The motion that it begins around, if any.
-            seed: Its seed.
-            most: Number of roll-outs after which it ends for now, without a certificate. None for no end.
-        """
-        began = self._budget.begin(name)
-        outcome = self._run(name, task, around, seed, most)
+    def _search(self, name: str, task: Task, around: Motion | None, *, seed: int) -> Part:
+        """Make one search, go on with it, or take its earlier result; then certify its motion."""
+        began = self._budget.begin()
+        outcome = self._run(name, task, around, seed)
         motion = outcome.motion.with_task(self._plan.certifiable(outcome.motion.task))
-        names = [part.name for part in self._parts]
-        at = names.index(name) if name in names else len(names)
-        seconds = time.monotonic() - began + sum(part.seconds for part in self._parts[at : at + 1])
-        part = Part(name, motion, outcome.solution.best, outcome.solution.trials, seconds, None)
+        part = Part(name, motion, outcome.solution.trials, time.monotonic() - began, None)
         # a motion beyond the limits would only fail; if there is no other, the nearest one is certified in the end
         hopeless = name in self._kinds and not motion.met
-        if not hopeless and most is None:
+        if not hopeless:
             part = self._certified(part)
-        self._parts[at : at + 1] = [part]
+        self._parts.append(part)
         self._budget.made(part.trials)
         self._tell_of(part)
         return part
@@ -453,14 +416,14 @@ class _Pursuit:
         share = self._demands.share
         return share is not None and runs >= FEW and wilson(successes, runs)[1] < share
 
-    def _run(self, name: str, task: Task, around: Motion | None, seed: int, most: int | None) -> Outcome:
+    def _run(self, name: str, task: Task, around: Motion | None, seed: int) -> Outcome:
         directory = self._directory / name
         objective = make_objective(task, robot=self._plan.robot, threads=self._threads)
         if (directory / CHECKPOINT).is_file():
             known, checkpoint = read_run(directory)
             if task_to_dict(known, code=True) == task_to_dict(task, code=True) and checkpoint.header.seed == seed:
                 self._told(name, task)
-                return resume(directory, objective=objective, observe=lambda one: self._watch(name, one, most))
+                return resume(directory, objective=objective, observe=lambda one: self._watch(name, one))
         guess = None if around is None else initial_guess(objective.policy, around)
         if guess is None and self._kinds.get(name) == RUN_UP:
             guess = rough_start(objective, seed=seed)
@@ -470,14 +433,14 @@ class _Pursuit:
             seed=seed,
             directory=directory,
             initial=guess,
-            observe=lambda one: self._watch(name, one, most),
+            observe=lambda one: self._watch(name, one),
         )
 
     def _told(self, name: str, task: Task) -> None:
         if self._begin is not None:
             self._begin(self._prefix + name, task)
 
-    def _watch(self, name: str, generation: Generation, most: int | None) -> Stopped | None:
+    def _watch(self, name: str, generation: Generation) -> Stopped | None:
         wish = None if self._observe is None else self._observe(self._prefix + name, generation)
         wish = wish or (Stopped.INTERRUPTED if self._stopping() else None)
         if wish is not None:
@@ -486,7 +449,7 @@ class _Pursuit:
             self._stopped, wish = "time", Stopped.INTERRUPTED
         elif self._budget.spent(1.0, generation.trials):  # also when it is replayed: a later call stops there, too
             self._stopped, wish = "trials", Stopped.INTERRUPTED
-        elif (most is not None and generation.trials >= most) or self._gives_up(name, generation):
+        elif self._gives_up(name, generation):
             wish = Stopped.INTERRUPTED
         return wish
 
