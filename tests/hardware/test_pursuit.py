@@ -114,6 +114,9 @@ def test_what_barely_passes_is_not_sure(found: Pursued, successes: int, runs: in
     seen = replace(found.certificate.perturbed, successes=successes, runs=runs, low=low, high=high)
     part = replace(found.best, certificate=replace(found.certificate, perturbed=seen))
     assert part.sure is sure
+    assert part.near
+    few = replace(seen, successes=runs // 2)
+    assert not replace(part, certificate=replace(found.certificate, perturbed=few)).near
     assert not replace(part, certificate=None).sure
 
 
