@@ -3,13 +3,11 @@
     repair = Repair(space.factor, one_sided)
     repair.tell(candidates, errors)             # of each generation
     contender = repair.repaired(mean)           # the mean itself, if it is predicted to meet every criterion
-    repair.found(errors_of_contender)           # what it turned out to miss
 
 On perturbed models the mean of a search follows what helps there. On the nominal model it may then miss a criterion by a
 little, such as a speed limit, and could not become the best trial. The errors of the latest candidates on the nominal model,
 which are known anyway, say how the errors depend on the candidate. The mean is moved by the smallest step after which no
-criterion is predicted to be missed. What the last contender missed by more than predicted is added to the next prediction: the
-search moves on meanwhile, and errors of limits bend where another joint becomes the one with the least slack.
+criterion is predicted to be missed.
 """
 
 from __future__ import annotations
@@ -28,9 +26,6 @@ _WITHIN = 0.8
 """Share of a tolerance that a criterion may be missed by after the step, where it was missed by more than all of it. For a
 criterion with a bound 1 is the bound, and less is inside."""
 
-_BACK = 0.3
-"""Part of it by which the addition gets smaller, where the last contender was farther inside a bound than predicted."""
-
 _ROUNDS = 6
 """Most rounds in which criteria are added that a step would make the mean miss."""
 
@@ -46,8 +41,6 @@ class Repair:
     def __init__(self, factor: Array, one_sided: NDArray[np.bool_]) -> None:
         self._factor, self._one_sided = factor, one_sided
         self._told: list[tuple[Array, Array]] = []
-        self._more = np.zeros(len(one_sided))  # by how much errors are larger than the regression says
-        self._predicted = np.full(len(one_sided), np.nan)  # errors of the last contender
 
     def tell(self, candidates: Array, errors: Array) -> None:
         """Remember a generation.
@@ -63,19 +56,6 @@ class Repair:
     def forget(self) -> None:
         """Forget all generations, because errors have another meaning from now on."""
         self._told = []
-        self._more, self._predicted = np.zeros_like(self._more), np.full_like(self._predicted, np.nan)
-
-    def found(self, errors: Array) -> None:
-        """Compare what the last contender misses with what was predicted.
-
-        Args:
-            errors: Its errors on the nominal model, shape (k,). NaN where unknown.
-        """
-        apart = errors - self._predicted
-        apart = np.where(np.isfinite(apart), apart, 0.0)
-        more = self._more + np.where(self._one_sided & (apart < 0), _BACK * apart, apart)
-        self._more = np.where(self._one_sided, np.maximum(more, 0.0), more)
-        self._predicted = np.full_like(self._predicted, np.nan)
 
     def repaired(self, mean: Array) -> Array:
         """Move the mean, if it is predicted to miss a criterion.
@@ -96,7 +76,6 @@ class Repair:
         with single_threaded():
             at = (candidates - mean) @ np.linalg.pinv(self._factor, rcond=1e-8).T
             offset, slope, farthest = _fit(at, errors[:, looked_at])
-            offset = offset + self._more[looked_at]
             step = np.zeros(at.shape[1])
             missed = np.zeros(len(offset), dtype=bool)
             for _ in range(_ROUNDS):
@@ -106,7 +85,6 @@ class Repair:
                 missed |= also
                 origin = np.zeros((1, len(step)))
                 step = corrected(origin, offset[missed], slope[:, missed], farthest, one_sided[missed], _WITHIN)[0]
-            self._predicted[looked_at] = offset + step @ slope
             return mean + self._factor @ step if missed.any() else mean
 
 

@@ -293,8 +293,6 @@ class Search:
             self._repair.tell(candidates, missed(task, evaluation))
             contenders = (candidates[np.argmin(cost)] if mean is None else self._repair.repaired(mean))[None]
             validated = yield from self._judge.evaluate(contenders, level, best=self._best)
-            if mean is not None:
-                self._repair.found(missed(task, validated)[0])
         elif schedule.finds_start(promoted=ends, spent=evaluation.trials):
             first = first_to_end(stage, cost, evaluation)
             found = candidates[first : first + 1]

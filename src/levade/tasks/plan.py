@@ -72,10 +72,9 @@ standing, which its knees are too slow for. From a crouch they are fast enough."
 _DURATION_WEIGHT = 0.5
 """Cost of a duration as long as the task's: in a quick motion, a robot that differs from the model has less time to fall."""
 
-_MARGINS_WEIGHT, _ROBUST_MARGINS_WEIGHT, _ALIKE_MARGINS_WEIGHT = 0.5, 2.0, 0.2
-"""Weights of margins on the nominal model; in a search on perturbed models, which are free from this cost; and in one where
-they are not. They are so large that a search keeps the limits on its way to the goal: a search that first reaches the goal
-beyond the limits seldom comes back."""
+_MARGINS_WEIGHT, _ROBUST_MARGINS_WEIGHT = 0.5, 0.2
+"""Weights of margins on the nominal model, and on perturbed ones. They are so large that a search keeps the limits on its way
+to the goal: a search that first reaches the goal beyond the limits seldom comes back."""
 
 _GOALS = (Orientation, Position, Posture, LinearVelocity, AngularVelocity, Miss, Margins)
 """Terms that the plan replaces by costs of the criteria and of margins."""
@@ -276,7 +275,7 @@ class Plan:
         within = self.within_limits()
         robust = self.robust(within.usual_horizon)
         assert robust.robust is not None
-        costs = self._demanding(_ALIKE_MARGINS_WEIGHT).costs
+        costs = {name: robust.costs[name] for name in self._demanding(_ROBUST_MARGINS_WEIGHT).costs}
         reached = {name: one.tolerance or 0.0 for name, one in within.success.items()}
         margins = {name: within.costs[name].weight for name in ("margins",) if name in robust.costs}
         duration = {name: within.costs[name] for name in ("duration",) if name in within.costs}
