@@ -195,7 +195,15 @@ def test_a_run_from_when_the_default_was_called_levade_goes_on_to_the_same_end(t
     text = (part / TASK).read_text()
     assert text.count("optimizer: cma-aimed\n") == 1
     text = text.replace("optimizer: cma-aimed\n", "optimizer: levade\n")
-    keys = ("  room: null", "  slew: null", "  through: []", "  sketches: 0", "  patience: null", "hardware: null")
+    keys = (
+        "  room: null",
+        "  slew: null",
+        "  through: []",
+        "  sketches: 0",
+        "  patience: null",
+        "hardware: null",
+        "good_enough: {}",
+    )
     for later in (f"{key}\n" for key in keys):
         assert text.count(later) == 1
         text = text.replace(later, "")

@@ -53,6 +53,9 @@ def test_a_criterion_that_is_stated_anew_holds_on_perturbed_models_too(tmp_path:
     for task in (
         load_task(written(tmp_path / "strict.yaml", text)),
         load_task("squat-jump", changes=["success.straight.maximum=0.1"]),
+        load_task(
+            "squat-jump", changes=["success={straight: {quantity: travel, maximum: 0.1, at: max}}", "stages=[{}]"]
+        ),
     ):
         assert task.on_others["straight"].maximum == 0.1
     text += "good_enough: {straight: {maximum: 0.2 m}}\n"

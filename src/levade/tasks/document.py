@@ -87,8 +87,9 @@ def load_task(name_or_path: str | Path, *, robot: str | Robot | None = None, cha
             ):
                 content["search"]["settings"] = {}
         paths = [change.partition("=")[0].split(".") for change in rest]
-        again = {path[1] for path in paths if path[0] == "success" and len(path) > 1}
         if isinstance(content["good_enough"], dict):  # as in a file that extends the task
+            again = {path[1] for path in paths if path[0] == "success" and len(path) > 1}
+            again |= set(content["good_enough"]) if ["success"] in paths else set()
             for key in again - {path[1] for path in paths if path[0] == "good_enough" and len(path) > 1}:
                 content["good_enough"].pop(key, None)
         task = _changed(content, made)
