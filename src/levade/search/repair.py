@@ -12,6 +12,8 @@ criterion is predicted to be missed.
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -41,6 +43,11 @@ class Repair:
     def __init__(self, factor: Array, one_sided: NDArray[np.bool_]) -> None:
         self._factor, self._one_sided = factor, one_sided
         self._told: list[tuple[Array, Array]] = []
+
+    @cached_property
+    def _inverse(self) -> Array:
+        """Return the matrix from candidates to the factor's coordinates, shape (m, d)."""
+        return np.asarray(np.linalg.pinv(self._factor, rcond=1e-8))
 
     def tell(self, candidates: Array, errors: Array) -> None:
         """Remember a generation.
@@ -74,7 +81,7 @@ class Repair:
             return mean
         one_sided = self._one_sided[looked_at]
         with single_threaded():
-            at = (candidates - mean) @ np.linalg.pinv(self._factor, rcond=1e-8).T
+            at = (candidates - mean) @ self._inverse.T
             offset, slope, farthest = _fit(at, errors[:, looked_at])
             step = np.zeros(at.shape[1])
             missed = np.zeros(len(offset), dtype=bool)

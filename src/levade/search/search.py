@@ -290,7 +290,8 @@ class Search:
         ends = bool(promoted(stage, evaluation).any())
         validated, contenders, start = None, candidates, None
         if level.robust and task.robust is not None and task.robust.redraw == "generation":
-            self._repair.tell(candidates, missed(task, evaluation))
+            if mean is not None:
+                self._repair.tell(candidates, missed(task, evaluation))
             contenders = (candidates[np.argmin(cost)] if mean is None else self._repair.repaired(mean))[None]
             validated = yield from self._judge.evaluate(contenders, level, best=self._best)
         elif schedule.finds_start(promoted=ends, spent=evaluation.trials):

@@ -275,14 +275,13 @@ class Plan:
         within = self.within_limits()
         robust = self.robust(within.usual_horizon)
         assert robust.robust is not None
-        costs = {name: robust.costs[name] for name in self._demanding(_ROBUST_MARGINS_WEIGHT).costs}
         reached = {name: one.tolerance or 0.0 for name, one in within.success.items()}
         margins = {name: within.costs[name].weight for name in ("margins",) if name in robust.costs}
         duration = {name: within.costs[name] for name in ("duration",) if name in within.costs}
         return replace(
             robust,
             horizon=within.horizon,
-            costs={**duration, **costs},
+            costs={**duration, **self._demanding(_ROBUST_MARGINS_WEIGHT).costs},
             stages=(
                 Stage("nominal", robust=False, hold=self._held, promote=reached, weights=margins),
                 replace(robust.stages[0], name="robust"),
